@@ -1,0 +1,8 @@
+/* Wall time for progress, benchmarks and reports. Never enters a simulation. */
+#ifndef OZ_BASE_CLOCK_H
+#define OZ_BASE_CLOCK_H
+
+/* Seconds since an arbitrary start, monotonic. */
+double oz_clock_now(void);
+
+#endif

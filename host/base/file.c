@@ -1,0 +1,88 @@
+/* Whole files and folders. */
+#include "base/file.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { LARGEST_FILE = 1 << 30 };
+
+OzStatus oz_file_read(char **bytes, size_t *length, const char *path)
+{
+    OzStatus status = OZ_OK;
+    struct stat info;
+    *bytes = NULL;
+    FILE *file = fopen(path, "rb");
+    if (!file || fstat(fileno(file), &info) != 0) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot read %s: %s", path, strerror(errno));
+        goto done;
+    }
+    if (!S_ISREG(info.st_mode) || info.st_size > LARGEST_FILE) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot read %s: %s", path,
+                                S_ISREG(info.st_mode) ? "larger than 1 GiB" : "not a file");
+        goto done;
+    }
+    OZ_TRY(oz_memory_new((void **)bytes, (size_t)info.st_size + 1, 1, path));
+    size_t got = fread(*bytes, 1, (size_t)info.st_size, file);
+    if (ferror(file)) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot read %s: %s", path, strerror(errno));
+        goto done;
+    }
+    if (length) {
+        *length = got;
+    }
+done:
+    if (file) {
+        fclose(file);
+    }
+    if (status != OZ_OK) {
+        free(*bytes);
+        *bytes = NULL;
+    }
+    return status;
+}
+
+OzStatus oz_file_make_folder(const char *path)
+{
+    char part[4096];
+    if (strlen(path) >= sizeof part) {
+        return oz_status_fail(OZ_ERR_FILE, "folder name too long: %s", path);
+    }
+    strcpy(part, path);
+    for (char *slash = part + 1;; slash++) {
+        char kept = *slash;
+        if (kept == '/' || kept == '\0') {
+            *slash = '\0';
+            if (mkdir(part, 0777) != 0 && errno != EEXIST) {
+                return oz_status_fail(OZ_ERR_FILE, "cannot make folder %s: %s", part,
+                                      strerror(errno));
+            }
+            *slash = kept;
+        }
+        if (kept == '\0') {
+            return OZ_OK;
+        }
+    }
+}
+
+bool oz_file_exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+OzStatus oz_file_join(char **path, const char *folder, const char *name)
+{
+    if (!folder || name[0] == '/') {
+        return oz_memory_text(path, name);
+    }
+    if (asprintf(path, "%s/%s", folder, name) < 0) {
+        *path = NULL;
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a file name");
+    }
+    return OZ_OK;
+}

@@ -1,0 +1,23 @@
+/* Whole files and folders. */
+#ifndef OZ_BASE_FILE_H
+#define OZ_BASE_FILE_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* *bytes receives the whole file plus a zero byte; the caller frees it. length may be NULL. Refuses
+ * anything but a regular file, and files over 1 GiB. Fails with OZ_ERR_FILE, naming path. */
+OzStatus oz_file_read(char **bytes, size_t *length, const char *path);
+
+/* Makes the folder and its missing parents. */
+OzStatus oz_file_make_folder(const char *path);
+
+bool oz_file_exists(const char *path);
+
+/* "folder/name" in a new text that the caller frees; name alone when it is absolute or folder is
+ * NULL. */
+OzStatus oz_file_join(char **path, const char *folder, const char *name);
+
+#endif

@@ -1,0 +1,24 @@
+/* Checked memory: sizes are multiplied with overflow checks, memory comes zeroed, and running out
+ * is a status with a text rather than a crash. */
+#ifndef OZ_BASE_MEMORY_H
+#define OZ_BASE_MEMORY_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+
+/* *pointer receives count zeroed items of size bytes (never NULL on success, also for count 0); the
+ * caller frees it with free(). On failure *pointer is NULL. what names the array in the message. */
+OzStatus oz_memory_new(void **pointer, size_t count, size_t size, const char *what);
+
+/* Grows *pointer to count items, new items zeroed from old_count on. On failure *pointer is kept. */
+OzStatus oz_memory_grow(void **pointer, size_t old_count, size_t count, size_t size,
+                        const char *what);
+
+/* A copy of text made with malloc, or NULL for NULL; the caller frees it. */
+OzStatus oz_memory_text(char **copy, const char *text);
+
+#define OZ_NEW(pointer, count)                                                                     \
+    oz_memory_new((void **)(pointer), (size_t)(count), sizeof **(pointer), #pointer)
+
+#endif
