@@ -1,5 +1,16 @@
-/* frames.bin: the movie's and the snapshots' frames, float32 by id, so that pictures can be drawn again
- * without simulating. */
+/* frames.bin: the movie's and the snapshots' frames, float32 by id, so that pictures can be drawn
+ * again without simulating.
+ *
+ * Layout, in the byte order of the machine that wrote it, without padding:
+ *   head    char[8] "ozframes"; u32 0x01020304; u32 version 1; i64 count; u32 wall_count; u32 0
+ *   grains  f64 diameter[count]; f64 length[count]; f64 mass[count]; i32 population[count]
+ *           u64 checksum of head and grains
+ *   frame   u64 bytes of this frame, itself included; u32 purpose; u32 0; i64 step; f64 time
+ *           f32 wall_offset[wall_count]; f32 wall_velocity[wall_count]
+ *           f32 position[3 count]; f32 quaternion[4 count]; f32 velocity[3 count]
+ *           u64 checksum of this frame
+ *   ...     further frames to the end of the file
+ * SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
 #ifndef OZ_OBSERVE_FRAMES_H
 #define OZ_OBSERVE_FRAMES_H
 
@@ -9,16 +20,25 @@ typedef struct OzFrames OzFrames;
 
 enum { OZ_FRAME_MOVIE = 1, OZ_FRAME_SNAPSHOT = 2 }; /* what a frame is for: bits */
 
+/* Opens path for writing; scene and grains are read here only. Fails with OZ_ERR_FILE. */
 OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *scene,
                           const OzGrains *grains);
-OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose);
-OzStatus oz_frames_finish(OzFrames *frames); /* closes and frees; NULL is fine */
 
-/* Opens for reading: *grains receives geometry, mass and population (the caller frees). A damaged or
- * foreign file is refused by name; a file cut short by a crash gives its whole frames. */
+/* Appends one frame and flushes, so that a crash later leaves it whole. */
+OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose);
+
+OzStatus
+oz_frames_finish(OzFrames *frames); /* closes and frees, also after reading; NULL is fine */
+
+/* Opens for reading: *grains receives geometry, mass, inertia and population, at the origin and
+ * upright (the caller frees). A damaged or foreign file is refused by name with OZ_ERR_INPUT; a
+ * file cut short by a crash gives its whole frames. Nothing larger than the file is ever allocated.
+ */
 OzStatus oz_frames_open(OzFrames **frames, const char *path, OzGrains *grains);
 
-/* The next frame into snapshot (made for these grains); *more is false at the end. */
+/* The next frame into snapshot (made for these grains and a scene with as many walls, else
+ * OZ_ERR_INPUT); *more is false at the end and the snapshot then untouched. Spin is zero, axes are
+ * turned, there are no contacts and no ledger. */
 OzStatus oz_frames_next(OzFrames *frames, OzSnapshot *snapshot, int *purpose, bool *more);
 
 #endif

@@ -2,27 +2,26 @@
 #ifndef OZ_OBSERVE_SERIES_H
 #define OZ_OBSERVE_SERIES_H
 
-#include "observe/snapshot.h"
+#include "observe/observables.h"
 
 typedef struct OzSeries OzSeries;
 
-/* One row of the list of columns, for `orzo keys --columns` and README. */
-typedef struct OzColumn {
-    const char *name, *unit, *meaning;
-} OzColumn;
-
-/* The columns, ending with a NULL name. */
+/* THE list of columns (name, unit, meaning), ending with a NULL name: for `orzo keys --columns` and
+ * the README. */
 const OzColumn *oz_series_columns(void);
 
-/* Opens path and writes the header row; columns that the scene cannot have (ledger off) are absent. */
+/* Opens path and writes the header row; columns that the scene cannot have (ledger off) are absent.
+ * scene and grains are borrowed. Fails with OZ_ERR_FILE, naming path. */
 OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *scene,
                           const OzGrains *grains);
 
-/* Takes one sample for the tap means (positions, axes and wall offsets of the snapshot are read; called
- * samples_per_tap times a period). Cheap: no contacts needed. */
+/* Takes one sample for the tap means (positions, axes and wall offsets of the snapshot are read;
+ * called samples_per_tap times a period). Cheap: no contacts needed. The means run over the last
+ * two periods, over what there is before that, and are empty before the first sample. */
 void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot);
 
-/* Writes one row and flushes. Needs contacts and, with the ledger on, the ledger. */
+/* Writes one row and flushes. Needs contacts and, with the ledger on, the ledger: their cells are
+ * empty otherwise. energy_residual counts from the first row written. */
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot);
 
 /* Closes; NULL is fine. */

@@ -1,0 +1,189 @@
+/* Reads final.csv. The file is a person's input: every row is checked before it becomes a grain.
+ * Knows nothing of scenes and runs. */
+#include "model/bed.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A quaternion that went through float is off by 1e-7; one written by hand with six digits by 1e-6.
+ */
+static const double UNIT_TOLERANCE = 1e-5;
+
+/* Where the reader stands. */
+typedef struct Reader {
+    const char *path;
+    char *text, *next; /* whole file; start of the next line */
+    int line;
+    bool *seen; /* by id */
+} Reader;
+
+static OzStatus complain(const Reader *reader, const char *wrong, const char *expected)
+{
+    return oz_status_fail(OZ_ERR_INPUT, "%s:%d: %s; expected %s", reader->path, reader->line, wrong,
+                          expected);
+}
+
+/* Cuts the next line off the text, or gives NULL at the end. A carriage return before its end goes.
+ */
+static char *next_line(Reader *reader)
+{
+    char *line = reader->next;
+    if (!*line) {
+        return NULL;
+    }
+    size_t length = strcspn(line, "\n");
+    reader->next = line + length + (line[length] == '\n');
+    line[length] = '\0';
+    if (length > 0 && line[length - 1] == '\r') {
+        line[length - 1] = '\0';
+    }
+    reader->line++;
+    return line;
+}
+
+/* Lines that are not blank, but for the header. As many ids, each once, leave none out. */
+static int64_t count_rows(const char *text)
+{
+    int64_t lines = 0;
+    for (const char *at = text; *at; at += *at == '\n') {
+        lines += *at != '\n' && *at != '\r';
+        at += strcspn(at, "\n");
+    }
+    return lines > 0 ? lines - 1 : 0;
+}
+
+static OzStatus parse_row(const Reader *reader, const char *line, double row[OZ_BED_COLUMNS])
+{
+    const char *at = line;
+    for (int i = 0; i < OZ_BED_COLUMNS; i++) {
+        char *end = NULL;
+        row[i] = strtod(at, &end);
+        bool last = i == OZ_BED_COLUMNS - 1;
+        if (end == at || !(*end == '\0' || *end == ',')) {
+            return complain(reader, "not a number", "20 numbers with commas between them");
+        }
+        if ((*end == '\0') != last) {
+            return complain(reader, last ? "too many numbers" : "too few numbers",
+                            "20: " OZ_BED_HEADER);
+        }
+        if (!isfinite(row[i])) {
+            return complain(reader, "nan, infinite or too large", "finite numbers");
+        }
+        at = end + 1;
+    }
+    return OZ_OK;
+}
+
+static OzStatus check_id(const Reader *reader, double id, int64_t count)
+{
+    if (!(id >= 0 && id < (double)count) || id != floor(id)) {
+        return complain(reader, "no such id", "whole numbers from 0, one for each row");
+    }
+    if (reader->seen[(int64_t)id]) {
+        return complain(reader, "this id came before", "each id once");
+    }
+    reader->seen[(int64_t)id] = true;
+    return OZ_OK;
+}
+
+static OzStatus check_shape(const Reader *reader, const double row[OZ_BED_COLUMNS])
+{
+    double axis[3], square = 0, apart = 0;
+    const double *q = &row[OZ_BED_QUATERNION];
+    for (int k = 0; k < 4; k++) {
+        square += q[k] * q[k];
+    }
+    if (fabs(square - 1) > UNIT_TOLERANCE) {
+        return complain(reader, "the quaternion's length is not 1", "qw,qx,qy,qz of length 1");
+    }
+    oz_grains_axis(q, axis);
+    for (int k = 0; k < 3; k++) {
+        apart = fmax(apart, fabs(axis[k] - row[OZ_BED_AXIS + k]));
+    }
+    if (apart > UNIT_TOLERANCE) {
+        return complain(reader, "ux,uy,uz is not the axis of the quaternion",
+                        "both to say the same direction");
+    }
+    if (!(row[OZ_BED_DIAMETER] > 0 && row[OZ_BED_LENGTH] >= 0 && row[OZ_BED_MASS] > 0)) {
+        return complain(reader, "impossible size or mass",
+                        "diameter and mass above 0, length at least 0");
+    }
+    return OZ_OK;
+}
+
+/* Inertia for the written mass; sizes whose moments a double cannot hold are refused. */
+static OzStatus store(const Reader *reader, OzGrains *grains, const double row[OZ_BED_COLUMNS])
+{
+    int64_t i = (int64_t)row[OZ_BED_ID];
+    grains->diameter[i] = row[OZ_BED_DIAMETER];
+    grains->length[i] = row[OZ_BED_LENGTH];
+    oz_grains_set_mass(
+        grains, i, row[OZ_BED_MASS] / oz_grains_volume(row[OZ_BED_DIAMETER], row[OZ_BED_LENGTH]));
+    grains->mass[i] = row[OZ_BED_MASS];
+    memcpy(&grains->position[3 * i], &row[OZ_BED_POSITION], 3 * sizeof(double));
+    memcpy(&grains->quaternion[4 * i], &row[OZ_BED_QUATERNION], 4 * sizeof(double));
+    memcpy(&grains->velocity[3 * i], &row[OZ_BED_VELOCITY], 3 * sizeof(double));
+    memcpy(&grains->spin[3 * i], &row[OZ_BED_SPIN], 3 * sizeof(double));
+    if (!(isnormal(grains->inertia[i]) && isnormal(grains->inertia_axis[i]))) {
+        return complain(reader, "this size and mass have no finite moment of inertia",
+                        "SI units: metres and kilograms");
+    }
+    return OZ_OK;
+}
+
+static OzStatus read_header(Reader *reader)
+{
+    const char *line = next_line(reader);
+    if (!line || strcmp(line, OZ_BED_HEADER) != 0) {
+        reader->line = 1;
+        return complain(reader, "this is no final.csv", "the first line " OZ_BED_HEADER);
+    }
+    return OZ_OK;
+}
+
+static OzStatus read_rows(Reader *reader, OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    double row[OZ_BED_COLUMNS];
+    for (char *line = next_line(reader); line; line = next_line(reader)) {
+        if (!*line) {
+            continue;
+        }
+        OZ_TRY(parse_row(reader, line, row));
+        OZ_TRY(check_id(reader, row[OZ_BED_ID], grains->count));
+        OZ_TRY(check_shape(reader, row));
+        OZ_TRY(store(reader, grains, row));
+    }
+done:
+    return status;
+}
+
+OzStatus oz_bed_read(OzGrains *grains, const char *path)
+{
+    OzStatus status = OZ_OK;
+    Reader reader = {.path = path};
+    size_t length = 0;
+    memset(grains, 0, sizeof *grains);
+    OZ_TRY(oz_file_read(&reader.text, &length, path));
+    if (strlen(reader.text) != length) {
+        status = oz_status_fail(OZ_ERR_INPUT, "%s: holds a zero byte; expected plain text", path);
+        goto done;
+    }
+    reader.next = reader.text;
+    int64_t count = count_rows(reader.text);
+    OZ_TRY(read_header(&reader));
+    OZ_TRY(OZ_NEW(&reader.seen, count));
+    OZ_TRY(oz_grains_create(grains, count));
+    OZ_TRY(read_rows(&reader, grains));
+done:
+    if (status != OZ_OK) {
+        oz_grains_free(grains);
+    }
+    free(reader.seen);
+    free(reader.text);
+    return status;
+}

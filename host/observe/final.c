@@ -1,0 +1,58 @@
+/* Writes final.csv. Reading it back belongs to the model (model/bed.h), which spells its columns.
+ */
+#include "observe/final.h"
+
+#include "model/bed.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void fill_row(const OzSnapshot *snapshot, int64_t i, double row[OZ_BED_COLUMNS])
+{
+    row[OZ_BED_ID] = (double)i;
+    memcpy(&row[OZ_BED_POSITION], &snapshot->position[3 * i], 3 * sizeof(double));
+    memcpy(&row[OZ_BED_QUATERNION], &snapshot->quaternion[4 * i], 4 * sizeof(double));
+    memcpy(&row[OZ_BED_AXIS], &snapshot->axis[3 * i], 3 * sizeof(double));
+    memcpy(&row[OZ_BED_VELOCITY], &snapshot->velocity[3 * i], 3 * sizeof(double));
+    memcpy(&row[OZ_BED_SPIN], &snapshot->spin[3 * i], 3 * sizeof(double));
+    row[OZ_BED_DIAMETER] = snapshot->grains->diameter[i];
+    row[OZ_BED_LENGTH] = snapshot->grains->length[i];
+    row[OZ_BED_MASS] = snapshot->grains->mass[i];
+}
+
+static void write_rows(const OzSnapshot *snapshot, FILE *file)
+{
+    double row[OZ_BED_COLUMNS];
+    fputs(OZ_BED_HEADER "\n", file);
+    for (int64_t i = 0; i < snapshot->count; i++) {
+        fill_row(snapshot, i, row);
+        for (int k = 0; k < OZ_BED_COLUMNS; k++) {
+            fprintf(file, k == 0 ? "%.17g" : ",%.17g", row[k]); /* 17 digits restore a double */
+        }
+        fputc('\n', file);
+    }
+}
+
+OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path)
+{
+    char *temporary = NULL;
+    if (asprintf(&temporary, "%s.part", path) < 0) {
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a file name");
+    }
+    FILE *file = fopen(temporary, "w");
+    bool good = file != NULL;
+    if (file) {
+        write_rows(snapshot, file);
+        good = !ferror(file);
+        good = fclose(file) == 0 && good;
+    }
+    OzStatus status = OZ_OK;
+    if (!good || rename(temporary, path) != 0) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+        remove(temporary);
+    }
+    free(temporary);
+    return status;
+}

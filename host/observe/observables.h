@@ -1,0 +1,38 @@
+/* THE list of observables: the columns of series.csv, `orzo keys --columns` and the README's table
+ * are this list. A new observable is one function and one row. */
+#ifndef OZ_OBSERVE_OBSERVABLES_H
+#define OZ_OBSERVE_OBSERVABLES_H
+
+#include "observe/measure.h"
+
+/* Everything that a value of one row may depend on. */
+typedef struct OzObservation {
+    OzMeasure *measure;
+    const OzSnapshot *snapshot;
+    int index; /* of the column asked for                */
+    OzLayer layers[OZ_MEASURE_LAYERS];
+    bool has_density_mean, has_angle_mean;
+    double density_mean, angle_mean; /* tap means, by the series               */
+    bool has_start;                  /* energy_start is that of an earlier row */
+    double energy_start;             /* J, oz_observables_energy of the first row */
+} OzObservation;
+
+typedef enum OzColumnNeed { OZ_COLUMN_ALWAYS, OZ_COLUMN_LEDGER } OzColumnNeed;
+
+/* One observable. value gives true and *value, or false for an empty cell. */
+typedef struct OzColumn {
+    const char *name, *unit, *meaning;
+    OzColumnNeed need;
+    bool whole; /* printed as a whole number */
+    bool (*value)(const OzObservation *observation, double *value);
+    int index; /* tells apart the rows that share a function: layers from 0 */
+} OzColumn;
+
+/* The rows in the order of series.csv, ending with a NULL name. */
+const OzColumn *oz_observables_list(void);
+
+/* Kinetic + rotational + potential + elastic + dissipated + friction - work of the walls, J:
+ * constant but for the error of integration. */
+double oz_observables_energy(const OzSnapshot *snapshot);
+
+#endif

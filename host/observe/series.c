@@ -1,0 +1,178 @@
+/* series.csv and the two tap means. Walks the list of observables and knows none of them by name.
+ */
+#include "observe/series.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The last values of one observable. */
+typedef struct Ring {
+    double *value;
+    int64_t capacity, count, next;
+} Ring;
+
+struct OzSeries {
+    FILE *file;
+    char *path;
+    const OzScene *scene;
+    OzMeasure measure;
+    Ring density, angle;
+    bool has_start;
+    double energy_start; /* J, of the first row */
+};
+
+const OzColumn *oz_series_columns(void)
+{
+    return oz_observables_list();
+}
+
+static OzStatus ring_create(Ring *ring, int64_t capacity)
+{
+    ring->capacity = capacity;
+    return OZ_NEW(&ring->value, capacity);
+}
+
+static void ring_add(Ring *ring, double value)
+{
+    ring->value[ring->next] = value;
+    ring->next = (ring->next + 1) % ring->capacity;
+    ring->count += ring->count < ring->capacity;
+}
+
+static bool ring_mean(const Ring *ring, double *mean)
+{
+    double sum = 0;
+    for (int64_t i = 0; i < ring->count; i++) {
+        sum += ring->value[i];
+    }
+    *mean = ring->count > 0 ? sum / (double)ring->count : 0;
+    return ring->count > 0;
+}
+
+static bool has_column(const OzSeries *series, const OzColumn *column)
+{
+    return column->need == OZ_COLUMN_ALWAYS || series->scene->observe.ledger;
+}
+
+/* Ends the row; whatever failed since the last one shows here. */
+static OzStatus end_row(OzSeries *series)
+{
+    fputc('\n', series->file);
+    if (fflush(series->file) != 0 || ferror(series->file)) {
+        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
+    }
+    return OZ_OK;
+}
+
+static OzStatus write_header(OzSeries *series)
+{
+    const char *comma = "";
+    for (const OzColumn *column = oz_series_columns(); column->name; column++) {
+        if (has_column(series, column)) {
+            fprintf(series->file, "%s%s", comma, column->name);
+            comma = ",";
+        }
+    }
+    return end_row(series);
+}
+
+OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *scene,
+                          const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    int64_t samples = scene->observe.samples_per_tap > 0 ? scene->observe.samples_per_tap : 1;
+    OZ_TRY(OZ_NEW(series, 1));
+    (*series)->scene = scene;
+    OZ_TRY(oz_memory_text(&(*series)->path, path));
+    OZ_TRY(oz_measure_create(&(*series)->measure, scene, grains));
+    OZ_TRY(ring_create(&(*series)->density, 2 * samples));
+    OZ_TRY(ring_create(&(*series)->angle, 2 * samples));
+    (*series)->file = fopen(path, "w");
+    if (!(*series)->file) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+        goto done;
+    }
+    OZ_TRY(write_header(*series));
+done:
+    if (status != OZ_OK) {
+        oz_series_free(*series);
+        *series = NULL;
+    }
+    return status;
+}
+
+void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot)
+{
+    double value = 0;
+    if (oz_measure_density(&series->measure, snapshot, &value)) {
+        ring_add(&series->density, value);
+    }
+    if (oz_measure_angle(snapshot, &value)) {
+        ring_add(&series->angle, value);
+    }
+}
+
+static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
+{
+    OzObservation observation = {.measure = &series->measure, .snapshot = snapshot};
+    oz_measure_layers(&series->measure, snapshot, observation.layers);
+    observation.has_density_mean = ring_mean(&series->density, &observation.density_mean);
+    observation.has_angle_mean = ring_mean(&series->angle, &observation.angle_mean);
+    observation.has_start = series->has_start;
+    observation.energy_start = series->energy_start;
+    return observation;
+}
+
+static void write_cell(FILE *file, const OzColumn *column, OzObservation *observation)
+{
+    double value = 0;
+    observation->index = column->index;
+    if (!column->value(observation, &value)) {
+        return;
+    }
+    if (isnan(value)) { /* printf would let a sign slip in */
+        fputs("nan", file);
+    } else {
+        fprintf(file, column->whole ? "%.0f" : "%.9g", value);
+    }
+}
+
+OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
+{
+    OzObservation observation = observe(series, snapshot);
+    const char *comma = "";
+    for (const OzColumn *column = oz_series_columns(); column->name; column++) {
+        if (has_column(series, column)) {
+            fputs(comma, series->file);
+            write_cell(series->file, column, &observation);
+            comma = ",";
+        }
+    }
+    if (!series->has_start) {
+        series->has_start = true;
+        series->energy_start = oz_observables_energy(snapshot);
+    }
+    return end_row(series);
+}
+
+OzStatus oz_series_free(OzSeries *series)
+{
+    OzStatus status = OZ_OK;
+    if (!series) {
+        return OZ_OK;
+    }
+    if (series->file && fclose(series->file) != 0) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
+    }
+    oz_measure_free(&series->measure);
+    free(series->density.value);
+    free(series->angle.value);
+    free(series->path);
+    free(series);
+    return status;
+}
