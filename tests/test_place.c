@@ -287,6 +287,42 @@ static void test_random_bed(void **state)
     oz_grains_free(&grains);
 }
 
+/* Many rods, so that three standard errors are half a degree. */
+static void test_directions_of_many(void **state)
+{
+    (void)state;
+    OzWall walls[2] = {paper_walls[0], {.kind = OZ_WALL_CYLINDER, .diameter = 40e-3}};
+    OzPopulation rods = random_rods(20000);
+    rods.fill = 0.1;
+    OzScene scene = make_scene(&rods, 1, walls, 2);
+    OzGrains grains;
+    assert_int_equal(oz_place_grains(&grains, &scene), OZ_OK);
+    assert_directions_uniform(&grains);
+    oz_grains_free(&grains);
+}
+
+/* A wedge of two slanted planes. */
+static void test_slanted_walls(void **state)
+{
+    (void)state;
+    OzWall wedge[2] = {{.kind = OZ_WALL_PLANE, .normal = {sqrt(0.5), 0, sqrt(0.5)}},
+                       {.kind = OZ_WALL_PLANE, .normal = {-sqrt(0.5), 0, sqrt(0.5)}}};
+    OzPopulation rods = random_rods(200);
+    OzScene scene = make_scene(&rods, 1, wedge, 2);
+    OzGrains grains;
+    assert_int_equal(oz_place_grains(&grains, &scene), OZ_OK);
+    assert_no_overlaps(&grains);
+    for (int64_t i = 0; i < 200; i++) {
+        OzCapsule c = capsule_of(&grains, i);
+        for (int sign = -1; sign <= 1; sign += 2) {
+            double x = c.centre[0] + sign * c.half_shaft[0];
+            double z = c.centre[2] + sign * c.half_shaft[2];
+            assert_true((z - fabs(x)) * sqrt(0.5) >= c.radius * (1 - 1e-12));
+        }
+    }
+    oz_grains_free(&grains);
+}
+
 static void test_same_seed_same_grains(void **state)
 {
     (void)state;
@@ -330,7 +366,7 @@ static void test_spread(void **state)
 {
     (void)state;
     OzPopulation rods = random_rods(1000);
-    double aspects[1000];
+    double aspects[1000], correlation = 0;
     rods.diameter = (OzRange){0.2e-3, 0.8e-3};
     rods.aspect = (OzRange){0, 6};
     OzScene scene = make_scene(&rods, 1, paper_walls, 2);
@@ -340,7 +376,12 @@ static void test_spread(void **state)
         aspects[i] = grains.length[i] / grains.diameter[i];
         double mass = 2500 * oz_grains_volume(grains.diameter[i], grains.length[i]);
         assert_true(fabs(grains.mass[i] / mass - 1) < 1e-14);
+        double axis[3];
+        oz_grains_axis(&grains.quaternion[4 * i], axis);
+        correlation += (grains.diameter[i] - 0.5e-3) / 0.3e-3 * axis[2] * 3 / 1000;
     }
+    /* Size and direction have nothing to do with each other: three standard errors. */
+    assert_true(fabs(correlation) < 3 / sqrt(1000));
     assert_spread(grains.diameter, 1000, 0.2e-3, 0.8e-3);
     assert_spread(aspects, 1000, 0, 6);
     assert_no_overlaps(&grains);
@@ -471,6 +512,8 @@ int main(void)
         cmocka_unit_test(test_distance),
         cmocka_unit_test(test_crowd_against_all_pairs),
         cmocka_unit_test(test_random_bed),
+        cmocka_unit_test(test_directions_of_many),
+        cmocka_unit_test(test_slanted_walls),
         cmocka_unit_test(test_same_seed_same_grains),
         cmocka_unit_test(test_spread),
         cmocka_unit_test(test_mixture_in_open_space),
