@@ -1,8 +1,6 @@
-/* Grains at the start: their shape, mass and orientation, the search for overlaps, and placement at
- * random, in a lattice, alone and from a file. */
-#include "base/random.h"
-#include "model/column.h"
-#include "model/crowd.h"
+/* Grains at the start: placed at random, in a lattice, alone and from a file. */
+#include "brute.h"
+
 #include "model/place.h"
 
 #include <math.h>
@@ -57,37 +55,6 @@ static OzCapsule capsule_of(const OzGrains *grains, int64_t i)
     return capsule;
 }
 
-/* Distance of the point at s (-1 to 1) on shaft a from shaft b. */
-static double distance_at(const OzCapsule *a, const OzCapsule *b, double s)
-{
-    double w[3], along = 0, length2 = 0, distance2 = 0;
-    for (int k = 0; k < 3; k++) {
-        w[k] = a->centre[k] + s * a->half_shaft[k] - b->centre[k];
-        along += w[k] * b->half_shaft[k];
-        length2 += b->half_shaft[k] * b->half_shaft[k];
-    }
-    double t = length2 > 0 ? fmax(-1, fmin(1, along / length2)) : 0;
-    for (int k = 0; k < 3; k++) {
-        distance2 += pow(w[k] - t * b->half_shaft[k], 2);
-    }
-    return sqrt(distance2);
-}
-
-/* The distance is convex in s: a search by thirds, independent of the code under test. */
-static double brute_distance(const OzCapsule *a, const OzCapsule *b)
-{
-    double low = -1, high = 1;
-    for (int i = 0; i < 100; i++) {
-        double third = (high - low) / 3;
-        if (distance_at(a, b, low + third) < distance_at(a, b, high - third)) {
-            high -= third;
-        } else {
-            low += third;
-        }
-    }
-    return distance_at(a, b, 0.5 * (low + high));
-}
-
 static bool far_apart(const OzCapsule *a, const OzCapsule *b)
 {
     double between2 = 0, a2 = 0, b2 = 0;
@@ -126,125 +93,6 @@ static void assert_inside_paper_walls(const OzGrains *grains)
             assert_true(z - c.radius >= -1e-15);
         }
     }
-}
-
-static OzCapsule random_capsule(OzRandom *random, double side, double radius, double half_length)
-{
-    OzCapsule capsule = {.radius = radius};
-    double axis[3];
-    oz_random_direction(random, axis);
-    for (int k = 0; k < 3; k++) {
-        capsule.centre[k] = oz_random_uniform(random, -side, side);
-        capsule.half_shaft[k] = half_length * axis[k];
-    }
-    return capsule;
-}
-
-/* Thin slices across the shaft: each a disc of radius s. */
-static void integrate_shape(double diameter, double length, double density, double result[3])
-{
-    double r = 0.5 * diameter, half = 0.5 * length;
-    int slices = 200000;
-    double thickness = 2 * (half + r) / slices;
-    result[0] = result[1] = result[2] = 0;
-    for (int i = 0; i < slices; i++) {
-        double z = -half - r + (i + 0.5) * thickness;
-        double over = fmax(fabs(z) - half, 0);
-        double s2 = r * r - over * over;
-        double mass = density * pi * s2 * thickness;
-        result[0] += mass;
-        result[1] += mass * (0.25 * s2 + z * z);
-        result[2] += mass * 0.5 * s2;
-    }
-}
-
-static void test_mass_and_inertia(void **state)
-{
-    (void)state;
-    double aspects[] = {0, 1e-3, 1, 4, 100};
-    OzGrains grains;
-    assert_int_equal(oz_grains_create(&grains, 1), OZ_OK);
-    for (size_t a = 0; a < sizeof aspects / sizeof *aspects; a++) {
-        double expected[3];
-        grains.diameter[0] = 2e-3;
-        grains.length[0] = 2e-3 * aspects[a];
-        oz_grains_set_mass(&grains, 0, 1200);
-        integrate_shape(2e-3, grains.length[0], 1200, expected);
-        /* The midpoint rule's error is (thickness / radius)^2, at most 3e-7 here. */
-        assert_true(fabs(grains.mass[0] / expected[0] - 1) < 1e-6);
-        assert_true(fabs(grains.inertia[0] / expected[1] - 1) < 1e-6);
-        assert_true(fabs(grains.inertia_axis[0] / expected[2] - 1) < 1e-6);
-    }
-    oz_grains_free(&grains);
-}
-
-static void test_axis_and_quaternion(void **state)
-{
-    (void)state;
-    OzRandom random = oz_random_stream(1, 1);
-    for (int i = 0; i < 10000; i++) {
-        double axis[3], quaternion[4], back[3], norm = 0;
-        oz_random_direction(&random, axis);
-        if (i < 6) {
-            memset(axis, 0, sizeof axis);
-            axis[i % 3] = i < 3 ? 1 : -1;
-        }
-        oz_grains_quaternion(axis, quaternion);
-        oz_grains_axis(quaternion, back);
-        for (int k = 0; k < 4; k++) {
-            norm += quaternion[k] * quaternion[k];
-        }
-        for (int k = 0; k < 3; k++) {
-            assert_true(fabs(axis[k] - back[k]) < 1e-15 * 4);
-        }
-        assert_true(fabs(norm - 1) < 1e-14);
-    }
-}
-
-static void test_distance(void **state)
-{
-    (void)state;
-    OzRandom random = oz_random_stream(2, 1);
-    for (int i = 0; i < 3000; i++) {
-        OzCapsule a = random_capsule(&random, 1, 0.1, i % 5 ? 1 : 0);
-        OzCapsule b = random_capsule(&random, 1, 0.1, i % 7 ? 0.5 : 0);
-        if (i % 3 == 0) { /* parallel and nearly so */
-            for (int k = 0; k < 3; k++) {
-                b.half_shaft[k] = -0.7 * a.half_shaft[k] + (i % 2 ? 1e-9 : 0);
-            }
-        }
-        /* A search by thirds finds the place to 1e-8, so the distance itself far better, unless the
-         * shafts intersect. */
-        assert_true(fabs(oz_crowd_distance(&a, &b) - brute_distance(&a, &b)) < 1e-7);
-    }
-}
-
-/* Sizes over a factor of 100 and aspects to 200, each asked about each: same answer as all pairs.
- */
-static void test_crowd_against_all_pairs(void **state)
-{
-    (void)state;
-    OzRandom random = oz_random_stream(3, 1);
-    OzCrowd crowd = {0};
-    OzCapsule capsules[400];
-    int touching_count = 0;
-    for (int i = 0; i < 400; i++) {
-        double radius = pow(10, oz_random_uniform(&random, -2, 0)) * 0.2;
-        double half = i % 3 ? radius * oz_random_uniform(&random, 0, 5) : i % 2 ? 0 : 200 * 0.002;
-        capsules[i] = random_capsule(&random, 2, radius, half);
-    }
-    for (int i = 0; i < 400; i++) {
-        bool expected = false;
-        for (int j = 0; j < i; j++) {
-            expected |= brute_distance(&capsules[i], &capsules[j]) <
-                        capsules[i].radius + capsules[j].radius;
-        }
-        assert_int_equal(oz_crowd_touches(&crowd, &capsules[i]), expected);
-        touching_count += expected;
-        assert_int_equal(oz_crowd_add(&crowd, &capsules[i]), OZ_OK);
-    }
-    assert_in_range(touching_count, 40, 360); /* both answers were tested */
-    oz_crowd_free(&crowd);
 }
 
 static void assert_directions_uniform(const OzGrains *grains)
@@ -507,10 +355,6 @@ static void test_no_grains(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mass_and_inertia),
-        cmocka_unit_test(test_axis_and_quaternion),
-        cmocka_unit_test(test_distance),
-        cmocka_unit_test(test_crowd_against_all_pairs),
         cmocka_unit_test(test_random_bed),
         cmocka_unit_test(test_directions_of_many),
         cmocka_unit_test(test_slanted_walls),
