@@ -52,6 +52,7 @@ typedef struct OzMotion {
     double frequency;          /* Hz                                                           */
     double acceleration_ratio; /* A (2 pi f)^2 / |gravity|; both are filled in, whichever was   */
     double amplitude;          /* m                                                      written */
+    double written_amplitude;  /* m; 0 when the acceleration ratio was written                  */
 } OzMotion;
 
 typedef enum OzWallKind { OZ_WALL_PLANE, OZ_WALL_CYLINDER } OzWallKind;
@@ -102,6 +103,7 @@ typedef struct OzSettle {
 
 typedef struct OzObserve {
     double interval;        /* s between rows of series.csv; interval_taps x period is put here */
+    double interval_taps;   /* as written; 0: interval was, or neither                         */
     int64_t samples_per_tap; /* for the tap means                                          */
     double layer_thickness; /* m; default 4e-3                                             */
     bool ledger;            /* energy columns                                              */
@@ -127,8 +129,10 @@ typedef struct OzMovieSettings {
 } OzMovieSettings;
 
 typedef struct OzSnapshotSettings {
-    double *times; /* s, ascending; taps are converted */
+    double *times; /* s, ascending, each once; taps are converted; those after the end never come */
     int count;
+    double *taps;  /* as written, ascending, or NULL */
+    int tap_count;
 } OzSnapshotSettings;
 
 typedef struct OzScene {
@@ -140,6 +144,7 @@ typedef struct OzScene {
     double gravity[3]; /* m/s^2 */
     double step;       /* s     */
     double duration;   /* s; taps x period is put here */
+    double taps;       /* as written; 0: duration was */
     double period;     /* s, of the first moving wall; 0 without one: `tap` is then empty */
     OzIntegrator integrator;
     OzPrecision precision;

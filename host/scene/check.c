@@ -1,0 +1,357 @@
+/* The checks that need more than one value, and the values that follow from others. */
+#include "scene/check.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+typedef struct Checker {
+    OzScene *scene;
+    OzNode *root;
+    OzFaults *faults;
+} Checker;
+
+/* Adds a fault where path was written, or at the deepest group on the way to it. */
+__attribute__((format(printf, 3, 4))) static void fault(Checker *checker, const char *path,
+                                                        const char *format, ...)
+{
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    const OzNode *node = oz_tree_nearest(checker->root, path);
+    oz_faults_add(checker->faults, node->source, node->line, "%s", text);
+}
+
+static bool is_written(const Checker *checker, const char *path)
+{
+    return oz_tree_at(checker->root, path) != NULL;
+}
+
+static double length_of(const double vector[3])
+{
+    return sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+}
+
+/* Leaves a vector that is of unit length to rounding, so that a written scene loads to the same
+ * bits. */
+static void make_unit(Checker *checker, double vector[3], const char *list, int i, const char *name)
+{
+    double length = length_of(vector);
+    if (length == 0) {
+        char path[64];
+        snprintf(path, sizeof path, "%s.%d.%s", list, i, name);
+        fault(checker, path, "%s has length zero; expected a direction", path);
+    } else if (fabs(length - 1) > 1e-15) {
+        for (int axis = 0; axis < 3; axis++) {
+            vector[axis] /= length;
+        }
+    }
+}
+
+/* Either of amplitude and acceleration ratio gives the other: A (2 pi f)^2 = ratio g. */
+static void derive_motion(Checker *checker, OzMotion *motion, int i)
+{
+    double gravity = length_of(checker->scene->gravity);
+    double omega = 2 * PI * motion->frequency;
+    if (!motion->present || omega == 0) {
+        return;
+    }
+    if (motion->written_amplitude != 0) {
+        motion->amplitude = motion->written_amplitude;
+        motion->acceleration_ratio = gravity > 0 ? motion->amplitude * omega * omega / gravity : 0;
+        return;
+    }
+    motion->amplitude = motion->acceleration_ratio * gravity / (omega * omega);
+    if (gravity == 0 && motion->acceleration_ratio > 0) {
+        char path[64];
+        snprintf(path, sizeof path, "walls.%d.motion.acceleration_ratio", i);
+        fault(checker, path, "%s without gravity; expected amplitude", path);
+    }
+}
+
+static void derive_walls(Checker *checker)
+{
+    OzScene *scene = checker->scene;
+    for (int i = 0; i < scene->wall_count; i++) {
+        OzWall *wall = &scene->walls[i];
+        if (wall->kind == OZ_WALL_PLANE) {
+            make_unit(checker, wall->normal, "walls", i, "normal");
+        }
+        derive_motion(checker, &wall->motion, i);
+        if (wall->motion.present && wall->motion.frequency > 0 && scene->period == 0) {
+            scene->period = 1 / wall->motion.frequency;
+        }
+    }
+}
+
+static bool check_taps(Checker *checker, const char *path)
+{
+    if (checker->scene->period > 0 || !is_written(checker, path)) {
+        return true;
+    }
+    fault(checker, path, "%s without a moving wall; expected a wall with motion, or seconds", path);
+    return false;
+}
+
+static void derive_times(Checker *checker)
+{
+    OzScene *scene = checker->scene;
+    check_taps(checker, "time.taps");
+    check_taps(checker, "observe.interval_taps");
+    if (scene->taps > 0) {
+        scene->duration = scene->taps * scene->period;
+    }
+    if (scene->observe.interval_taps > 0) {
+        scene->observe.interval = scene->observe.interval_taps * scene->period;
+    }
+    if (scene->observe.interval == 0) {
+        /* A still scene of no duration gets any interval: it never comes to a second row. */
+        double still = scene->duration > 0 ? scene->duration / 100 : 1;
+        scene->observe.interval = scene->period > 0 ? scene->period : still;
+    }
+    if (scene->movie.speed == 0 && scene->movie.length == 0) {
+        scene->movie.speed = 1;
+    }
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static int sort_unique(double *numbers, int count)
+{
+    int kept = 0;
+    if (count) {
+        qsort(numbers, (size_t)count, sizeof *numbers, compare);
+    }
+    for (int i = 0; i < count; i++) {
+        if (i == 0 || numbers[i] > numbers[kept - 1]) {
+            numbers[kept++] = numbers[i];
+        }
+    }
+    return kept;
+}
+
+static OzStatus derive_snapshots(Checker *checker)
+{
+    OzSnapshotSettings *snapshots = &checker->scene->snapshots;
+    OzStatus status = OZ_OK;
+    snapshots->tap_count = sort_unique(snapshots->taps, snapshots->tap_count);
+    snapshots->count = sort_unique(snapshots->times, snapshots->count);
+    if (!check_taps(checker, "snapshots.taps") || snapshots->tap_count == 0) {
+        return OZ_OK;
+    }
+    free(snapshots->times);
+    snapshots->times = NULL;
+    snapshots->count = 0;
+    OZ_TRY(OZ_NEW(&snapshots->times, snapshots->tap_count));
+    snapshots->count = snapshots->tap_count;
+    for (int i = 0; i < snapshots->count; i++) {
+        snapshots->times[i] = snapshots->taps[i] * checker->scene->period;
+    }
+done:
+    return status;
+}
+
+static void derive_populations(Checker *checker)
+{
+    OzScene *scene = checker->scene;
+    for (int i = 0; i < scene->population_count; i++) {
+        OzPopulation *grains = &scene->populations[i];
+        if (grains->kind == OZ_GRAINS_SINGLE || grains->kind == OZ_GRAINS_LATTICE) {
+            make_unit(checker, grains->axis, "grains", i, "axis");
+        }
+        if (grains->kind == OZ_GRAINS_SINGLE) {
+            grains->count = 1;
+        } else if (grains->kind == OZ_GRAINS_FILE) {
+            grains->count = -1;
+        } else if (grains->kind == OZ_GRAINS_LATTICE) {
+            double product = 1;
+            for (int axis = 0; axis < 3; axis++) {
+                product *= (double)grains->cells[axis];
+            }
+            /* Far beyond the limit the exact number no longer matters, only that it fits. */
+            grains->count = product < 1e18 ? (int64_t)product : (int64_t)1e18;
+        }
+    }
+}
+
+static void check_grain_count(Checker *checker)
+{
+    const OzScene *scene = checker->scene;
+    double count = 0;
+    for (int i = 0; i < scene->population_count; i++) {
+        const OzPopulation *grains = &scene->populations[i];
+        double before = count;
+        count += grains->kind == OZ_GRAINS_FILE ? 0 : (double)grains->count;
+        if (before <= OZ_CHECK_GRAINS_MAX && count > OZ_CHECK_GRAINS_MAX) {
+            char path[64];
+            snprintf(path, sizeof path, "grains.%d.%s", i,
+                     grains->kind == OZ_GRAINS_LATTICE ? "cells" : "count");
+            fault(checker, path,
+                  "%g grains need about %.3g GB of memory; expected at most %d in all", count,
+                  count * 1500 / 1e9, OZ_CHECK_GRAINS_MAX);
+        }
+    }
+}
+
+static void check_run_length(Checker *checker)
+{
+    const OzScene *scene = checker->scene;
+    if (scene->step > 0 && scene->duration / scene->step > OZ_CHECK_STEPS_MAX) {
+        fault(checker, is_written(checker, "time.taps") ? "time.taps" : "time.duration",
+              "%.3g steps; expected at most %g", scene->duration / scene->step, OZ_CHECK_STEPS_MAX);
+    }
+    if (scene->duration / scene->observe.interval > OZ_CHECK_ROWS_MAX) {
+        fault(checker, "observe.interval", "%.3g rows of series.csv; expected at most %g",
+              scene->duration / scene->observe.interval, OZ_CHECK_ROWS_MAX);
+    }
+    if (is_written(checker, "observe.interval") && scene->observe.interval < scene->step) {
+        fault(checker, "observe.interval",
+              "observe.interval is shorter than a time step; expected at least %g s", scene->step);
+    }
+}
+
+static void check_movie(Checker *checker)
+{
+    const OzMovieSettings *movie = &checker->scene->movie;
+    if (!movie->present) {
+        return;
+    }
+    if (movie->width % 2 || movie->height % 2) {
+        fault(checker, "movie.size",
+              "movie.size is %d x %d; expected even numbers, video halves its colours",
+              movie->width, movie->height);
+    }
+    if (movie->width > OZ_CHECK_SIDE_MAX || movie->height > OZ_CHECK_SIDE_MAX) {
+        fault(checker, "movie.size",
+              "movie.size is %d x %d: a picture needs %.3g GB of memory; expected at most %d x %d",
+              movie->width, movie->height, 8e-9 * movie->width * movie->height, OZ_CHECK_SIDE_MAX,
+              OZ_CHECK_SIDE_MAX);
+    }
+    double length = movie->length > 0 ? movie->length : checker->scene->duration / movie->speed;
+    if (length * movie->fps > OZ_CHECK_FRAMES_MAX) {
+        fault(checker, movie->length > 0 ? "movie.length" : "movie.speed",
+              "%.3g pictures of movie; expected at most %g", length * movie->fps,
+              OZ_CHECK_FRAMES_MAX);
+    }
+}
+
+/* Diameter of the narrowest cylinder, or infinity. */
+static double cylinder_of(const OzScene *scene)
+{
+    double least = INFINITY;
+    for (int i = 0; i < scene->wall_count; i++) {
+        const OzWall *wall = &scene->walls[i];
+        if (wall->kind == OZ_WALL_CYLINDER && wall->diameter > 0) {
+            least = fmin(least, wall->diameter);
+        }
+    }
+    return least;
+}
+
+/* Height between the level planes that face each other, or infinity. */
+static double height_of(const OzScene *scene)
+{
+    double floor = -INFINITY, ceiling = INFINITY;
+    for (int i = 0; i < scene->wall_count; i++) {
+        const OzWall *wall = &scene->walls[i];
+        if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == 1) {
+            floor = fmax(floor, wall->point[2]);
+        } else if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == -1) {
+            ceiling = fmin(ceiling, wall->point[2]);
+        }
+    }
+    return fmax(ceiling - floor, 0);
+}
+
+/* Mean volume of a population's grain, m^3: diameter and aspect are uniform and independent. */
+static double mean_volume(const OzPopulation *grains)
+{
+    double a = grains->diameter.low, b = grains->diameter.high;
+    double cubed = (a + b) * (a * a + b * b) / 4;
+    double aspect = (grains->aspect.low + grains->aspect.high) / 2;
+    return PI * cubed * (aspect / 4 + 1.0 / 6);
+}
+
+/* A cheap bound; the placement itself may still find no room. */
+static void check_room(Checker *checker)
+{
+    /* Grains put down at random without overlap jam far below this volume fraction. */
+    const double densest = 0.6;
+    const OzScene *scene = checker->scene;
+    double diameter = cylinder_of(scene), height = height_of(scene);
+    double room = densest * height * PI * diameter * diameter / 4, volume = 0;
+    for (int i = 0; i < scene->population_count; i++) {
+        const OzPopulation *grains = &scene->populations[i];
+        char path[64];
+        if (grains->diameter.high > diameter) {
+            snprintf(path, sizeof path, "grains.%d.diameter", i);
+            fault(checker, path,
+                  "grains up to %g m cannot fit; expected at most the cylinder's %g m",
+                  grains->diameter.high, diameter);
+        }
+        double before = volume;
+        volume +=
+            grains->kind == OZ_GRAINS_RANDOM ? (double)grains->count * mean_volume(grains) : 0;
+        if (before <= room && volume > room) {
+            snprintf(path, sizeof path, "grains.%d.count", i);
+            fault(checker, path,
+                  "grains of %.3g m^3 cannot fit; expected at most %.3g m^3 between the walls",
+                  volume, room);
+        }
+    }
+}
+
+static bool is_outside(const OzWall *wall, const double position[3])
+{
+    if (wall->kind == OZ_WALL_CYLINDER) {
+        return hypot(position[0], position[1]) > wall->diameter / 2;
+    }
+    double depth = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        depth += (position[axis] - wall->point[axis]) * wall->normal[axis];
+    }
+    return depth < 0;
+}
+
+static void check_singles(Checker *checker)
+{
+    const OzScene *scene = checker->scene;
+    for (int i = 0; i < scene->population_count; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "grains.%d.position", i);
+        bool known = scene->populations[i].kind == OZ_GRAINS_SINGLE && is_written(checker, path);
+        for (int j = 0; known && j < scene->wall_count; j++) {
+            if (is_outside(&scene->walls[j], scene->populations[i].position)) {
+                fault(checker, path, "%s lies behind walls.%d; expected it on the free side", path,
+                      j);
+            }
+        }
+    }
+}
+
+OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    Checker checker = {scene, root, faults};
+    derive_walls(&checker);
+    derive_times(&checker);
+    derive_populations(&checker);
+    OzStatus status = derive_snapshots(&checker);
+    check_grain_count(&checker);
+    check_run_length(&checker);
+    check_movie(&checker);
+    check_room(&checker);
+    check_singles(&checker);
+    return status;
+}

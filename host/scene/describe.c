@@ -1,0 +1,177 @@
+/* Keys in words. Knows the list of keys and no scene. */
+#include "scene/describe.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { LONGEST_NAME = 40 };
+
+static void print_choices(const OzKey *key, FILE *file)
+{
+    for (int i = 0; key->choices[i]; i++) {
+        fprintf(file, "%s%s", i ? ", " : "", key->choices[i]);
+    }
+}
+
+static void print_limits(const OzKey *key, FILE *file)
+{
+    fprintf(file, "from %g to %g%s%s", key->low, key->high, key->unit[0] ? " " : "", key->unit);
+}
+
+static const char *noun(const OzKey *key)
+{
+    switch (key->type) {
+    case OZ_KEY_NUMBER:
+        return "a number ";
+    case OZ_KEY_INTEGER:
+        return "a whole number ";
+    case OZ_KEY_BOOL:
+        return "true or false";
+    case OZ_KEY_TEXT:
+        return "a text";
+    case OZ_KEY_FILE:
+    case OZ_KEY_EXTENDS:
+        return "a file name";
+    case OZ_KEY_CHOICE:
+        return "one of ";
+    case OZ_KEY_RANGE:
+        return "a number or [low, high] ";
+    case OZ_KEY_NUMBERS:
+        return "a list of numbers ";
+    case OZ_KEY_SECTION:
+        return "a group of keys, or false to leave it out";
+    case OZ_KEY_ITEMS:
+        return "a list of groups, each with its kind";
+    default:
+        return "";
+    }
+}
+
+static void print_expected(const OzKey *key, FILE *file)
+{
+    fputs(noun(key), file);
+    if (key->type == OZ_KEY_CHOICES) {
+        fprintf(file, "a list of 1 to %d of ", key->width);
+    } else if (key->type == OZ_KEY_VECTOR) {
+        fprintf(file, "a list of %d numbers ", key->width);
+    } else if (key->type == OZ_KEY_COUNTS || key->type == OZ_KEY_SIZE) {
+        fprintf(file, "a list of %d whole numbers ", key->width);
+    }
+    if (key->choices) {
+        print_choices(key, file);
+    } else if (key->high > key->low) {
+        print_limits(key, file);
+    }
+}
+
+void oz_describe_expected(const OzKey *key, char *text, size_t size)
+{
+    text[0] = '\0';
+    FILE *file = fmemopen(text, size, "w");
+    if (file) {
+        print_expected(key, file);
+        fclose(file);
+    }
+    text[size - 1] = '\0';
+}
+
+void oz_describe_node(const OzNode *node, char *text, size_t size)
+{
+    if (node->kind == OZ_NODE_LIST) {
+        snprintf(text, size, "a list of %d", node->count);
+    } else if (node->kind == OZ_NODE_MAP) {
+        snprintf(text, size, "a group of keys");
+    } else if (oz_tree_is_empty(node)) {
+        snprintf(text, size, "empty");
+    } else if (node->quoted) {
+        snprintf(text, size, "the text '%.*s'", LONGEST_NAME, node->text);
+    } else {
+        snprintf(text, size, "%.*s", LONGEST_NAME, node->text);
+    }
+}
+
+static int least(int a, int b, int c)
+{
+    int ab = a < b ? a : b;
+    return ab < c ? ab : c;
+}
+
+/* Letters to insert, delete, replace or swap with the next (Damerau 1964, restricted). */
+static int distance(const char *a, const char *b)
+{
+    int n = (int)strlen(a), m = (int)strlen(b);
+    int cost[LONGEST_NAME + 1][LONGEST_NAME + 1];
+    for (int i = 0; i <= n; i++) {
+        cost[i][0] = i;
+    }
+    for (int j = 0; j <= m; j++) {
+        cost[0][j] = j;
+    }
+    for (int i = 1; i <= n; i++) {
+        for (int j = 1; j <= m; j++) {
+            int replaced = cost[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            cost[i][j] = least(cost[i - 1][j] + 1, cost[i][j - 1] + 1, replaced);
+            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped && cost[i - 2][j - 2] + 1 < cost[i][j]) {
+                cost[i][j] = cost[i - 2][j - 2] + 1;
+            }
+        }
+    }
+    return cost[n][m];
+}
+
+static size_t group_length(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot ? (size_t)(dot - path) + 1 : 0;
+}
+
+/* The next name of a row's path at start, without its dot or brackets. */
+static size_t name_at(const char *start, char name[LONGEST_NAME + 1])
+{
+    size_t length = strcspn(start, ".[");
+    snprintf(name, LONGEST_NAME + 1, "%.*s", (int)length, start);
+    return length;
+}
+
+bool oz_describe_nearest(const char *path, char *nearest, size_t size)
+{
+    size_t group = group_length(path);
+    const char *meant = path + group;
+    if (strlen(meant) > LONGEST_NAME) {
+        return false;
+    }
+    /* A third of the letters wrong is still a slip of the hand; more is another word. */
+    int best = (int)strlen(meant) / 3 + 1;
+    bool found = false;
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        bool same_group = strncmp(key->path, path, group) == 0;
+        size_t start = same_group ? group : group_length(key->path);
+        char name[LONGEST_NAME + 1];
+        size_t length = name_at(key->path + start, name);
+        /* A name of another group must be spelled right. */
+        int away = same_group ? distance(meant, name) : strcmp(meant, name) == 0 ? 1 : best;
+        if (away < best && length) {
+            best = away;
+            found = true;
+            snprintf(nearest, size, "%.*s", (int)(start + length), key->path);
+        }
+    }
+    return found;
+}
+
+void oz_describe_names(const char *group, char *text, size_t size)
+{
+    size_t start = strlen(group) + (group[0] != '\0'), used = 0;
+    char last[LONGEST_NAME + 1] = "";
+    text[0] = '\0';
+    for (const OzKey *key = oz_keys_all(); key->path && used < size; key++) {
+        char name[LONGEST_NAME + 1];
+        bool below = strncmp(key->path, group, strlen(group)) == 0 &&
+                     (start == 0 || key->path[start - 1] == '.');
+        if (below && name_at(key->path + start, name) && strcmp(name, last) != 0) {
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
+            strcpy(last, name);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+/* Keys in words, for messages and help. */
+#ifndef OZ_SCENE_DESCRIBE_H
+#define OZ_SCENE_DESCRIBE_H
+
+#include "scene/keys.h"
+#include "scene/tree.h"
+
+/* What a row expects, as in "a number from 0 to 1 s"; cut to size. */
+void oz_describe_expected(const OzKey *key, char *text, size_t size);
+
+/* What a node is, as in "'fast'", "empty" or "a list of 2"; cut to size. */
+void oz_describe_node(const OzNode *node, char *text, size_t size);
+
+/* The known path that an unknown one was probably meant to be; false when none is near. */
+bool oz_describe_nearest(const char *path, char *nearest, size_t size);
+
+/* The names directly below a group ("" is the scene itself), with commas. */
+void oz_describe_names(const char *group, char *text, size_t size);
+
+#endif

@@ -1,0 +1,78 @@
+/* THE list of scene keys. A row says where a key's value lives, what it may be, what it is when not
+ * written and what it means; loading, unknown-key hints, `--set`, writing a scene back and
+ * `orzo keys` all walk the rows. A new key is a new row. */
+#ifndef OZ_SCENE_KEYS_H
+#define OZ_SCENE_KEYS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* What is stored at the row's offset. */
+typedef enum OzKeyType {
+    OZ_KEY_NUMBER,  /* double                                                      */
+    OZ_KEY_INTEGER, /* int64_t or, never negative, uint64_t                        */
+    OZ_KEY_BOOL,    /* bool                                                        */
+    OZ_KEY_TEXT,    /* char *, owned                                               */
+    OZ_KEY_FILE,    /* char *, owned: relative to the file that names it, stored absolute */
+    OZ_KEY_CHOICE,  /* an enum                                                     */
+    OZ_KEY_CHOICES, /* up to `width` enums, and their int count                    */
+    OZ_KEY_VECTOR,  /* double[width]                                               */
+    OZ_KEY_COUNTS,  /* int64_t[width]                                              */
+    OZ_KEY_SIZE,    /* int[2]                                                      */
+    OZ_KEY_RANGE,   /* OzRange: a number or [low, high]                            */
+    OZ_KEY_NUMBERS, /* double *, owned, and its int count                          */
+    OZ_KEY_SECTION, /* bool: an optional group of keys is present                  */
+    OZ_KEY_ITEMS,   /* array of structs, owned, and its int count: a list of groups */
+    OZ_KEY_EXTENDS  /* nothing: used up before keys are read                       */
+} OzKeyType;
+
+/* What a change of this key asks of a running simulation. */
+typedef enum OzReload { OZ_RELOAD_REFUSE, OZ_RELOAD_APPLY, OZ_RELOAD_REBUILD } OzReload;
+
+/* When a row is written back. */
+typedef enum OzKeyWrite {
+    OZ_WRITE_ALWAYS,
+    OZ_WRITE_NONZERO,     /* only when it holds something              */
+    OZ_WRITE_UNLESS_RIVAL /* only when its rival row holds nothing     */
+} OzKeyWrite;
+
+typedef struct OzKey {
+    const char *path; /* "time.step"; "grains[].diameter" lives in an item of the list grains */
+    OzKeyType type;
+    OzReload reload;
+    const char *unit;          /* "" for pure numbers and the like                        */
+    double low, high;          /* both allowed; of every number in the value              */
+    const char *fallback;      /* the default as YAML, or NULL                            */
+    const char *fallback_help; /* the default in words, where no constant says it         */
+    const char *help;
+    const char *const *choices;    /* names in the enum's order, ending with NULL             */
+    size_t offset, count_offset;   /* in OzScene or in the list's item                        */
+    size_t item_size, line_offset; /* OZ_KEY_ITEMS: of one item, and of its int line        */
+    int width;
+    bool required;        /* this or its rival; where the kind and the section ask   */
+    unsigned kinds;       /* bit i: belongs to items whose kind is i; 0: to all      */
+    const char *rival;    /* the neighbouring key that says the same otherwise       */
+    const char *inherits; /* the key whose value it takes when not written           */
+    OzKeyWrite write;
+} OzKey;
+
+/* The rows, ending with one whose path is NULL; rows of one group are neighbours. */
+const OzKey *oz_keys_all(void);
+
+/* The row with this path, or NULL. */
+const OzKey *oz_keys_find(const char *path);
+
+/* True when rows live below this path. */
+bool oz_keys_is_group(const char *path);
+
+/* The name of a choice's value ("symplectic-euler" of "integrator" 1), "?" when there is none. */
+const char *oz_keys_choice_name(const char *path, int value);
+
+/* The bytes that a row's value takes at its offset, without what it points to. */
+size_t oz_keys_size(const OzKey *key);
+
+/* Every key: type, unit, range, default, reload class and meaning. */
+void oz_keys_print(FILE *file);
+
+#endif

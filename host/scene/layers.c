@@ -1,0 +1,132 @@
+/* Merging for `extends` and `--set`. Knows rivals from the list of keys, nothing of values. */
+#include "scene/layers.h"
+
+#include "base/memory.h"
+#include "scene/keys.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The entry of map that says in another way what `name` would, or NULL. */
+static OzNode *rival_of(const OzNode *map, const char *name)
+{
+    char path[256];
+    oz_tree_path(map, true, path, sizeof path);
+    size_t used = strlen(path);
+    snprintf(path + used, sizeof path - used, "%s%s", used ? "." : "", name);
+    const OzKey *key = oz_keys_find(path);
+    return key && key->rival ? oz_tree_child(map, key->rival) : NULL;
+}
+
+OzStatus oz_layers_merge(OzNode *upper, OzNode *lower)
+{
+    for (int i = lower->count - 1; i >= 0; i--) {
+        OzNode *entry = lower->items[i];
+        OzNode *over = oz_tree_child(upper, entry->key);
+        OzStatus status = OZ_OK;
+        if (over && over->kind == OZ_NODE_MAP && entry->kind == OZ_NODE_MAP) {
+            status = oz_layers_merge(over, entry);
+        } else if (!over) {
+            OzNode *rival = rival_of(upper, entry->key);
+            if (!rival || rival->source == entry->source) {
+                oz_tree_detach(entry);
+                status = oz_tree_add(upper, entry);
+            }
+        }
+        if (status != OZ_OK) {
+            return status;
+        }
+    }
+    return OZ_OK;
+}
+
+static OzStatus put_entry(OzNode *map, const char *name, OzNode *value)
+{
+    OzNode *old = oz_tree_child(map, name);
+    OzNode *rival = rival_of(map, name);
+    OzNode *gone[] = {old, rival && !rival->source->setting ? rival : NULL};
+    for (int i = 0; i < 2; i++) {
+        if (gone[i]) {
+            oz_tree_detach(gone[i]);
+            oz_tree_free(gone[i]);
+        }
+    }
+    free(value->key);
+    OzStatus status = oz_memory_text(&value->key, name);
+    if (status != OZ_OK) {
+        oz_tree_free(value);
+        return status;
+    }
+    return oz_tree_add(map, value);
+}
+
+/* Puts value at place `name` of a list; a list never grows by a setting. */
+static void put_item(OzNode *list, const char *name, OzNode *value, OzFaults *faults)
+{
+    OzNode *old = oz_tree_at(list, name);
+    char path[256];
+    oz_tree_path(list, false, path, sizeof path);
+    if (!old) {
+        oz_faults_add(faults, value->source, 1,
+                      "%s has no entry %.40s; expected one of its %d, counted from 0", path, name,
+                      list->count);
+        oz_tree_free(value);
+        return;
+    }
+    value->parent = list;
+    value->index = old->index;
+    list->items[old->index] = value;
+    oz_tree_free(old);
+}
+
+/* The group or list in which the path's next name is looked up: the entry `name` of node, made if
+ * missing. *next stays NULL, with a fault, where there is no way. */
+static OzStatus enter(OzNode *node, const char *name, const OzSource *source, OzNode **next,
+                      OzFaults *faults)
+{
+    OzStatus status = OZ_OK;
+    OzNode *child = oz_tree_at(node, name);
+    bool replaced = child && child->kind == OZ_NODE_SCALAR && node->kind == OZ_NODE_MAP;
+    if ((!child && node->kind == OZ_NODE_MAP) || replaced) {
+        OZ_TRY(oz_tree_create(&child, OZ_NODE_MAP, source, 1, name, NULL));
+        OZ_TRY(put_entry(node, name, child));
+    }
+    if (!child || child->kind == OZ_NODE_SCALAR) {
+        char path[256];
+        oz_tree_path(node, false, path, sizeof path);
+        oz_faults_add(faults, source, 1,
+                      "%s has no group %.40s; expected one of its %d, counted from 0", path, name,
+                      node->count);
+        child = NULL;
+    }
+    *next = child;
+done:
+    return status;
+}
+
+OzStatus oz_layers_set(OzNode *root, const char *path, OzNode *value, OzFaults *faults)
+{
+    OzStatus status = OZ_OK;
+    OzNode *node = root;
+    char *copy = NULL, *rest = NULL;
+    OZ_TRY(oz_memory_text(&copy, path));
+    rest = copy;
+    const char *name = strsep(&rest, ".");
+    while (rest && node) {
+        OZ_TRY(enter(node, name, value->source, &node, faults));
+        name = strsep(&rest, ".");
+    }
+    if (node && node->kind == OZ_NODE_LIST) {
+        put_item(node, name, value, faults);
+        value = NULL;
+    } else if (node) {
+        OzNode *entry = value;
+        value = NULL;
+        OZ_TRY(put_entry(node, name, entry));
+    }
+done:
+    oz_tree_free(value);
+    free(copy);
+    return status;
+}

@@ -1,0 +1,344 @@
+/* Walks a tree along the list of keys. Knows the shape of scenes (groups, lists of groups with a
+ * kind, inherited values, rivals) and no key by name but `kind`. */
+#include "scene/read.h"
+
+#include "base/memory.h"
+#include "scene/describe.h"
+#include "scene/document.h"
+#include "scene/keys.h"
+#include "scene/value.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOST_ITEMS = 10000, /* walls or populations: each costs kernel arguments, not only memory */
+    LONGEST_PATH = 256
+};
+
+/* What the values of one group belong to: the scene, or one item of a list. */
+typedef struct Place {
+    void *base;
+    const char *prefix; /* of its rows' paths: "" or "grains[]."                    */
+    const OzNode *node; /* what was written of it                                   */
+    unsigned kind;      /* one bit of the rows' kinds; 0 when unknown, ~0 for none   */
+} Place;
+
+typedef struct Reader {
+    OzScene *scene;
+    OzFaults *faults;
+    const OzNode *root;
+} Reader;
+
+static bool belongs(const OzKey *key, const char *prefix)
+{
+    size_t length = strlen(prefix);
+    return strncmp(key->path, prefix, length) == 0 && !strstr(key->path + length, "[]");
+}
+
+static const OzNode *written(const Place *place, const OzKey *key)
+{
+    return oz_tree_at((OzNode *)(uintptr_t)place->node, key->path + strlen(place->prefix));
+}
+
+static OzStatus read_default(const OzKey *key, void *base)
+{
+    OzSource source = {.name = key->path};
+    OzFaults faults = {0};
+    OzNode *node = NULL;
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_document_parse(&node, key->fallback, strlen(key->fallback), &source, &faults));
+    OZ_TRY(oz_value_read(key, node, base, &faults));
+    OZ_TRY(oz_faults_report(&faults));
+done:
+    oz_tree_free(node);
+    oz_faults_free(&faults);
+    return status;
+}
+
+/* Fills base with the constant defaults. */
+static OzStatus read_defaults(const char *prefix, void *base)
+{
+    OzStatus status = OZ_OK;
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        if (key->fallback && belongs(key, prefix)) {
+            OZ_TRY(read_default(key, base));
+        }
+    }
+done:
+    return status;
+}
+
+static void report_unknown(const Reader *reader, const OzNode *node, const char *path)
+{
+    char shown[LONGEST_PATH], near[LONGEST_PATH], group[LONGEST_PATH], names[1024];
+    oz_tree_path(node, false, shown, sizeof shown);
+    if (oz_describe_nearest(path, near, sizeof near)) {
+        oz_faults_add(reader->faults, node->source, node->line,
+                      "unknown key %.100s; did you mean %s?", shown, near);
+        return;
+    }
+    oz_tree_path(node->parent, true, group, sizeof group);
+    oz_describe_names(group, names, sizeof names);
+    oz_faults_add(reader->faults, node->source, node->line,
+                  "unknown key %.100s; expected one of %s", shown, names);
+}
+
+static bool is_false(const OzNode *node)
+{
+    return node->kind == OZ_NODE_SCALAR && !node->quoted && !node->refused &&
+           strcmp(node->text, "false") == 0;
+}
+
+/* True when the node's keys are to be read; a fault when it is neither a group nor left empty. */
+static bool is_group(const Reader *reader, const OzNode *node)
+{
+    if (node->kind == OZ_NODE_MAP) {
+        return true;
+    }
+    if (!oz_tree_is_empty(node) && !node->refused) {
+        char path[LONGEST_PATH], is[128];
+        oz_tree_path(node, false, path, sizeof path);
+        oz_describe_node(node, is, sizeof is);
+        oz_faults_add(reader->faults, node->source, node->line,
+                      "%s is %s; expected a group of keys", path, is);
+    }
+    return false;
+}
+
+static void report_foreign_kind(const Reader *reader, const OzKey *key, const OzNode *node,
+                                const Place *place)
+{
+    char path[LONGEST_PATH], kind_path[LONGEST_PATH], owners[128] = "";
+    oz_tree_path(node, false, path, sizeof path);
+    snprintf(kind_path, sizeof kind_path, "%skind", place->prefix);
+    const char *own = "?";
+    for (int i = 0; i < 32; i++) {
+        const char *name = oz_keys_choice_name(kind_path, i);
+        own = place->kind >> i & 1 ? name : own;
+        if (key->kinds >> i & 1) {
+            size_t used = strlen(owners);
+            snprintf(owners + used, sizeof owners - used, "%s%s", used ? " or " : "", name);
+        }
+    }
+    oz_faults_add(reader->faults, node->source, node->line,
+                  "%s makes no sense for kind %s; expected it with kind %s only", path, own,
+                  owners);
+}
+
+/* Of two rivals the one written later gets the fault. */
+static void check_rival(const Reader *reader, const OzKey *key, const OzNode *node)
+{
+    const OzNode *rival = key->rival ? oz_tree_child(node->parent, key->rival) : NULL;
+    if (rival && rival->index < node->index) {
+        char path[LONGEST_PATH];
+        oz_tree_path(node, false, path, sizeof path);
+        oz_faults_add(reader->faults, node->source, node->line,
+                      "%s contradicts %s; expected one of the two", path, key->rival);
+    }
+}
+
+/* What an item's row takes when not written: the scene's value, or, where the scene itself did not
+ * write that but inherits it, the same from the item (a wall's damping follows its stiffness). */
+static void inherit_item(const Reader *reader, const OzKey *key, const Place *place)
+{
+    char path[LONGEST_PATH];
+    const OzKey *from = oz_keys_find(key->inherits);
+    const void *base = reader->scene;
+    if (from->inherits && !oz_tree_at((OzNode *)(uintptr_t)reader->root, from->path)) {
+        snprintf(path, sizeof path, "%s%s", place->prefix, from->inherits);
+        from = oz_keys_find(path);
+        base = place->base;
+    }
+    memcpy(oz_value_at(key, place->base), oz_value_at(from, base), oz_keys_size(key));
+}
+
+static void inherit(const Reader *reader, const Place *place)
+{
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        if (!key->inherits || !belongs(key, place->prefix) || written(place, key)) {
+            continue;
+        }
+        if (place->prefix[0]) {
+            inherit_item(reader, key, place);
+        } else {
+            memcpy(oz_value_at(key, place->base),
+                   oz_value_at(oz_keys_find(key->inherits), place->base), oz_keys_size(key));
+        }
+    }
+}
+
+static OzStatus read_items(Reader *reader, const OzKey *list, const OzNode *node);
+static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, bool lists);
+
+static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, const Place *place)
+{
+    if (key->kinds && place->kind && !(key->kinds & place->kind)) {
+        report_foreign_kind(reader, key, node, place);
+        return OZ_OK;
+    }
+    check_rival(reader, key, node);
+    switch (key->type) {
+    case OZ_KEY_SECTION:
+        *(bool *)oz_value_at(key, place->base) = !is_false(node);
+        return is_false(node) || !is_group(reader, node) ? OZ_OK
+                                                         : read_map(reader, node, place, false);
+    case OZ_KEY_ITEMS:
+        return read_items(reader, key, node);
+    case OZ_KEY_EXTENDS:
+        oz_faults_add(reader->faults, node->source, node->line,
+                      "extends cannot be set; expected it in the scene file");
+        return OZ_OK;
+    default:
+        return oz_value_read(key, node, place->base, reader->faults);
+    }
+}
+
+/* Reads the map's lists of groups, or all its other keys: lists inherit from the scene, so they
+ * come last. */
+static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, bool lists)
+{
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < map->count; i++) {
+        const OzNode *node = map->items[i];
+        char path[LONGEST_PATH];
+        oz_tree_path(node, true, path, sizeof path);
+        const OzKey *key = oz_keys_find(path);
+        if (lists != (key && key->type == OZ_KEY_ITEMS)) {
+            continue;
+        }
+        if (key) {
+            OZ_TRY(read_key(reader, key, node, place));
+        } else if (!oz_keys_is_group(path)) {
+            report_unknown(reader, node, path);
+        } else if (is_group(reader, node)) {
+            OZ_TRY(read_map(reader, node, place, false));
+        }
+    }
+done:
+    return status;
+}
+
+static void report_missing(const Reader *reader, const OzKey *key, const Place *place)
+{
+    char path[LONGEST_PATH], expected[256], rival[64] = "";
+    const char *name = key->path + strlen(place->prefix);
+    const OzNode *nearest = oz_tree_nearest((OzNode *)(uintptr_t)place->node, name);
+    oz_tree_path(place->node, false, path, sizeof path);
+    oz_describe_expected(key, expected, sizeof expected);
+    if (key->rival) {
+        snprintf(rival, sizeof rival, " (or %s)", key->rival);
+    }
+    oz_faults_add(reader->faults, nearest->source, nearest->line,
+                  "%s%s%s%s is missing; expected %s", path, path[0] ? "." : "", name, rival,
+                  expected);
+}
+
+/* False when a group on the way to the row is an optional one that is absent, or is no group. */
+static bool is_asked_for(const OzKey *key, const Place *place)
+{
+    size_t start = strlen(place->prefix);
+    char path[LONGEST_PATH];
+    for (const char *dot = strchr(key->path + start, '.'); dot; dot = strchr(dot + 1, '.')) {
+        snprintf(path, sizeof path, "%.*s", (int)(dot - key->path), key->path);
+        const OzNode *group = oz_tree_at((OzNode *)(uintptr_t)place->node, path + start);
+        const OzKey *section = oz_keys_find(path);
+        bool absent = !group || (section && is_false(group));
+        if (section ? absent : group && group->kind != OZ_NODE_MAP && !oz_tree_is_empty(group)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void check_required(const Reader *reader, const Place *place)
+{
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        if (!key->required || !belongs(key, place->prefix) || written(place, key) ||
+            (key->kinds && !(key->kinds & place->kind)) || !is_asked_for(key, place)) {
+            continue;
+        }
+        const char *dot = strrchr(key->path, '.');
+        char rival[LONGEST_PATH];
+        snprintf(rival, sizeof rival, "%.*s%s", dot ? (int)(dot - key->path) + 1 : 0, key->path,
+                 key->rival ? key->rival : "");
+        const OzKey *other = key->rival ? oz_keys_find(rival) : NULL;
+        if (!other || !written(place, other)) {
+            report_missing(reader, key, place);
+        }
+    }
+}
+
+static unsigned read_kind(const char *prefix, const OzNode *item)
+{
+    char path[LONGEST_PATH];
+    snprintf(path, sizeof path, "%skind", prefix);
+    const OzKey *key = oz_keys_find(path);
+    const OzNode *node = oz_tree_child(item, "kind");
+    for (int i = 0; key && node && node->text && key->choices[i]; i++) {
+        if (strcmp(key->choices[i], node->text) == 0) {
+            return 1u << i;
+        }
+    }
+    return 0;
+}
+
+static OzStatus read_item(Reader *reader, const OzKey *list, const char *prefix, const OzNode *node,
+                          void *item)
+{
+    memcpy((char *)item + list->line_offset, &node->line, sizeof node->line);
+    if (!is_group(reader, node)) {
+        return OZ_OK;
+    }
+    Place place = {item, prefix, node, read_kind(prefix, node)};
+    OzStatus status = read_map(reader, node, &place, false);
+    inherit(reader, &place);
+    check_required(reader, &place);
+    return status;
+}
+
+static OzStatus read_items(Reader *reader, const OzKey *list, const OzNode *node)
+{
+    OzStatus status = OZ_OK;
+    char prefix[LONGEST_PATH], is[128], expected[128];
+    if (node->kind != OZ_NODE_LIST || node->count > MOST_ITEMS) {
+        oz_describe_node(node, is, sizeof is);
+        oz_describe_expected(list, expected, sizeof expected);
+        oz_faults_add(reader->faults, node->source, node->line, "%s is %s; expected %s, at most %d",
+                      list->path, is, expected, MOST_ITEMS);
+        return OZ_OK;
+    }
+    char *items = NULL;
+    OZ_TRY(oz_memory_new((void **)&items, (size_t)node->count, list->item_size, list->path));
+    *(void **)oz_value_at(list, reader->scene) = items;
+    *oz_value_count(list, reader->scene) = node->count;
+    snprintf(prefix, sizeof prefix, "%s[].", list->path);
+    for (int i = 0; i < node->count; i++) {
+        if (i == 0) {
+            OZ_TRY(read_defaults(prefix, items));
+        } else {
+            memcpy(items + (size_t)i * list->item_size, items, list->item_size);
+        }
+    }
+    for (int i = 0; i < node->count; i++) {
+        OZ_TRY(
+            read_item(reader, list, prefix, node->items[i], items + (size_t)i * list->item_size));
+    }
+done:
+    return status;
+}
+
+OzStatus oz_read_scene(OzScene *scene, const OzNode *root, OzFaults *faults)
+{
+    OzStatus status = OZ_OK;
+    Reader reader = {scene, faults, root};
+    Place place = {scene, "", root, ~0u};
+    OZ_TRY(read_defaults("", scene));
+    OZ_TRY(read_map(&reader, root, &place, false));
+    inherit(&reader, &place);
+    OZ_TRY(read_map(&reader, root, &place, true));
+    check_required(&reader, &place);
+done:
+    return status;
+}

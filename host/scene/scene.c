@@ -1,0 +1,292 @@
+/* Loading a scene from beginning to end: the file, what it extends, the settings over both, the
+ * keys, the checks. Knows no key by name but `extends`. */
+#include "scene/scene.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "scene/check.h"
+#include "scene/document.h"
+#include "scene/faults.h"
+#include "scene/keys.h"
+#include "scene/layers.h"
+#include "scene/read.h"
+#include "scene/value.h"
+#include "scene/write.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Loader {
+    OzSource *sources; /* the scene, what it extends, then one for each setting */
+    int source_count;
+    char **labels; /* of the settings and the extended file                 */
+    OzFaults faults;
+    OzNode *root;
+} Loader;
+
+/* The folder part of a path in a new text; NULL for the working folder. */
+static OzStatus folder_of(char **folder, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    *folder = NULL;
+    if (!slash) {
+        return OZ_OK;
+    }
+    OzStatus status = oz_memory_text(folder, path);
+    if (status == OZ_OK) {
+        (*folder)[slash == path ? 1 : slash - path] = '\0';
+    }
+    return status;
+}
+
+/* "runs/an6.yaml" is named an6. */
+static OzStatus name_of(char **name, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    OzStatus status = oz_memory_text(name, slash ? slash + 1 : path);
+    char *dot = status == OZ_OK ? strrchr(*name, '.') : NULL;
+    if (dot && dot != *name && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0)) {
+        *dot = '\0';
+    }
+    return status;
+}
+
+static OzStatus loader_create(Loader *loader, const char *path, int setting_count)
+{
+    OzStatus status = OZ_OK;
+    loader->source_count = setting_count + 2;
+    OZ_TRY(OZ_NEW(&loader->sources, loader->source_count));
+    OZ_TRY(OZ_NEW(&loader->labels, loader->source_count));
+    for (int i = 0; i < loader->source_count; i++) {
+        loader->sources[i].rank = i;
+        loader->sources[i].setting = i >= 2;
+    }
+    loader->sources[0].name = path;
+    OZ_TRY(folder_of(&loader->sources[0].folder, path));
+done:
+    return status;
+}
+
+static void loader_free(Loader *loader)
+{
+    for (int i = 0; i < loader->source_count; i++) {
+        if (loader->sources) {
+            free(loader->sources[i].folder);
+        }
+        if (loader->labels) {
+            free(loader->labels[i]);
+        }
+    }
+    free(loader->sources);
+    free(loader->labels);
+    oz_faults_free(&loader->faults);
+    oz_tree_free(loader->root);
+}
+
+/* Reads one file into a map; *map stays NULL, with a fault, when it holds something else. */
+static OzStatus parse_file(Loader *loader, OzNode **map, const char *text, size_t length,
+                           const OzSource *source)
+{
+    OzNode *node = NULL;
+    OzStatus status = oz_document_parse(&node, text, length, source, &loader->faults);
+    if (status != OZ_OK) {
+        return status;
+    }
+    if (!node || oz_tree_is_empty(node)) {
+        oz_faults_add(&loader->faults, source, 1,
+                      "the file is empty; expected the keys of a scene");
+    } else if (node->kind != OZ_NODE_MAP) {
+        oz_faults_add(&loader->faults, source, node->line,
+                      "the file is no group of keys; expected keys such as `model: rods`");
+    } else {
+        *map = node;
+        node = NULL;
+    }
+    oz_tree_free(node);
+    return OZ_OK;
+}
+
+static OzStatus parse_base(Loader *loader, OzNode **base, const OzNode *extends)
+{
+    OzStatus status = OZ_OK;
+    OzSource *source = &loader->sources[1];
+    char *text = NULL;
+    size_t length = 0;
+    OZ_TRY(oz_file_join(&loader->labels[1], loader->sources[0].folder, extends->text));
+    source->name = loader->labels[1];
+    OZ_TRY(folder_of(&source->folder, source->name));
+    if (oz_file_read(&text, &length, source->name) != OZ_OK) {
+        oz_faults_add(&loader->faults, extends->source, extends->line, "%s; expected a scene file",
+                      oz_status_text());
+        goto done;
+    }
+    OZ_TRY(parse_file(loader, base, text, length, source));
+done:
+    free(text);
+    return status;
+}
+
+/* Takes the `extends` entry out of the map; NULL when there is none. */
+static OzNode *take_extends(OzNode *map)
+{
+    OzNode *extends = oz_tree_child(map, "extends");
+    if (extends) {
+        oz_tree_detach(extends);
+    }
+    return extends;
+}
+
+static OzStatus extend(Loader *loader)
+{
+    OzStatus status = OZ_OK;
+    OzNode *base = NULL, *deeper = NULL, *extends = take_extends(loader->root);
+    if (!extends) {
+        goto done;
+    }
+    if (extends->kind != OZ_NODE_SCALAR || extends->refused || oz_tree_is_empty(extends)) {
+        oz_faults_add(&loader->faults, extends->source, extends->line,
+                      "extends is no file name; expected one other scene file");
+        goto done;
+    }
+    OZ_TRY(parse_base(loader, &base, extends));
+    if (!base) {
+        goto done;
+    }
+    deeper = take_extends(base);
+    if (deeper) {
+        oz_faults_add(&loader->faults, deeper->source, deeper->line,
+                      "extends in a file that is itself extended; expected one level only");
+    }
+    OZ_TRY(oz_layers_merge(loader->root, base));
+done:
+    oz_tree_free(extends);
+    oz_tree_free(deeper);
+    oz_tree_free(base);
+    return status;
+}
+
+static OzStatus parse_setting(Loader *loader, const char *setting, int i)
+{
+    OzStatus status = OZ_OK;
+    OzSource *source = &loader->sources[i + 2];
+    OzNode *value = NULL;
+    const char *equals = strchr(setting, '=');
+    char *path = NULL;
+    if (asprintf(&loader->labels[i + 2], "--set %s", setting) < 0) {
+        loader->labels[i + 2] = NULL;
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a setting");
+    }
+    source->name = loader->labels[i + 2];
+    if (!equals || equals == setting) {
+        oz_faults_add(&loader->faults, source, 1, "no key and value; expected --set key=value");
+        return OZ_OK;
+    }
+    OZ_TRY(oz_document_parse(&value, equals + 1, strlen(equals + 1), source, &loader->faults));
+    if (!value) {
+        OZ_TRY(oz_tree_create(&value, OZ_NODE_SCALAR, source, 1, NULL, ""));
+    }
+    OZ_TRY(oz_memory_text(&path, setting));
+    path[equals - setting] = '\0';
+    OzNode *given = value;
+    value = NULL;
+    OZ_TRY(oz_layers_set(loader->root, path, given, &loader->faults));
+done:
+    oz_tree_free(value);
+    free(path);
+    return status;
+}
+
+static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_t length,
+                         char *const *settings, int setting_count)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(parse_file(loader, &loader->root, text, length, &loader->sources[0]));
+    if (!loader->root) {
+        goto done;
+    }
+    OZ_TRY(extend(loader));
+    for (int i = 0; i < setting_count; i++) {
+        OZ_TRY(parse_setting(loader, settings[i], i));
+    }
+    OZ_TRY(oz_read_scene(scene, loader->root, &loader->faults));
+    OZ_TRY(oz_check_scene(scene, loader->root, &loader->faults));
+done:
+    return status;
+}
+
+static OzStatus load_text(OzScene *scene, const char *path, const char *text, size_t length,
+                          char *const *settings, int setting_count)
+{
+    OzStatus status = OZ_OK;
+    Loader loader = {0};
+    *scene = (OzScene){0};
+    OZ_TRY(loader_create(&loader, path, setting_count));
+    OZ_TRY(oz_memory_text(&scene->path, path));
+    OZ_TRY(name_of(&scene->name, path));
+    OZ_TRY(read_all(&loader, scene, text, length, settings, setting_count));
+    OZ_TRY(oz_faults_report(&loader.faults));
+done:
+    /* A reader that could not go on left its one fault behind. */
+    if (status == OZ_ERR_INPUT) {
+        oz_faults_report(&loader.faults);
+    }
+    if (status != OZ_OK) {
+        oz_scene_free(scene);
+    }
+    loader_free(&loader);
+    return status;
+}
+
+OzStatus oz_scene_load(OzScene *scene, const char *path, char *const *settings, int setting_count)
+{
+    char *text = NULL;
+    size_t length = 0;
+    *scene = (OzScene){0};
+    OzStatus status = oz_file_read(&text, &length, path);
+    if (status == OZ_OK) {
+        status = load_text(scene, path, text, length, settings, setting_count);
+    }
+    free(text);
+    return status;
+}
+
+OzStatus oz_scene_parse(OzScene *scene, const char *path, const char *text, char *const *settings,
+                        int setting_count)
+{
+    return load_text(scene, path, text, strlen(text), settings, setting_count);
+}
+
+OzStatus oz_scene_write(const OzScene *scene, FILE *file)
+{
+    oz_write_scene(scene, file);
+    fflush(file);
+    return ferror(file) ? oz_status_fail(OZ_ERR_FILE, "cannot write the scene %s", scene->name)
+                        : OZ_OK;
+}
+
+static void free_items(const OzKey *list, OzScene *scene)
+{
+    char **items = oz_value_at(list, scene);
+    size_t length = strlen(list->path);
+    for (const OzKey *key = list + 1; key->path; key++) {
+        bool below = strncmp(key->path, list->path, length) == 0;
+        for (int i = 0; below && i < *oz_value_count(list, scene); i++) {
+            oz_value_free(key, *items + (size_t)i * list->item_size);
+        }
+    }
+    free(*items);
+}
+
+void oz_scene_free(OzScene *scene)
+{
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        if (key->type == OZ_KEY_ITEMS) {
+            free_items(key, scene);
+        } else if (!strstr(key->path, "[]")) {
+            oz_value_free(key, scene);
+        }
+    }
+    free(scene->path);
+    free(scene->name);
+    *scene = (OzScene){0};
+}

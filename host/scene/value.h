@@ -1,0 +1,25 @@
+/* One key's value: from text into memory, and its place there. */
+#ifndef OZ_SCENE_VALUE_H
+#define OZ_SCENE_VALUE_H
+
+#include "scene/keys.h"
+#include "scene/tree.h"
+
+/* Puts the node's value at the row's place in base (an OzScene or a list's item). Adds a fault and
+ * leaves base as it was when the node is not what the row expects. Sections, items and `extends`
+ * are not read here. Fails with OZ_ERR_MEMORY alone. */
+OzStatus oz_value_read(const OzKey *key, const OzNode *node, void *base, OzFaults *faults);
+
+/* False for 0, no text and an empty list. */
+bool oz_value_holds(const OzKey *key, const void *base);
+
+/* The row's place in base. */
+void *oz_value_at(const OzKey *key, const void *base);
+
+/* How many elements a list row holds. */
+int *oz_value_count(const OzKey *key, const void *base);
+
+/* Frees what a text or list row owns. */
+void oz_value_free(const OzKey *key, void *base);
+
+#endif
