@@ -1,0 +1,32 @@
+#!/bin/sh
+# The whole test: sets up a fresh Debian 12, runs every test on the Release build, then on the Sanitize
+# build (address, undefined, leaks) the tests that need no device and one short run on a device.
+cd "$(dirname "$0")/.." || exit 1
+. tests/setup.sh
+
+# Test programs that look into compute/ or run whole scenes, as a pattern for ctest.
+device_tests() {
+    pattern='^none$'
+    for file in $(grep -lE '#include "(compute/|run\.h)|ORZO_NEEDS_DEVICE' tests/test_*.c); do
+        pattern="$pattern|^$(basename "$file" .c)\$"
+    done
+    printf '%s' "$pattern"
+}
+
+install_packages
+build_orzo build Release
+ctest --test-dir build --output-on-failure --output-log build/ctest.log ||
+    stop "tests failed (Release)"
+
+build_orzo build-sanitize Sanitize
+export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1
+export LSAN_OPTIONS="suppressions=$PWD/tests/sanitize.supp:print_suppressions=0"
+export UBSAN_OPTIONS=print_stacktrace=1
+ctest --test-dir build-sanitize --output-on-failure -E "$(device_tests)" ||
+    stop "tests failed (Sanitize)"
+say "one short run on a device (Sanitize)"
+build-sanitize/orzo run scenes/two_rods.yaml -o build-sanitize/smoke --overwrite --device cpu ||
+    stop "the short run on a device failed (Sanitize)"
+
+say "all tests passed: Release, and Sanitize without the device's. Release said:"
+grep 'tests passed' build/ctest.log
