@@ -190,10 +190,18 @@ done:
     return status;
 }
 
+/* What decides the size class: the diameter, or for needles a part of the length, so that none is
+ * entered in more than some hundred cells. */
+static double girth(const OzCapsule *capsule)
+{
+    double length = 2 * sqrt(dot(capsule->half_shaft, capsule->half_shaft));
+    return fmax(2 * capsule->radius, length / 256);
+}
+
 OzStatus oz_crowd_add(OzCrowd *crowd, const OzCapsule *capsule)
 {
     OzStatus status = OZ_OK;
-    int level = level_of(2 * capsule->radius);
+    int level = level_of(girth(capsule));
     double cell = level_cell(level), point[3];
     Samples samples = sample_shaft(capsule, cell);
     uint64_t last = 0;
