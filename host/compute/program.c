@@ -1,0 +1,133 @@
+/* Flattening and building kernel programs. */
+#include "compute/program.h"
+
+#include "base/embed.h"
+#include "base/memory.h"
+#include "compute/cl_try.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FILES_MAX = 64, DEPTH_MAX = 16 };
+
+typedef struct Flat {
+    FILE *out;
+    const char *source_dir;
+    char *seen[FILES_MAX];
+    int seen_count;
+} Flat;
+
+static bool seen_before(const Flat *flat, const char *name)
+{
+    for (int i = 0; i < flat->seen_count; i++) {
+        if (strcmp(flat->seen[i], name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static OzStatus add_file(Flat *flat, const char *name, int depth);
+
+/* One line of a file: an include of ours is replaced, anything else is copied. */
+static OzStatus add_line(Flat *flat, const char *file, int number, const char *line, int depth)
+{
+    char included[256];
+    if (sscanf(line, " #include \"%255[^\"]\"", included) != 1) {
+        fprintf(flat->out, "%s\n", line);
+        return OZ_OK;
+    }
+    OzStatus status = OZ_OK;
+    if (!seen_before(flat, included)) {
+        status = add_file(flat, included, depth + 1);
+    }
+    fprintf(flat->out, "#line %d \"%s\"\n", number + 1, file);
+    return status;
+}
+
+static OzStatus add_file(Flat *flat, const char *name, int depth)
+{
+    OzStatus status = OZ_OK;
+    char *text = NULL;
+    if (depth > DEPTH_MAX || flat->seen_count == FILES_MAX) {
+        return oz_status_fail(OZ_ERR_DEVICE, "kernel includes nest too deeply at %s", name);
+    }
+    OZ_TRY(oz_memory_text(&flat->seen[flat->seen_count], name));
+    flat->seen_count++;
+    OZ_TRY(oz_embed_read(&text, flat->source_dir, name));
+    fprintf(flat->out, "#line 1 \"%s\"\n", name);
+    int number = 1;
+    for (char *line = text; line; number++) {
+        char *end = strchr(line, '\n');
+        if (end) {
+            *end = '\0';
+        }
+        OZ_TRY(add_line(flat, name, number, line, depth));
+        line = end ? end + 1 : NULL;
+    }
+done:
+    free(text);
+    return status;
+}
+
+OzStatus oz_program_flatten(char **text, const char *source_dir, const char *name)
+{
+    Flat flat = {.source_dir = source_dir};
+    size_t size = 0;
+    *text = NULL;
+    flat.out = open_memstream(text, &size);
+    if (!flat.out) {
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for kernel source");
+    }
+    OzStatus status = add_file(&flat, name, 0);
+    fclose(flat.out);
+    for (int i = 0; i < flat.seen_count; i++) {
+        free(flat.seen[i]);
+    }
+    if (status != OZ_OK) {
+        free(*text);
+        *text = NULL;
+    }
+    return status;
+}
+
+static OzStatus build_failed(cl_program program, const OzDevice *device, cl_int code,
+                             const char *name)
+{
+    static const size_t shown = 12000; /* the failure text holds 16 kB */
+    size_t size = 0;
+    clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size);
+    char *log = calloc(size + 1, 1);
+    if (log) {
+        clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+        log[size > shown ? shown : size] = '\0';
+    }
+    OzStatus status = oz_status_fail(OZ_ERR_DEVICE, "OpenCL: building %s for %s failed: %s\n%s",
+                                     name, device->name, oz_cl_try_name(code), log ? log : "");
+    free(log);
+    return status;
+}
+
+OzStatus oz_program_build(cl_program *program, const OzDevice *device, const char *source_dir,
+                          const char *name, const char *options)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    char *text = NULL, all[2048];
+    *program = NULL;
+    OZ_TRY(oz_program_flatten(&text, source_dir, name));
+    *program = clCreateProgramWithSource(device->context, 1, (const char **)&text, NULL, &code);
+    CL_TRY(code);
+    snprintf(all, sizeof all, "-cl-std=CL1.2 %s", options);
+    code = clBuildProgram(*program, 1, &device->id, all, NULL, NULL);
+    if (code != CL_SUCCESS) {
+        status = build_failed(*program, device, code, name);
+    }
+done:
+    if (status != OZ_OK && *program) {
+        clReleaseProgram(*program);
+        *program = NULL;
+    }
+    free(text);
+    return status;
+}

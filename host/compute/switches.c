@@ -1,0 +1,108 @@
+/* Deriving switches from a scene. */
+#include "compute/switches.h"
+
+#include <string.h>
+
+static bool all_equal(const OzGrains *grains)
+{
+    for (int64_t i = 1; i < grains->count; i++) {
+        if (grains->diameter[i] != grains->diameter[0] || grains->length[i] != grains->length[0] ||
+            grains->mass[i] != grains->mass[0]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool all_round(const OzGrains *grains)
+{
+    for (int64_t i = 0; i < grains->count; i++) {
+        if (grains->length[i] > 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static int count_walls(const OzScene *scene, OzWallKind kind)
+{
+    int count = 0;
+    for (int w = 0; w < scene->wall_count; w++) {
+        count += scene->walls[w].kind == kind;
+    }
+    return count;
+}
+
+/* Whether any contact of the scene has friction, and whether any of these has a spring. */
+static void derive_friction(OzSwitches *s, const OzScene *scene)
+{
+    s->friction = scene->contact.friction > 0;
+    s->history = s->friction && scene->contact.tangential_stiffness > 0;
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzContactValues *values = &scene->walls[w].contact;
+        s->friction |= values->friction > 0;
+        s->history |= values->friction > 0 && values->tangential_stiffness > 0;
+        s->moving |= scene->walls[w].motion.present;
+    }
+}
+
+OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, const OzDevice *device)
+{
+    OzSwitches s = {0};
+    s.is_double = scene->precision == OZ_PRECISION_DOUBLE;
+    s.lanes = s.is_double ? device->double_lanes : device->float_lanes;
+    s.group = device->group;
+    s.integrator = (int)scene->integrator;
+    s.round = all_round(grains);
+    s.equal = all_equal(grains);
+    derive_friction(&s, scene);
+    s.slip_scale = s.history && scene->contact.slip == OZ_SLIP_SCALE;
+    s.attraction_clamp = scene->contact.attraction == OZ_ATTRACTION_CLAMP;
+    s.surfaces = scene->contact.contact_point == OZ_POINT_SURFACES;
+    s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
+    s.planes = count_walls(scene, OZ_WALL_PLANE);
+    s.cylinders = count_walls(scene, OZ_WALL_CYLINDER);
+    s.ledger = scene->observe.ledger;
+    s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
+    s.host_lists = scene->broadphase == OZ_BROADPHASE_SORT_AXIS;
+    return s;
+}
+
+void oz_switches_options(const OzSwitches *switches, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+#define ADD(name, member, left_out)                                                                \
+    if (used < size) {                                                                             \
+        used += (size_t)snprintf(text + used, size - used, "-DOZ_" #name "=%d ", switches->member); \
+    }
+    OZ_SWITCHES(ADD)
+#undef ADD
+    if (switches->is_double && used < size) {
+        snprintf(text + used, size - used, "-DOZ_DOUBLE=1 ");
+    }
+}
+
+void oz_switches_print(const OzSwitches *switches, FILE *file)
+{
+    char options[1024];
+    oz_switches_options(switches, options, sizeof options);
+    fprintf(file, "kernel switches    %s\n", options);
+    fprintf(file, "left out           ");
+    const char *separator = "";
+#define MISSING(name, member, left_out)                                                            \
+    if ((left_out) && !switches->member) {                                                         \
+        fprintf(file, "%s%s", separator, (const char *)(left_out));                                 \
+        separator = ", ";                                                                          \
+    }
+    OZ_SWITCHES(MISSING)
+#undef MISSING
+    if (switches->round) {
+        fprintf(file, "%sshafts (spheres only)", separator);
+        separator = ", ";
+    }
+    if (switches->equal) {
+        fprintf(file, "%ssize and mass of each grain (all equal)", separator);
+    }
+    fprintf(file, "\n");
+}

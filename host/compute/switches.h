@@ -1,0 +1,47 @@
+/* What a scene needs of its kernels: THE list of switches. Each becomes -D OZ_<NAME>=<value>; those that
+ * are off are what `orzo check` says was left out. */
+#ifndef OZ_COMPUTE_SWITCHES_H
+#define OZ_COMPUTE_SWITCHES_H
+
+#include "compute/device.h"
+#include "model/grains.h"
+#include "scene/scene.h"
+
+/* name, what the kernels do with it, what is saved without it (NULL: not a feature that can be missing) */
+#define OZ_SWITCHES(X)                                                                             \
+    X(LANES, lanes, NULL)                                                                          \
+    X(GROUP, group, NULL)                                                                          \
+    X(INTEGRATOR_ID, integrator, NULL)                                                             \
+    X(ROUND, round, NULL)                                                                          \
+    X(EQUAL, equal, NULL)                                                                          \
+    X(FRICTION, friction, "friction")                                                              \
+    X(HISTORY, history, "tangential springs and their history")                                    \
+    X(SLIP_SCALE, slip_scale, NULL)                                                                \
+    X(ATTRACTION_CLAMP, attraction_clamp, NULL)                                                    \
+    X(SURFACES, surfaces, NULL)                                                                    \
+    X(GYROSCOPIC, gyroscopic, "gyroscopic term")                                                   \
+    X(PLANES, planes, "plane walls")                                                               \
+    X(CYLINDERS, cylinders, "cylinder walls")                                                      \
+    X(MOVING, moving, "moving walls")                                                              \
+    X(LEDGER, ledger, "energy ledger")                                                             \
+    X(ALL_PAIRS, all_pairs, NULL)                                                                  \
+    X(HOST_LISTS, host_lists, NULL)                                                                \
+    X(RESORT, resort, "spatial re-sort of grains")
+
+typedef struct OzSwitches {
+#define OZ_SWITCHES_MEMBER(name, member, left_out) int member;
+    OZ_SWITCHES(OZ_SWITCHES_MEMBER)
+#undef OZ_SWITCHES_MEMBER
+    int is_double; /* -D OZ_DOUBLE when set */
+} OzSwitches;
+
+/* The switches of a scene on a device. */
+OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, const OzDevice *device);
+
+/* "-DOZ_LANES=16 -DOZ_GROUP=1 ..." */
+void oz_switches_options(const OzSwitches *switches, char *text, size_t size);
+
+/* Prints the features that are on, and those left out. */
+void oz_switches_print(const OzSwitches *switches, FILE *file);
+
+#endif

@@ -1,0 +1,72 @@
+/* One grain in motion, and the moves that integrators are made of: kick (velocities by a force) and
+ * drift (places and turns by velocities).
+ * `spin` holds the angular momentum in the world frame (switch OZ_GYROSCOPIC 1: the full Euler equations;
+ * constant in a free drift) or the angular velocity (0: the equation of Pournin et al. 2005, eq. 9,
+ * without the gyroscopic term). */
+#ifndef OZ_KERNELS_BODY_H
+#define OZ_KERNELS_BODY_H
+
+#include "kernels/vec3.h"
+
+typedef struct OzShape {
+    real radius, half_length;           /* m                                              */
+    real mass;                          /* kg                                             */
+    real inverse_mass;                  /* 1/kg                                           */
+    real inverse_inertia;               /* 1/(kg m^2), about an axis across the shaft     */
+    real inverse_inertia_axis;          /* 1/(kg m^2), about the shaft                    */
+} OzShape;
+
+typedef struct OzBody {
+    OzPlace place;
+    OzVec3 rest;         /* what place could not hold yet, units                            */
+    OzVec3 velocity;     /* m/s                                                             */
+    OzVec3 spin;         /* kg m^2/s or rad/s, see above                                    */
+    OzQuaternion turn;
+#if defined(OZ_HOST) || OZ_INTEGRATOR_ID == 2
+    OzVec3 acceleration; /* m/s^2, of the step before (velocity-verlet)                     */
+    OzVec3 torque;       /* N m, of the step before                                         */
+#endif
+} OzBody;
+
+/* Force and torque on a grain, gravity included. */
+typedef struct OzLoad {
+    OzVec3 force, torque;
+} OzLoad;
+
+/* inverse inertia applied to a world vector, for a body with shaft axis u. */
+OZ_INLINE OzVec3 oz_body_inverse_inertia(OzVec3 v, OzVec3 u, OzShape shape)
+{
+    real extra = (shape.inverse_inertia_axis - shape.inverse_inertia) * oz_dot(v, u);
+    return oz_along(oz_scale(v, shape.inverse_inertia), extra, u);
+}
+
+/* Angular velocity, rad/s in the world frame. */
+OZ_INLINE OzVec3 oz_body_rate(OzVec3 spin, OzVec3 u, OzShape shape)
+{
+    return OZ_GYROSCOPIC ? oz_body_inverse_inertia(spin, u, shape) : spin;
+}
+
+/* spin after a torque has acted for dt. */
+OZ_INLINE OzVec3 oz_body_kick_spin(OzVec3 spin, OzVec3 torque, OzVec3 u, OzShape shape, real dt)
+{
+    OzVec3 push = OZ_GYROSCOPIC ? torque : oz_body_inverse_inertia(torque, u, shape);
+    return oz_along(spin, dt, push);
+}
+
+/* Turns the body for dt at constant spin. With the angular momentum L constant this is the exact free
+ * motion of an axisymmetric body: a turn about L at |L|/I, after a turn about its own axis at
+ * (L.u)(1/I_axis - 1/I). */
+OZ_INLINE OzQuaternion oz_body_turn(OzQuaternion turn, OzVec3 spin, OzShape shape, real dt)
+{
+    OzVec3 turned_by = oz_scale(spin, dt);
+    if (OZ_GYROSCOPIC) {
+        OzVec3 u = oz_quaternion_axis(turn);
+        real own = (shape.inverse_inertia_axis - shape.inverse_inertia) * oz_dot(spin, u) * dt;
+        OzQuaternion about_axis = oz_quaternion_turn(oz_vec3(REAL(0.0), REAL(0.0), own));
+        turn = oz_quaternion_times(turn, about_axis);
+        turned_by = oz_scale(turned_by, shape.inverse_inertia);
+    }
+    return oz_quaternion_unit(oz_quaternion_times(oz_quaternion_turn(turned_by), turn));
+}
+
+#endif

@@ -1,0 +1,62 @@
+/* THE list of device arrays: kind of element, name, number of elements a member. Kernel arguments, the
+ * kernels' view of memory, the host's buffers and `orzo check`'s memory table are all made of it. A count
+ * of 0 means that the scene does not need the array: it is not allocated. z is the OzSizes.
+ * Kinds: parameters, control, scalar, real (one scalar per lane), spot (one coordinate of a place),
+ * integer, ledger (double). */
+#ifndef OZ_KERNELS_FIELDS_H
+#define OZ_KERNELS_FIELDS_H
+
+#define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * (OZ_PLANES + OZ_CYLINDERS))
+
+/* A region's sums of energy, J, and a contact's words for them (see ledger.h). */
+enum { OZ_L_DISSIPATED, OZ_L_SPRING, OZ_L_WALLS, OZ_LEDGER_WORDS };
+enum { OZ_CONTACT_LEDGER = 15 };
+
+/* A slot's words in the spare array, where a re-sort puts grains in their new order. */
+#define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + 1)
+
+#define OZ_FIELDS(X)                                                                               \
+    X(parameters, parameters, 1)                                                                   \
+    X(control, control, 1)                                                                         \
+    X(scalar, motion, OZ_MOVING ? (z.motion_steps + 1) * 2 * (OZ_PLANES + OZ_CYLINDERS) : 0)              \
+    X(real, state, z.blocks *OZ_STATE)                                                             \
+    X(real, shape, OZ_EQUAL ? 0 : z.blocks * OZ_SHAPE)                                             \
+    X(real, wall_history, OZ_HISTORY ? z.blocks * OZ_WALL_ENDS * 3 : 0)                            \
+    X(scalar, record, (z.slots + 1) * OZ_RECORD)                                                   \
+    X(real, reference_inner, z.blocks *OZ_REFERENCE)                                               \
+    X(real, reference_outer, z.blocks *OZ_REFERENCE)                                               \
+    X(integer, id, z.slots)                                                                        \
+    X(integer, slot_of, z.slots)                                                                   \
+    X(integer, cell_of, z.slots)                                                                   \
+    X(integer, cell_first, z.cells + 2)                                                            \
+    X(spot, sorted_x, z.slots + OZ_LANES)                                                          \
+    X(spot, sorted_y, z.slots + OZ_LANES)                                                          \
+    X(spot, sorted_z, z.slots + OZ_LANES)                                                          \
+    X(scalar, sorted_reach, OZ_EQUAL ? 0 : z.slots + OZ_LANES)                                     \
+    X(integer, sorted_slot, z.slots + OZ_LANES)                                                    \
+    X(integer, outer_a, z.regions *z.outer_capacity)                                               \
+    X(integer, outer_b, z.regions *z.outer_capacity)                                               \
+    X(scalar, outer_history, OZ_HISTORY ? z.regions * z.outer_capacity * 3 : 0)                    \
+    X(integer, outer_count, z.regions)                                                             \
+    X(integer, outer_first, z.slots)                                                               \
+    X(integer, outer_number, z.slots)                                                              \
+    X(integer, pair_a, z.regions *z.inner_capacity)                                                \
+    X(integer, pair_b, z.regions *z.inner_capacity)                                                \
+    X(integer, pair_outer, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                          \
+    X(real, pair_history, OZ_HISTORY ? z.regions * z.inner_capacity / OZ_LANES * 3 : 0)            \
+    X(scalar, pair_force, z.regions *z.inner_capacity *OZ_PAIR_FORCE)                              \
+    X(integer, pair_count, z.regions)                                                              \
+    X(integer, pair_first, z.slots)                                                                \
+    X(integer, pair_number, z.slots)                                                               \
+    X(integer, back_number, z.slots)                                                               \
+    X(integer, back, z.slots *z.back_capacity)                                                     \
+    X(integer, saved_a, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                             \
+    X(integer, saved_b, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                             \
+    X(scalar, saved_history, OZ_HISTORY ? z.regions * z.inner_capacity * 3 : 0)                    \
+    X(integer, saved_count, OZ_HISTORY ? z.regions : 0)                                            \
+    X(ledger, ledger, OZ_LEDGER ? z.regions * OZ_LEDGER_WORDS : 0)                                 \
+    X(real, pair_ledger, OZ_LEDGER ? z.regions * z.inner_capacity / OZ_LANES * OZ_CONTACT_LEDGER : 0) \
+    X(real, wall_ledger, OZ_LEDGER ? z.blocks * OZ_WALL_ENDS * OZ_CONTACT_LEDGER : 0)               \
+    X(scalar, spare, OZ_RESORT ? z.slots * OZ_SPARE : 0)
+
+#endif

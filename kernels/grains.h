@@ -1,0 +1,348 @@
+/* Motion of grains: the pairs' forces gathered in the order of ids, walls, the integrator, the guards.
+ * One grain a lane. OpenCL C only. */
+#ifndef OZ_KERNELS_GRAINS_H
+#define OZ_KERNELS_GRAINS_H
+
+#include "kernels/pairs.h"
+
+OZ_INLINE OzShape oz_grains_shape(const OzWork *w, int block)
+{
+    OzShape shape;
+#if OZ_EQUAL
+    global const OzParameters *p = w->parameters;
+    shape.radius = REAL(p->radius);
+    shape.half_length = REAL(p->half_length);
+    shape.mass = REAL(p->mass);
+    shape.inverse_mass = REAL(p->inverse_mass);
+    shape.inverse_inertia = REAL(p->inverse_inertia);
+    shape.inverse_inertia_axis = REAL(p->inverse_inertia_axis);
+    (void)block;
+#else
+    global const real *words = w->shape + (size_t)block * OZ_SHAPE;
+    shape.radius = words[OZ_B_RADIUS];
+    shape.half_length = words[OZ_B_HALF_LENGTH];
+    shape.mass = words[OZ_B_MASS];
+    shape.inverse_mass = REAL(1.0) / shape.mass;
+    shape.inverse_inertia = words[OZ_B_INVERSE_INERTIA];
+    shape.inverse_inertia_axis = words[OZ_B_INVERSE_AXIS];
+#endif
+    return shape;
+}
+
+OZ_INLINE OzBody oz_grains_load(const OzWork *w, int block)
+{
+    global const real *words = w->state + (size_t)block * OZ_STATE;
+    OzBody body;
+    body.place.x = oz_place_of_bits(words[OZ_S_PLACE]);
+    body.place.y = oz_place_of_bits(words[OZ_S_PLACE + 1]);
+    body.place.z = oz_place_of_bits(words[OZ_S_PLACE + 2]);
+    body.rest = oz_work_load3(words + OZ_S_REST);
+    body.velocity = oz_work_load3(words + OZ_S_VELOCITY);
+    body.spin = oz_work_load3(words + OZ_S_SPIN);
+    body.turn.x = words[OZ_S_TURN];
+    body.turn.y = words[OZ_S_TURN + 1];
+    body.turn.z = words[OZ_S_TURN + 2];
+    body.turn.w = words[OZ_S_TURN + 3];
+#if OZ_INTEGRATOR_ID == 2
+    body.acceleration = oz_work_load3(words + OZ_S_ACCELERATION);
+    body.torque = oz_work_load3(words + OZ_S_TORQUE);
+#endif
+    return body;
+}
+
+OZ_INLINE void oz_grains_store(OzWork *w, int block, OzBody body)
+{
+    global real *words = w->state + (size_t)block * OZ_STATE;
+    words[OZ_S_PLACE] = oz_place_bits(body.place.x);
+    words[OZ_S_PLACE + 1] = oz_place_bits(body.place.y);
+    words[OZ_S_PLACE + 2] = oz_place_bits(body.place.z);
+    oz_work_store3(words + OZ_S_REST, body.rest);
+    oz_work_store3(words + OZ_S_VELOCITY, body.velocity);
+    oz_work_store3(words + OZ_S_SPIN, body.spin);
+    words[OZ_S_TURN] = body.turn.x;
+    words[OZ_S_TURN + 1] = body.turn.y;
+    words[OZ_S_TURN + 2] = body.turn.z;
+    words[OZ_S_TURN + 3] = body.turn.w;
+#if OZ_INTEGRATOR_ID == 2
+    oz_work_store3(words + OZ_S_ACCELERATION, body.acceleration);
+    oz_work_store3(words + OZ_S_TORQUE, body.torque);
+#endif
+}
+
+/* The record that pairs read. */
+OZ_INLINE void oz_grains_record(OzWork *w, int block, OzBody body, OzShape shape, OzVec3 velocity,
+                                OzVec3 spin)
+{
+    OzVec3 u = oz_quaternion_axis(body.turn), rate = oz_body_rate(spin, u, shape);
+    OzVec3 shaft = oz_scale(u, shape.half_length);
+    real a[4] = {oz_place_bits(body.place.x), oz_place_bits(body.place.y),
+                 oz_place_bits(body.place.z), shape.radius};
+    real b[4] = {shaft.x, shaft.y, shaft.z, shape.mass};
+    real c[4] = {velocity.x, velocity.y, velocity.z, REAL(0.0)};
+    real d[4] = {rate.x, rate.y, rate.z, REAL(0.0)};
+    global scalar *out = w->record + (size_t)block * OZ_LANES * OZ_RECORD;
+    oz_lanes_store4(out, OZ_RECORD, OZ_R_PLACE, a);
+    oz_lanes_store4(out, OZ_RECORD, OZ_R_SHAFT, b);
+    oz_lanes_store4(out, OZ_RECORD, OZ_R_VELOCITY, c);
+    oz_lanes_store4(out, OZ_RECORD, OZ_R_RATE, d);
+}
+
+/* The pairs' force and torque on each grain of the block: first the pairs in which it is the second
+ * (sorted by the other's id), then its own (likewise), whatever the lists look like. */
+OZ_INLINE OzLoad oz_grains_gather(const OzWork *w, int block)
+{
+    scalar sum[6][OZ_LANES];
+    for (int l = 0; l < OZ_LANES; l++) {
+        int slot = block * OZ_LANES + l;
+        scalar4 force = (scalar4)(0), torque = (scalar4)(0);
+        int backs = w->back_number[slot], own = w->pair_number[slot];
+        global const int *back = w->back + (size_t)slot * w->z.back_capacity;
+        for (int k = 0; k < backs; k++) {
+            global const scalar *pair = w->pair_force + (size_t)back[k] * OZ_PAIR_FORCE;
+            force += *(global const scalar4 *)(pair + OZ_F_FORCE);
+            torque += *(global const scalar4 *)(pair + OZ_F_TORQUE_B);
+        }
+        global const scalar *pair = w->pair_force + (size_t)w->pair_first[slot] * OZ_PAIR_FORCE;
+        for (int k = 0; k < own; k++, pair += OZ_PAIR_FORCE) {
+            force -= *(global const scalar4 *)(pair + OZ_F_FORCE);
+            torque += *(global const scalar4 *)(pair + OZ_F_TORQUE_A);
+        }
+        sum[0][l] = force.x;
+        sum[1][l] = force.y;
+        sum[2][l] = force.z;
+        sum[3][l] = torque.x;
+        sum[4][l] = torque.y;
+        sum[5][l] = torque.z;
+    }
+    OzLoad load;
+    load.force = oz_vec3(OZ_LANES_LOAD(sum[0]), OZ_LANES_LOAD(sum[1]), OZ_LANES_LOAD(sum[2]));
+    load.torque = oz_vec3(OZ_LANES_LOAD(sum[3]), OZ_LANES_LOAD(sum[4]), OZ_LANES_LOAD(sum[5]));
+    return load;
+}
+
+#if OZ_PLANES + OZ_CYLINDERS > 0
+
+OZ_INLINE OzWallDistance oz_grains_wall_distance(const OzWork *w, OzBody body, OzVec3 end, int wall,
+                                                 real offset)
+{
+    global const OzParameters *p = w->parameters;
+    OzWallDistance at;
+    if (wall < OZ_PLANES) {
+        OzPlace point;
+        point.x = body.place.x - (spot_kind)p->wall[wall].point[0];
+        point.y = body.place.y - (spot_kind)p->wall[wall].point[1];
+        point.z = body.place.z - (spot_kind)p->wall[wall].point[2];
+        OzVec3 from = oz_vec3(oz_place_to_real(point.x) * p->length_unit + end.x,
+                              oz_place_to_real(point.y) * p->length_unit + end.y,
+                              oz_place_to_real(point.z) * p->length_unit + end.z - offset);
+        at = oz_walls_plane(from, p->wall[wall].normal[0], p->wall[wall].normal[1],
+                            p->wall[wall].normal[2]);
+    } else {
+        OzVec3 from = oz_vec3(oz_place_to_real(body.place.x) * p->length_unit + end.x,
+                              oz_place_to_real(body.place.y) * p->length_unit + end.y, REAL(0.0));
+        at = oz_walls_cylinder(from, p->wall[wall].radius);
+    }
+    return at;
+}
+
+/* One end of the block's grains at one wall; adds to load. */
+OZ_INLINE void oz_grains_wall(OzWork *w, int block, int wall, int end_index, OzBody body,
+                              OzShape shape, OzGrain grain, int step, OzLoad *load)
+{
+    int index = wall * (OZ_ROUND ? 1 : 2) + end_index;
+    real offset = REAL(0.0), speed = REAL(0.0);
+    if (OZ_MOVING) {
+        global const scalar *motion =
+            w->motion + 2 * ((size_t)step * (OZ_PLANES + OZ_CYLINDERS) + wall);
+        offset = REAL(motion[0]);
+        speed = REAL(motion[1]);
+    }
+    OzVec3 end = oz_scale(grain.half_shaft, REAL(end_index ? -1.0 : 1.0));
+    OzWallDistance at = oz_grains_wall_distance(w, body, end, wall, offset);
+    global real *kept = w->wall_history + ((size_t)block * OZ_WALL_ENDS + index) * 3;
+    OzVec3 history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    int near = OZ_ANY(at.distance < grain.radius);
+    if (near) {
+        /* a sphere in a population of rods touches once, not with two coincident ends */
+        mask present = OZ_EQUAL || end_index == 0 ? at.distance < grain.radius
+                                                  : shape.half_length > REAL(0.0);
+        OzContact contact;
+        OzVec3 arm;
+        if (OZ_HISTORY) {
+            history = oz_work_load3(kept);
+        }
+        OzContactForce parts = oz_rods_wall(
+            grain, end, at, oz_vec3(REAL(0.0), REAL(0.0), speed), present, w->parameters->wall[wall].law,
+            &history, w->parameters->dt, OZ_HISTORY_SHARE, &contact, &arm);
+        load->force = oz_add(load->force, parts.force);
+        load->torque = oz_add(load->torque, oz_cross(arm, parts.force));
+        mask deep = contact.touching & (contact.overlap > grain.radius);
+        if (OZ_ANY(deep)) {
+            int slots[OZ_LANES];
+            for (int l = 0; l < OZ_LANES; l++) {
+                slots[l] = block * OZ_LANES + l;
+            }
+            mask lost = contact.touching & (contact.overlap > REAL(2.0) * grain.radius);
+            oz_work_stop_lanes(w, deep, OZ_STOP_DEEP, step, slots);
+            oz_work_stop_lanes(w, lost, OZ_STOP_ESCAPED, step, slots);
+        }
+#if OZ_LEDGER
+        global real *words =
+            w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
+        oz_pairs_note(words, contact, parts, parts.force, arm);
+#endif
+    }
+#if OZ_LEDGER
+    if (!near) {
+        global real *words =
+            w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
+        for (int k = 0; k < OZ_CONTACT_LEDGER; k++) {
+            words[k] = REAL(0.0);
+        }
+    }
+#endif
+    if (OZ_HISTORY) {
+        oz_work_store3(kept, history);
+    }
+}
+
+OZ_INLINE void oz_grains_walls(OzWork *w, int block, OzBody body, OzShape shape, int step,
+                               OzLoad *load)
+{
+    real dt = REAL(w->parameters->dt);
+    OzVec3 u = oz_quaternion_axis(body.turn);
+    OzGrain grain;
+    grain.place = body.place;
+    grain.half_shaft = oz_scale(u, shape.half_length);
+    grain.velocity = oz_integrate_seen_velocity(body, dt);
+    grain.rate = oz_body_rate(oz_integrate_seen_spin(body, shape, dt), u, shape);
+    grain.radius = shape.radius;
+    grain.mass = shape.mass;
+#pragma unroll
+    for (int wall = 0; wall < OZ_PLANES + OZ_CYLINDERS; wall++) {
+#pragma unroll
+        for (int end = 0; end < (OZ_ROUND ? 1 : 2); end++) {
+            oz_grains_wall(w, block, wall, end, body, shape, grain, step, load);
+        }
+    }
+}
+
+#endif
+
+/* Lanes that hold grains; the others pad the last block. */
+OZ_INLINE mask oz_grains_present(const OzWork *w, int block)
+{
+    int here[OZ_LANES];
+    scalar number[OZ_LANES];
+    for (int l = 0; l < OZ_LANES; l++) {
+        here[l] = block * OZ_LANES + l < w->z.count;
+        number[l] = (scalar)here[l];
+    }
+    return OZ_LANES_LOAD(number) > REAL(0.5);
+}
+
+/* NaN, flight out of the domain, a step longer than the radius. */
+OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape, int step)
+{
+    global const OzParameters *p = w->parameters;
+    real speed2 = oz_dot(body.velocity, body.velocity), spin2 = oz_dot(body.spin, body.spin);
+    real far = oz_larger(oz_larger(oz_magnitude(oz_place_to_real(body.place.x)),
+                                   oz_magnitude(oz_place_to_real(body.place.y))),
+                         oz_magnitude(oz_place_to_real(body.place.z)));
+    real step2 = speed2 * (p->dt * p->dt);
+    mask sound = (speed2 + spin2 < REAL(1e30)) & (far < REAL(p->domain)) &
+                 (step2 < shape.radius * shape.radius);
+    mask wrong = sound ? (mask)(0) : (mask)(-1);
+    if (OZ_ANY(wrong)) {
+        int slots[OZ_LANES];
+        for (int l = 0; l < OZ_LANES; l++) {
+            slots[l] = block * OZ_LANES + l;
+        }
+        mask number = speed2 + spin2 < REAL(1e30);
+        mask nan = number ? (mask)(0) : (mask)(-1);
+        oz_work_stop_lanes(w, nan, OZ_STOP_NAN, step, slots);
+        oz_work_stop_lanes(w, number & (far >= REAL(p->domain)), OZ_STOP_ESCAPED, step, slots);
+        oz_work_stop_lanes(w, number & (step2 >= shape.radius * shape.radius), OZ_STOP_FAST, step,
+                           slots);
+    }
+}
+
+/* How far any point of the shaft can have moved since the reference was taken, squared: the larger of
+ * |dx + da| and |dx - da|. */
+OZ_INLINE real oz_grains_moved2(const OzWork *w, global const real *reference, OzBody body,
+                                OzVec3 shaft)
+{
+    OzPlace from;
+    from.x = oz_place_of_bits(reference[0]);
+    from.y = oz_place_of_bits(reference[1]);
+    from.z = oz_place_of_bits(reference[2]);
+    OzVec3 dx = oz_place_minus(body.place, from, w->parameters->length_unit);
+    if (OZ_ROUND) {
+        return oz_dot(dx, dx);
+    }
+    OzVec3 da = oz_minus(shaft, oz_work_load3(reference + 3));
+    return oz_dot(dx, dx) + oz_dot(da, da) + REAL(2.0) * oz_magnitude(oz_dot(dx, da));
+}
+
+/* Raises the stale mark when a grain has used up its half of the inner skin. */
+OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape, int step)
+{
+    OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
+    global const real *reference = w->reference_inner + (size_t)block * OZ_REFERENCE;
+    scalar allowed = (scalar)0.5 * w->parameters->skin_inner;
+    if (OZ_ANY(oz_grains_moved2(w, reference, body, shaft) > REAL(allowed * allowed))) {
+        w->control->stale_step = step;
+    }
+}
+
+#if defined(OZ_MOVES_BEFORE)
+/* The part of a step before the forces. */
+OZ_INLINE void oz_grains_before(OzWork *w, int block, int step)
+{
+    real dt = REAL(w->parameters->dt);
+    OzBody body = oz_grains_load(w, block);
+    OzShape shape = oz_grains_shape(w, block);
+    oz_integrate_before(&body, shape, dt, w->parameters->inverse_unit);
+    oz_grains_store(w, block, body);
+    oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
+                     oz_integrate_seen_spin(body, shape, dt));
+    oz_grains_watch(w, block, body, shape, step);
+}
+#endif
+
+/* The part of a step after the forces between grains. */
+OZ_INLINE void oz_grains_block(OzWork *w, int block, int step)
+{
+    global const OzParameters *p = w->parameters;
+    OzBody body = oz_grains_load(w, block);
+    OzShape shape = oz_grains_shape(w, block);
+    OzLoad load = oz_grains_gather(w, block);
+#if OZ_PLANES + OZ_CYLINDERS > 0
+    oz_grains_walls(w, block, body, shape, step, &load);
+#endif
+    OzVec3 gravity = oz_vec3(REAL(p->gravity[0]), REAL(p->gravity[1]), REAL(p->gravity[2]));
+    load.force = oz_along(load.force, shape.mass, gravity);
+    oz_integrate_after(&body, shape, load, REAL(p->dt), p->inverse_unit);
+    real keep = REAL(1 - p->drag * p->dt);
+    body.velocity = oz_scale(body.velocity, keep);
+    body.spin = oz_scale(body.spin, keep);
+    if ((block + 1) * OZ_LANES > w->z.count) { /* padding is pinned */
+        mask present = oz_grains_present(w, block);
+        body.velocity = oz_where(present, body.velocity);
+        body.spin = oz_where(present, body.spin);
+#if OZ_INTEGRATOR_ID == 2
+        body.acceleration = oz_where(present, body.acceleration);
+        body.torque = oz_where(present, body.torque);
+#endif
+    }
+    oz_grains_guard(w, block, body, shape, step);
+    oz_grains_store(w, block, body);
+#if !defined(OZ_MOVES_BEFORE) || OZ_LEDGER
+    oz_grains_record(w, block, body, shape, body.velocity, body.spin);
+#endif
+#if !defined(OZ_MOVES_BEFORE)
+    oz_grains_watch(w, block, body, shape, step);
+#endif
+}
+
+#endif

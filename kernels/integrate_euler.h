@@ -1,0 +1,20 @@
+/* Explicit Euler, the "forward Euler" of Pournin et al. (2005): places move with the old velocities.
+ * First order; gains energy in every contact (restitution comes out too high). */
+#ifndef OZ_KERNELS_INTEGRATE_EULER_H
+#define OZ_KERNELS_INTEGRATE_EULER_H
+
+#include "kernels/body.h"
+
+#define OZ_EULER_SHARE 0.0 /* the tangential spring enters the force before it is advanced */
+
+OZ_INLINE void oz_euler_after(OzBody *body, OzShape shape, OzLoad load, real dt,
+                                  scalar inverse_unit)
+{
+    OzVec3 u = oz_quaternion_axis(body->turn);
+    oz_place_move(&body->place, &body->rest, oz_scale(body->velocity, dt), inverse_unit);
+    body->turn = oz_body_turn(body->turn, body->spin, shape, dt);
+    body->velocity = oz_along(body->velocity, dt * shape.inverse_mass, load.force);
+    body->spin = oz_body_kick_spin(body->spin, load.torque, u, shape, dt);
+}
+
+#endif

@@ -1,0 +1,116 @@
+/* What host and device agree on: parameters, sizes, control words and where words lie in records. A device
+ * kernel writes the sizes of these structs at start and the host compares them with its own. */
+#ifndef OZ_KERNELS_LAYOUT_H
+#define OZ_KERNELS_LAYOUT_H
+
+#include "kernels/contact.h"
+
+enum { OZ_WALLS_MAX = 16 }; /* walls of a scene: bounds OzParameters, which sits in constant memory */
+
+/* A wall as kernels see it. Planes come first, then cylinders. */
+typedef struct OzWallParameters {
+    scalar point[3];  /* plane: units of length_unit (double: m) */
+    scalar normal[3]; /* plane: unit vector into the free side   */
+    scalar radius;    /* cylinder, m                             */
+    OzLawConstants law;
+} OzWallParameters;
+
+/* Everything a person may change in mid-run, and what follows from it. Scalars only, in this order: the
+ * single-precision copy is made by converting the double one number by number. */
+typedef struct OzParameters {
+    scalar length_unit;   /* m per count of a place; 1 in double                              */
+    scalar inverse_unit;  /* 1/m                                                              */
+    scalar domain;        /* units: a grain beyond this distance from the origin has escaped  */
+    scalar dt;            /* s                                                                */
+    scalar drag;          /* 1/s, only while settling                                         */
+    scalar gravity[3];    /* m/s^2                                                            */
+    OzLawConstants law;            /* between grains                                                   */
+    scalar skin_inner;    /* m: pairs with a smaller gap are in the inner list                */
+    scalar skin_outer;    /* m: pairs with a smaller gap are in the outer list                */
+    scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
+    scalar reach_max;     /* m, largest half-length + radius                                  */
+    scalar radius, half_length, mass; /* of every grain of an equal population                */
+    scalar inverse_mass, inverse_inertia, inverse_inertia_axis;
+    OzWallParameters wall[OZ_WALLS_MAX];
+} OzParameters;
+
+/* Sizes and strides; the same for every member of one launch. */
+typedef struct OzSizes {
+    int count;            /* grains                                                             */
+    int slots;            /* count rounded up to whole blocks of lanes                          */
+    int blocks;           /* slots / lanes                                                      */
+    int regions;          /* runs of grains that one work-item looks after                      */
+    int region_slots;     /* slots of a region, whole blocks                                    */
+    int outer_capacity;   /* pairs of a region's outer list, whole blocks                       */
+    int inner_capacity;   /* pairs of a region's inner list, whole blocks                       */
+    int back_capacity;    /* pairs of the inner list in which a grain is the second             */
+    int cells_x, cells_y, cells_z; /* powers of two; cell coordinates wrap around                */
+    int cells;
+    int reach_cells;      /* cells to look at on either side                                    */
+    int motion_steps;     /* steps of one launch for which walls' motion is given                */
+    int members;          /* scenes side by side in this launch                                 */
+} OzSizes;
+
+/* Reasons to stop, as bits. */
+enum {
+    OZ_STOP_NAN = 1,
+    OZ_STOP_ESCAPED = 2,
+    OZ_STOP_DEEP = 4,
+    OZ_STOP_FAST = 8
+};
+
+enum { OZ_NEVER = 0x7fffffff };
+
+/* Where the tangential springs of touching pairs are kept. A rebuild moves them inner -> outer -> saved ->
+ * outer -> inner and can be stopped and repeated with larger lists after any of these. */
+enum { OZ_TRUTH_NONE, OZ_TRUTH_SAVED, OZ_TRUTH_OUTER, OZ_TRUTH_INNER };
+
+/* The device's own words, one set a member. Steps count from the start of the launch. */
+typedef struct OzControl {
+    int step;         /* next step to make                                                      */
+    int moved;        /* its places are moved already (velocity-verlet, after a list was full)   */
+    int stale_step;   /* the step after which lists no longer hold; OZ_NEVER                    */
+    int full;         /* a list was too small: the rebuild is to be repeated with larger ones   */
+    int outer_needed, inner_needed, back_needed; /* the largest that were asked for               */
+    int stop_bits;    /* OZ_STOP_...                                                            */
+    int stop_step;    /* first step that stopped; OZ_NEVER                                      */
+    int stop_grain;   /* lowest id that stopped in that step; OZ_NEVER                          */
+    int truth;        /* where the tangential springs are now: OZ_TRUTH_...                      */
+    int outer_stale;  /* the outer list no longer covers the inner skin                         */
+    int refreshes, rebuilds; /* since the start of the run                                      */
+    int crossed;      /* contacts without a normal (shafts crossing) met so far                 */
+} OzControl;
+
+/* Words of a record: what a contact needs of a grain, one record a slot, OZ_RECORD scalars. */
+enum {
+    OZ_R_PLACE = 0,
+    OZ_R_RADIUS = 3,
+    OZ_R_SHAFT = 4,
+    OZ_R_MASS = 7,
+    OZ_R_VELOCITY = 8,
+    OZ_R_RATE = 12,
+    OZ_RECORD = 16
+};
+
+/* Words of a pair's result: force on b and overlap, torque on a, torque on b. */
+enum { OZ_F_FORCE = 0, OZ_F_OVERLAP = 3, OZ_F_TORQUE_A = 4, OZ_F_TORQUE_B = 8, OZ_PAIR_FORCE = 12 };
+
+/* Words of a block's state, each a real with one lane per grain. */
+enum {
+    OZ_S_PLACE = 0,
+    OZ_S_REST = 3,
+    OZ_S_VELOCITY = 6,
+    OZ_S_SPIN = 9,
+    OZ_S_TURN = 12,
+    OZ_S_ACCELERATION = 16, /* velocity-verlet only */
+    OZ_S_TORQUE = 19,
+    OZ_STATE = 22
+};
+
+/* Words of a block's shapes, for populations that are not all equal. */
+enum { OZ_B_RADIUS, OZ_B_HALF_LENGTH, OZ_B_MASS, OZ_B_INVERSE_INERTIA, OZ_B_INVERSE_AXIS, OZ_SHAPE };
+
+/* Words of a block's reference: place and half-shaft when a list was made. */
+enum { OZ_REFERENCE = 6 };
+
+#endif

@@ -1,0 +1,448 @@
+/* Neighbour lists. The outer list holds every pair whose gap was below skin_outer when it was made from the
+ * hashed grid; the inner list, which the forces walk, those of them below skin_inner, and is made anew from
+ * the outer one as long as no grain has used up its half of the difference. A list too small raises
+ * control->full with the sizes needed and leaves the springs where control->truth says, so that the host
+ * can enlarge it and repeat: no pair is ever dropped. A pair's first grain is the one with the longer reach
+ * (half-length + radius), then the lower id. OpenCL C only. */
+#ifndef OZ_KERNELS_LISTS_H
+#define OZ_KERNELS_LISTS_H
+
+#include "kernels/grains.h"
+
+OZ_INLINE void oz_lists_full(OzWork *w)
+{
+    atomic_or(&w->control->full, 1);
+}
+
+/* Inner springs back to the outer list. */
+OZ_INLINE void oz_lists_harvest(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    global const scalar *history = (global const scalar *)w->pair_history;
+    int begin = region * w->z.inner_capacity, count = w->pair_count[region];
+    for (int p = begin; p < begin + count; p++) {
+        global const scalar *from = history + (size_t)(p / OZ_LANES) * 3 * OZ_LANES + p % OZ_LANES;
+        global scalar *to = w->outer_history + (size_t)w->pair_outer[p] * 3;
+        to[0] = from[0];
+        to[1] = from[OZ_LANES];
+        to[2] = from[2 * OZ_LANES];
+    }
+#endif
+}
+
+/* Springs of the outer list to the saved list, keyed by ids. */
+OZ_INLINE void oz_lists_save(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    int begin = region * w->z.outer_capacity, saved = region * w->z.inner_capacity, count = 0;
+    for (int o = begin; o < begin + w->outer_count[region]; o++) {
+        global const scalar *h = w->outer_history + (size_t)o * 3;
+        if (h[0] != 0 || h[1] != 0 || h[2] != 0) {
+            int to = saved + count++;
+            w->saved_a[to] = w->id[w->outer_a[o]];
+            w->saved_b[to] = w->id[w->outer_b[o]];
+            w->saved_history[3 * (size_t)to] = h[0];
+            w->saved_history[3 * (size_t)to + 1] = h[1];
+            w->saved_history[3 * (size_t)to + 2] = h[2];
+        }
+    }
+    w->saved_count[region] = count;
+#endif
+}
+
+/* Saved springs to their places in the new outer list. A spring whose pair is not listed any more cannot
+ * be: it touched, so its gap is below the skin. */
+OZ_INLINE void oz_lists_restore(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    int begin = region * w->z.inner_capacity;
+    for (int from = begin; from < begin + w->saved_count[region]; from++) {
+        int a = w->slot_of[w->saved_a[from]], b = w->slot_of[w->saved_b[from]];
+        int first = w->outer_first[a], last = first + w->outer_number[a];
+        for (int o = first; o < last; o++) {
+            if (w->outer_b[o] == b) {
+                w->outer_history[3 * (size_t)o] = w->saved_history[3 * (size_t)from];
+                w->outer_history[3 * (size_t)o + 1] = w->saved_history[3 * (size_t)from + 1];
+                w->outer_history[3 * (size_t)o + 2] = w->saved_history[3 * (size_t)from + 2];
+            }
+        }
+    }
+#endif
+}
+
+/* Cell coordinate of a place's coordinate; unbounded, wrapped only where it becomes an index. */
+OZ_INLINE int oz_lists_cell(const OzWork *w, spot_kind spot)
+{
+    global const OzParameters *p = w->parameters;
+    return (int)floor((scalar)spot * p->length_unit * p->inverse_cell);
+}
+
+OZ_INLINE int oz_lists_cell_index(const OzWork *w, int x, int y, int z)
+{
+    int row = (z & (w->z.cells_z - 1)) * w->z.cells_y + (y & (w->z.cells_y - 1));
+    return row * w->z.cells_x + (x & (w->z.cells_x - 1));
+}
+
+OZ_INLINE void oz_lists_spot(const OzWork *w, int slot, spot_kind spot[3])
+{
+    global const spot_kind *record =
+        (global const spot_kind *)(w->record + (size_t)slot * OZ_RECORD + OZ_R_PLACE);
+    spot[0] = record[0];
+    spot[1] = record[1];
+    spot[2] = record[2];
+}
+
+OZ_INLINE scalar oz_lists_reach(const OzWork *w, int slot)
+{
+    if (OZ_EQUAL) {
+        return w->parameters->reach_max;
+    }
+    global const scalar *record = w->record + (size_t)slot * OZ_RECORD;
+    global const scalar *shaft = record + OZ_R_SHAFT;
+    return record[OZ_R_RADIUS] +
+           sqrt(shaft[0] * shaft[0] + shaft[1] * shaft[1] + shaft[2] * shaft[2]);
+}
+
+OZ_INLINE void oz_lists_clear(OzWork *w, int item, int stride)
+{
+    for (int c = item; c < w->z.cells + 2; c += stride) {
+        w->cell_first[c] = 0;
+    }
+}
+
+/* Counts the region's grains into cells, two places on, so that after the scan and the filling cell c is
+ * cell_first[c] ... cell_first[c + 1]. */
+OZ_INLINE void oz_lists_bin(OzWork *w, int region)
+{
+    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+        spot_kind spot[3];
+        oz_lists_spot(w, i, spot);
+        int cell = oz_lists_cell_index(w, oz_lists_cell(w, spot[0]), oz_lists_cell(w, spot[1]),
+                                       oz_lists_cell(w, spot[2]));
+        w->cell_of[i] = cell;
+        OZ_WORK_COUNT(&w->cell_first[cell + 2]);
+    }
+}
+
+OZ_INLINE void oz_lists_scan(OzWork *w)
+{
+    int sum = 0;
+    for (int c = 0; c < w->z.cells + 2; c++) {
+        sum += w->cell_first[c];
+        w->cell_first[c] = sum;
+    }
+}
+
+/* Grains in the order of cells. The order within a cell does not matter: lists are sorted by id. */
+OZ_INLINE void oz_lists_fill(OzWork *w, int region)
+{
+    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+        int to = OZ_WORK_COUNT(&w->cell_first[w->cell_of[i] + 1]);
+        spot_kind spot[3];
+        oz_lists_spot(w, i, spot);
+        w->sorted_x[to] = spot[0];
+        w->sorted_y[to] = spot[1];
+        w->sorted_z[to] = spot[2];
+        w->sorted_slot[to] = i;
+        if (!OZ_EQUAL) {
+            w->sorted_reach[to] = oz_lists_reach(w, i);
+        }
+    }
+}
+
+/* The search of one grain's partners: candidates by centre distance are collected, then tested by the gap
+ * of the capsules, a block of lanes at a time. */
+enum { OZ_CANDIDATES = 256 };
+
+typedef struct OzSearch {
+    int slot, id;        /* of the grain                                  */
+    spot_kind spot[3];
+    scalar reach;
+    int out;             /* where its next pair goes in the outer list    */
+    int limit;           /* end of the region's outer list                */
+    int wanted;          /* pairs found in this region, stored or not     */
+    int count;           /* candidates                                    */
+    int candidate[OZ_CANDIDATES + OZ_LANES];
+} OzSearch;
+
+/* The squared gap distance between the shafts of the grains in a and b, and the sum of the radii. */
+OZ_INLINE real oz_lists_distance2(const OzWork *w, const int *a, const int *b, real *radii)
+{
+    OzGrain one = oz_work_geometry(w, a), other = oz_work_geometry(w, b);
+    OzVec3 apart = oz_place_minus(one.place, other.place, w->parameters->length_unit);
+    *radii = one.radius + other.radius;
+    if (OZ_ROUND) {
+        return oz_dot(apart, apart);
+    }
+    OzClosest at = oz_closest(apart, one.half_shaft, other.half_shaft);
+    OzVec3 gap = oz_along(oz_along(apart, at.s, one.half_shaft), -at.t, other.half_shaft);
+    return oz_dot(gap, gap);
+}
+
+/* Tests the collected candidates and stores the pairs. */
+OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
+{
+    int own[OZ_LANES], hit[OZ_LANES];
+    for (int l = 0; l < OZ_LANES; l++) {
+        own[l] = s->slot;
+        s->candidate[s->count + l] = s->slot;
+    }
+    for (int first = 0; first < s->count; first += OZ_LANES) {
+        real radii, distance2 = oz_lists_distance2(w, own, s->candidate + first, &radii);
+        real reach = radii + REAL(w->parameters->skin_outer);
+        oz_lanes_store_mask(distance2 < reach * reach, hit);
+        for (int l = 0; l < OZ_LANES && first + l < s->count; l++) {
+            if (hit[l]) {
+                s->wanted++;
+                if (s->out < s->limit) {
+                    w->outer_a[s->out] = s->slot;
+                    w->outer_b[s->out++] = s->candidate[first + l];
+                }
+            }
+        }
+    }
+    s->count = 0;
+}
+
+/* Candidates among the sorted grains first ... last. */
+OZ_INLINE void oz_lists_sweep(OzWork *w, OzSearch *s, int first, int last)
+{
+    scalar unit = w->parameters->length_unit;
+    scalar reach = s->reach + w->parameters->skin_outer;
+    for (int k = first; k < last; k += OZ_LANES) {
+        int hit[OZ_LANES];
+        OzPlace apart;
+        apart.x = OZ_LANES_LOAD(w->sorted_x + k) - s->spot[0];
+        apart.y = OZ_LANES_LOAD(w->sorted_y + k) - s->spot[1];
+        apart.z = OZ_LANES_LOAD(w->sorted_z + k) - s->spot[2];
+        OzVec3 d = oz_vec3(oz_place_to_real(apart.x) * unit, oz_place_to_real(apart.y) * unit,
+                           oz_place_to_real(apart.z) * unit);
+        real far = OZ_EQUAL ? REAL(2 * s->reach + w->parameters->skin_outer)
+                            : OZ_LANES_LOAD(w->sorted_reach + k) + REAL(reach);
+        oz_lanes_store_mask(oz_dot(d, d) < far * far, hit);
+        if (s->count > OZ_CANDIDATES - OZ_LANES) {
+            oz_lists_flush(w, s);
+        }
+        int here = min(last - k, OZ_LANES);
+        for (int l = 0; l < here; l++) {
+            int slot = w->sorted_slot[k + l], id = w->id[slot];
+            int first_is_mine = id > s->id;
+            if (!OZ_EQUAL) {
+                scalar other = w->sorted_reach[k + l];
+                first_is_mine = other < s->reach || (other == s->reach && first_is_mine);
+            }
+            s->candidate[s->count] = slot;
+            s->count += hit[l] & first_is_mine;
+        }
+    }
+}
+
+/* Sorts pairs first ... last of the outer list by the second grain's id (Shell's gaps: short lists are
+ * usual, long ones must not take the square of their length). */
+OZ_INLINE void oz_lists_sort(OzWork *w, int first, int last)
+{
+    int count = last - first;
+    for (int gap = count > 64 ? count / 3 + 1 : 1; gap > 0; gap = gap > 1 ? gap / 3 + (gap == 2) : 0) {
+        for (int i = first + gap; i < last; i++) {
+            int kept = w->outer_b[i], key = w->id[kept], to = i;
+            while (to - gap >= first && w->id[w->outer_b[to - gap]] > key) {
+                w->outer_b[to] = w->outer_b[to - gap];
+                to -= gap;
+            }
+            w->outer_b[to] = kept;
+        }
+    }
+}
+
+OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
+{
+#if OZ_ALL_PAIRS
+    oz_lists_sweep(w, s, 0, w->z.count);
+#else
+    int reach = w->z.reach_cells, width = 2 * reach + 1, mask_x = w->z.cells_x - 1;
+    int x = oz_lists_cell(w, s->spot[0]), y = oz_lists_cell(w, s->spot[1]);
+    int z = oz_lists_cell(w, s->spot[2]), start = (x - reach) & mask_x;
+    int stop = min(start + width, w->z.cells_x), wrapped = start + width - stop;
+    for (int dz = -reach; dz <= reach; dz++) {
+        for (int dy = -reach; dy <= reach; dy++) {
+            int row = oz_lists_cell_index(w, 0, y + dy, z + dz);
+            oz_lists_sweep(w, s, w->cell_first[row + start], w->cell_first[row + stop]);
+            if (wrapped > 0) {
+                oz_lists_sweep(w, s, w->cell_first[row], w->cell_first[row + wrapped]);
+            }
+        }
+    }
+#endif
+}
+
+/* The outer list of the region's grains, sorted by first slot, then by second id. */
+OZ_INLINE void oz_lists_search(OzWork *w, int region)
+{
+    OzSearch s;
+    s.out = region * w->z.outer_capacity;
+    s.limit = s.out + w->z.outer_capacity;
+    s.wanted = 0;
+    int begin = s.out;
+    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+        s.slot = i;
+        s.id = w->id[i];
+        s.reach = oz_lists_reach(w, i);
+        s.count = 0;
+        oz_lists_spot(w, i, s.spot);
+        int first = s.out;
+        oz_lists_around(w, &s);
+        oz_lists_flush(w, &s);
+        oz_lists_sort(w, first, s.out);
+        w->outer_first[i] = first;
+        w->outer_number[i] = s.out - first;
+    }
+    w->outer_count[region] = s.out - begin;
+    if (s.wanted > w->z.outer_capacity) {
+        oz_lists_full(w);
+        atomic_max(&w->control->outer_needed, s.wanted);
+    }
+#if OZ_HISTORY
+    for (int k = 3 * begin; k < 3 * s.out; k++) {
+        w->outer_history[k] = 0;
+    }
+#endif
+}
+
+/* Takes the present places as a list's reference. */
+OZ_INLINE void oz_lists_refer(OzWork *w, int region, global real *reference)
+{
+    int begin = oz_work_region_begin(w, region) / OZ_LANES;
+    int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+    for (int block = begin; block < end; block++) {
+        OzBody body = oz_grains_load(w, block);
+        OzShape shape = oz_grains_shape(w, block);
+        global real *words = reference + (size_t)block * OZ_REFERENCE;
+        words[0] = oz_place_bits(body.place.x);
+        words[1] = oz_place_bits(body.place.y);
+        words[2] = oz_place_bits(body.place.z);
+        oz_work_store3(words + 3, oz_scale(oz_quaternion_axis(body.turn), shape.half_length));
+    }
+}
+
+/* Marks the outer list stale when a grain has used up its half of what it covers beyond the inner skin. */
+OZ_INLINE void oz_lists_check_outer(OzWork *w, int region)
+{
+    int begin = oz_work_region_begin(w, region) / OZ_LANES;
+    int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+    scalar allowed = (scalar)0.5 * (w->parameters->skin_outer - w->parameters->skin_inner);
+    for (int block = begin; block < end; block++) {
+        OzBody body = oz_grains_load(w, block);
+        OzShape shape = oz_grains_shape(w, block);
+        OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
+        global const real *reference = w->reference_outer + (size_t)block * OZ_REFERENCE;
+        if (OZ_ANY(oz_grains_moved2(w, reference, body, shaft) > REAL(allowed * allowed))) {
+            w->control->outer_stale = 1;
+        }
+    }
+}
+
+/* One pair of the outer list into the inner one. */
+OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to)
+{
+    int a = w->outer_a[outer], b = w->outer_b[outer];
+    w->pair_a[to] = a;
+    w->pair_b[to] = b;
+    if (w->pair_number[a]++ == 0) {
+        w->pair_first[a] = to;
+    }
+    int back = OZ_WORK_COUNT(&w->back_number[b]);
+    if (back < w->z.back_capacity) {
+        w->back[(size_t)b * w->z.back_capacity + back] = to;
+    }
+#if OZ_HISTORY
+    global scalar *history = (global scalar *)w->pair_history;
+    history += (size_t)(to / OZ_LANES) * 3 * OZ_LANES + to % OZ_LANES;
+    w->pair_outer[to] = outer;
+    history[0] = w->outer_history[3 * (size_t)outer];
+    history[OZ_LANES] = w->outer_history[3 * (size_t)outer + 1];
+    history[2 * OZ_LANES] = w->outer_history[3 * (size_t)outer + 2];
+#endif
+}
+
+/* Fills the last block of a region's inner list with pairs that never touch. */
+OZ_INLINE void oz_lists_pad(OzWork *w, int begin, int count)
+{
+    for (int p = begin + count; (p - begin) % OZ_LANES != 0; p++) {
+        w->pair_a[p] = 0;
+        w->pair_b[p] = w->z.slots;
+#if OZ_HISTORY
+        global scalar *history = (global scalar *)w->pair_history;
+        history += (size_t)(p / OZ_LANES) * 3 * OZ_LANES + p % OZ_LANES;
+        history[0] = 0;
+        history[OZ_LANES] = 0;
+        history[2 * OZ_LANES] = 0;
+#endif
+    }
+}
+
+OZ_INLINE void oz_lists_reset(OzWork *w, int region)
+{
+    int end = min((region + 1) * w->z.region_slots, w->z.slots);
+    for (int i = oz_work_region_begin(w, region); i < end; i++) {
+        w->pair_number[i] = 0;
+        w->pair_first[i] = 0;
+        w->back_number[i] = 0;
+    }
+}
+
+/* The region's inner list. */
+OZ_INLINE void oz_lists_select(OzWork *w, int region)
+{
+    int outer = region * w->z.outer_capacity, outer_end = outer + w->outer_count[region];
+    int begin = region * w->z.inner_capacity, count = 0;
+    real skin = REAL(w->parameters->skin_inner);
+    for (int first = outer; first < outer_end; first += OZ_LANES) {
+        int a[OZ_LANES], b[OZ_LANES], hit[OZ_LANES];
+        for (int l = 0; l < OZ_LANES; l++) {
+            int real_pair = first + l < outer_end;
+            a[l] = real_pair ? w->outer_a[first + l] : 0;
+            b[l] = real_pair ? w->outer_b[first + l] : w->z.slots;
+        }
+        real radii, distance2 = oz_lists_distance2(w, a, b, &radii);
+        oz_lanes_store_mask(distance2 < (radii + skin) * (radii + skin), hit);
+        for (int l = 0; l < OZ_LANES; l++) {
+            if (hit[l]) {
+                if (count < w->z.inner_capacity) {
+                    oz_lists_take(w, first + l, begin + count);
+                }
+                count++;
+            }
+        }
+    }
+    if (count > w->z.inner_capacity) {
+        oz_lists_full(w);
+        atomic_max(&w->control->inner_needed, count);
+        return;
+    }
+    oz_lists_pad(w, begin, count);
+    w->pair_count[region] = count;
+}
+
+/* Sorts each grain's pairs in which it is the second by the first one's id. */
+OZ_INLINE void oz_lists_order(OzWork *w, int region)
+{
+    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+        int count = w->back_number[i];
+        if (count > w->z.back_capacity) {
+            oz_lists_full(w);
+            atomic_max(&w->control->back_needed, count);
+            continue;
+        }
+        global int *back = w->back + (size_t)i * w->z.back_capacity;
+        for (int k = 1; k < count; k++) {
+            int kept = back[k], key = w->id[w->pair_a[kept]], to = k;
+            while (to > 0 && w->id[w->pair_a[back[to - 1]]] > key) {
+                back[to] = back[to - 1];
+                to--;
+            }
+            back[to] = kept;
+        }
+    }
+}
+
+#endif

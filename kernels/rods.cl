@@ -1,0 +1,222 @@
+/* The kernels of the rods model: thin shells around the headers. oz_advance makes many steps of a small
+ * scene in one launch, one work-group a member; the others are the same work phase by phase, for large
+ * scenes, where every work-item looks after one region. */
+#include "kernels/lists.h"
+#if OZ_LEDGER
+#include "kernels/ledger.h"
+#endif
+
+/* Sizes of the structs that host and device share; compared at start. */
+kernel void oz_layout(global int *sizes)
+{
+    sizes[0] = (int)sizeof(OzParameters);
+    sizes[1] = (int)sizeof(OzControl);
+    sizes[2] = (int)sizeof(OzSizes);
+    sizes[3] = (int)sizeof(scalar);
+    sizes[4] = OZ_LANES;
+}
+
+#define EACH_REGION for (int region = item; region < w->z.regions; region += stride)
+
+/* The inner list anew; 0 when a list was too small. */
+OZ_INLINE int refresh(OzWork *w, int item, int stride)
+{
+    EACH_REGION
+    {
+        oz_lists_reset(w, region);
+    }
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
+        oz_lists_select(w, region);
+    }
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
+        oz_lists_order(w, region);
+        oz_lists_refer(w, region, w->reference_inner);
+    }
+    OZ_WORK_MEET();
+    int full = w->control->full;
+    OZ_WORK_MEET();
+    if (item == 0 && !full) {
+        w->control->truth = OZ_TRUTH_INNER;
+        w->control->stale_step = OZ_NEVER;
+        w->control->refreshes++;
+    }
+    OZ_WORK_MEET();
+    return !full;
+}
+
+OZ_INLINE void set_truth(OzWork *w, int item, int truth)
+{
+    OZ_WORK_MEET();
+    if (item == 0) {
+        w->control->truth = truth;
+    }
+    OZ_WORK_MEET();
+}
+
+/* The outer list anew; 0 when it was too small. */
+OZ_INLINE int rebuild(OzWork *w, int item, int stride)
+{
+    if (w->control->truth == OZ_TRUTH_OUTER) {
+        EACH_REGION
+        {
+            oz_lists_save(w, region);
+        }
+        set_truth(w, item, OZ_TRUTH_SAVED);
+    }
+    oz_lists_clear(w, item, stride);
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
+        oz_lists_bin(w, region);
+    }
+    OZ_WORK_MEET();
+    if (item == 0) {
+        oz_lists_scan(w);
+    }
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
+        oz_lists_fill(w, region);
+    }
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
+        oz_lists_search(w, region);
+    }
+    OZ_WORK_MEET();
+    int full = w->control->full;
+    if (full) {
+        return 0;
+    }
+    if (w->control->truth == OZ_TRUTH_SAVED) {
+        EACH_REGION
+        {
+            oz_lists_restore(w, region);
+        }
+    }
+    EACH_REGION
+    {
+        oz_lists_refer(w, region, w->reference_outer);
+    }
+    OZ_WORK_MEET();
+    if (item == 0) {
+        w->control->truth = OZ_TRUTH_OUTER;
+        w->control->outer_stale = 0;
+        w->control->rebuilds++;
+    }
+    OZ_WORK_MEET();
+    return 1;
+}
+
+/* Makes the lists hold again. 0 when one is full (or made by the host) and the launch must end. */
+OZ_INLINE int renew(OzWork *w, int item, int stride)
+{
+    if (w->control->truth == OZ_TRUTH_INNER) {
+        EACH_REGION
+        {
+            oz_lists_harvest(w, region);
+            oz_lists_check_outer(w, region);
+        }
+        set_truth(w, item, OZ_TRUTH_OUTER);
+    }
+    int outer_holds = w->control->truth == OZ_TRUTH_OUTER && !w->control->outer_stale;
+    OZ_WORK_MEET();
+#if OZ_HOST_LISTS
+    if (!outer_holds) {
+        return 0;
+    }
+#else
+    if (!outer_holds && !rebuild(w, item, stride)) {
+        return 0;
+    }
+#endif
+    return refresh(w, item, stride);
+}
+
+/* One step; the lists hold. */
+OZ_INLINE void forces_and_motion(OzWork *w, int item, int stride, int step)
+{
+    EACH_REGION
+    {
+        oz_pairs_region(w, region, step);
+    }
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
+        int begin = oz_work_region_begin(w, region) / OZ_LANES;
+        int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+        for (int block = begin; block < end; block++) {
+            oz_grains_block(w, block, step);
+        }
+    }
+    OZ_WORK_MEET();
+#if OZ_LEDGER
+    EACH_REGION
+    {
+        oz_ledger_region(w, region, step);
+    }
+    OZ_WORK_MEET();
+#endif
+}
+
+#if defined(OZ_MOVES_BEFORE)
+OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
+{
+    EACH_REGION
+    {
+        int begin = oz_work_region_begin(w, region) / OZ_LANES;
+        int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+        for (int block = begin; block < end; block++) {
+            oz_grains_before(w, block, step);
+        }
+    }
+    OZ_WORK_MEET();
+}
+#endif
+
+/* Makes steps first ... last of this launch, or ends earlier: control->step says how far it came, and
+ * control->moved that the next step's places are moved already. */
+#if OZ_GROUP > 1
+__attribute__((reqd_work_group_size(OZ_GROUP, 1, 1)))
+#endif
+kernel void oz_advance(OZ_WORK_ARGUMENTS, int first, int last)
+{
+    OZ_WORK_OPEN((int)get_group_id(0))
+    int item = OZ_WORK_ITEM, stride = OZ_WORK_STRIDE, step = first;
+    for (; step < last; step++) {
+#if defined(OZ_MOVES_BEFORE)
+        if (!w.control->moved) {
+            move_before(&w, item, stride, step);
+            w.control->moved = 1;
+        }
+#endif
+        int stale = w.control->stale_step != OZ_NEVER || w.control->truth != OZ_TRUTH_INNER;
+        int stopped = w.control->stop_bits;
+        OZ_WORK_MEET();
+        if (stopped) {
+            break;
+        }
+        if (stale && !renew(&w, item, stride)) {
+            break;
+        }
+        forces_and_motion(&w, item, stride, step);
+        int stop = w.control->stop_bits;
+        OZ_WORK_MEET();
+        if (stop) {
+            break;
+        }
+#if defined(OZ_MOVES_BEFORE)
+        if (item == 0) {
+            w.control->moved = 0;
+        }
+        OZ_WORK_MEET();
+#endif
+    }
+    if (item == 0) {
+        w.control->step = step;
+    }
+}

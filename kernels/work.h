@@ -1,0 +1,139 @@
+/* A kernel's view of memory: every array of one member, and how work is shared out. OpenCL C only.
+ * OZ_GROUP 1: one work-item does a member's whole launch and needs no barriers; otherwise the work-group's
+ * size. Work-items look after regions: runs of slots with their own pair lists. */
+#ifndef OZ_KERNELS_WORK_H
+#define OZ_KERNELS_WORK_H
+
+#include "kernels/fields.h"
+#include "kernels/integrate.h"
+#include "kernels/lanes.h"
+#include "kernels/layout.h"
+#include "kernels/rods.h"
+
+typedef OzParameters parameters_kind;
+typedef OzControl control_kind;
+typedef scalar scalar_kind;
+typedef real real_kind;
+typedef int integer_kind;
+#if defined(OZ_DOUBLE)
+typedef double spot_kind;
+#else
+typedef int spot_kind;
+#endif
+#if OZ_LEDGER
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double ledger_kind;
+#else
+typedef int ledger_kind;
+#endif
+
+#define OZ_WORK_MEMBER(kind, name, count)   global kind##_kind *name;
+#define OZ_WORK_ARGUMENT(kind, name, count) global kind##_kind *name,
+#define OZ_WORK_TAKE(kind, name, count)     w.name = name + (size_t)member * (size_t)(count);
+
+typedef struct OzWork {
+    OZ_FIELDS(OZ_WORK_MEMBER)
+    OzSizes z;
+} OzWork;
+
+/* The arguments that every kernel begins with, and the view of one member made of them. */
+#define OZ_WORK_ARGUMENTS OZ_FIELDS(OZ_WORK_ARGUMENT) OzSizes z
+#define OZ_WORK_OPEN(member_index)                                                                 \
+    OzWork w;                                                                                      \
+    {                                                                                              \
+        int member = (member_index);                                                               \
+        OZ_FIELDS(OZ_WORK_TAKE)                                                                    \
+        w.z = z;                                                                                   \
+    }
+
+#if OZ_GROUP == 1
+#define OZ_WORK_MEET()
+#define OZ_WORK_COUNT(counter) ((*(counter))++)
+#define OZ_WORK_ITEM   0
+#define OZ_WORK_STRIDE 1
+#else
+#define OZ_WORK_MEET() barrier(CLK_GLOBAL_MEM_FENCE)
+#define OZ_WORK_COUNT(counter) atomic_inc(counter)
+#define OZ_WORK_ITEM   ((int)get_local_id(0))
+#define OZ_WORK_STRIDE ((int)get_local_size(0))
+#endif
+
+/* Asks for an end: reason bits, step and the lowest id of the first step that had any. */
+OZ_INLINE void oz_work_stop(OzWork *w, int bits, int step, int grain)
+{
+    atomic_or(&w->control->stop_bits, bits);
+    atomic_min(&w->control->stop_step, step);
+    atomic_min(&w->control->stop_grain, grain);
+}
+
+/* The same for every lane of hits, whose grains are in slots. */
+OZ_INLINE void oz_work_stop_lanes(OzWork *w, mask hits, int bits, int step, const int *slots)
+{
+    int hit[OZ_LANES];
+    oz_lanes_store_mask(hits, hit);
+    for (int l = 0; l < OZ_LANES; l++) {
+        if (hit[l] && slots[l] < w->z.count) {
+            oz_work_stop(w, bits, step, w->id[slots[l]]);
+        }
+    }
+}
+
+OZ_INLINE int oz_work_region_begin(const OzWork *w, int region)
+{
+    return min(region * w->z.region_slots, w->z.slots);
+}
+
+/* One past the region's last grain, padding not included. */
+OZ_INLINE int oz_work_region_end(const OzWork *w, int region)
+{
+    return min((region + 1) * w->z.region_slots, w->z.count);
+}
+
+/* Grains in slots as contacts see them. */
+OZ_INLINE OzGrain oz_work_grains(const OzWork *w, const int *slots)
+{
+    real a[4], b[4], c[4], d[4];
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_PLACE, a);
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_SHAFT, b);
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_VELOCITY, c);
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_RATE, d);
+    OzGrain grain;
+    grain.place.x = oz_place_of_bits(a[0]);
+    grain.place.y = oz_place_of_bits(a[1]);
+    grain.place.z = oz_place_of_bits(a[2]);
+    grain.half_shaft = oz_vec3(b[0], b[1], b[2]);
+    grain.velocity = oz_vec3(c[0], c[1], c[2]);
+    grain.rate = oz_vec3(d[0], d[1], d[2]);
+    grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];
+    grain.mass = OZ_EQUAL ? REAL(w->parameters->mass) : b[3];
+    return grain;
+}
+
+/* The geometry alone. */
+OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
+{
+    real a[4], b[4];
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_PLACE, a);
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_SHAFT, b);
+    OzGrain grain;
+    grain.place.x = oz_place_of_bits(a[0]);
+    grain.place.y = oz_place_of_bits(a[1]);
+    grain.place.z = oz_place_of_bits(a[2]);
+    grain.half_shaft = oz_vec3(b[0], b[1], b[2]);
+    grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];
+    return grain;
+}
+
+OZ_INLINE OzVec3 oz_work_load3(global const real *words)
+{
+    return oz_vec3(words[0], words[1], words[2]);
+}
+
+OZ_INLINE void oz_work_store3(global real *words, OzVec3 v)
+{
+    words[0] = v.x;
+    words[1] = v.y;
+    words[2] = v.z;
+}
+
+#endif
