@@ -134,6 +134,27 @@ static void test_crowd_against_all_pairs(void **state)
     oz_crowd_free(&crowd);
 }
 
+/* Pairs that only just touch, or just do not, of any size ratio and aspect: none is out of reach.
+ */
+static void test_crowd_at_the_margin(void **state)
+{
+    (void)state;
+    OzRandom random = oz_random_stream(4, 1);
+    for (int i = 0; i < 20000; i++) {
+        OzCapsule a = random_capsule(&random, 1, 0, i % 3 ? oz_random_uniform(&random, 0, 2) : 0);
+        OzCapsule b = random_capsule(&random, 1, 0, i % 5 ? oz_random_uniform(&random, 0, 2) : 0);
+        double distance = oz_crowd_distance(&a, &b);
+        OzCrowd crowd = {0};
+        a.radius = distance * oz_random_uniform(&random, 0.01, 0.99);
+        b.radius = distance * (1 + 1e-6) - a.radius;
+        assert_int_equal(oz_crowd_add(&crowd, &a), OZ_OK);
+        assert_true(oz_crowd_touches(&crowd, &b));
+        b.radius = distance * (1 - 1e-6) - a.radius;
+        assert_false(oz_crowd_touches(&crowd, &b));
+        oz_crowd_free(&crowd);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +162,7 @@ int main(void)
         cmocka_unit_test(test_axis_and_quaternion),
         cmocka_unit_test(test_distance),
         cmocka_unit_test(test_crowd_against_all_pairs),
+        cmocka_unit_test(test_crowd_at_the_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,7 +40,7 @@ static double level_diameter(int level)
     return ldexp(1, level - LEVEL_OF_ONE_METRE);
 }
 
-/* Two diameters: a grain of the level then looks for its like in 3 cells along each axis. */
+/* Two diameters: a grain of the level then looks for its like in 2 or 3 cells along each axis. */
 static double level_cell(int level)
 {
     return 2 * level_diameter(level);
@@ -253,11 +253,13 @@ static bool cells_touch(const OzCrowd *crowd, int level, const double point[3], 
     return false;
 }
 
-/* Touching shafts have points at most both radii apart, and each a sample within a quarter cell. */
+/* The closest points of touching shafts are at most both radii apart. The shortest way between them
+ * is across a shaft unless it starts at its end, and ends are samples: so the samples nearest to
+ * them, each within a quarter cell along its shaft, are further apart by Pythagoras only. */
 static bool level_touches(const OzCrowd *crowd, int level, const OzCapsule *capsule)
 {
     double cell = level_cell(level), point[3];
-    double reach = capsule->radius + 0.5 * level_diameter(level) + 0.5 * cell;
+    double reach = hypot(capsule->radius + 0.5 * level_diameter(level), 0.5 * cell);
     Samples samples = sample_shaft(capsule, cell);
     for (int64_t i = 0; i < samples.count; i++) {
         sample_point(point, &samples, i);
