@@ -2,6 +2,7 @@
 #include "scene/describe.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { LONGEST_NAME = 40 };
@@ -13,9 +14,26 @@ static void print_choices(const OzKey *key, FILE *file)
     }
 }
 
+/* As a person writes it: 1e6 rather than 1e+06. */
+static void print_limit(double number, FILE *file)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%g", number);
+    char *exponent = strchr(text, 'e');
+    if (exponent) {
+        snprintf(exponent + 1, sizeof text - (size_t)(exponent + 1 - text), "%d",
+                 atoi(exponent + 1));
+    }
+    fputs(text, file);
+}
+
 static void print_limits(const OzKey *key, FILE *file)
 {
-    fprintf(file, "from %g to %g%s%s", key->low, key->high, key->unit[0] ? " " : "", key->unit);
+    fputs("from ", file);
+    print_limit(key->low, file);
+    fputs(" to ", file);
+    print_limit(key->high, file);
+    fprintf(file, "%s%s", key->unit[0] ? " " : "", key->unit);
 }
 
 static const char *noun(const OzKey *key)
@@ -134,27 +152,41 @@ static size_t name_at(const char *start, char name[LONGEST_NAME + 1])
     return length;
 }
 
+/* How far `meant` is from the row's name within the group, which begins at group; *length is that
+ * name's end. A name that belongs elsewhere must be spelled right. */
+static int how_far(const OzKey *key, const char *path, size_t group, size_t *length)
+{
+    char name[LONGEST_NAME + 1];
+    size_t own = group_length(key->path);
+    name_at(key->path + own, name);
+    if (strcmp(path + group, name) == 0) {
+        *length = own + strlen(name);
+        return 1;
+    }
+    if (strncmp(key->path, path, group) != 0) {
+        return LONGEST_NAME;
+    }
+    *length = group + name_at(key->path + group, name);
+    return distance(path + group, name);
+}
+
 bool oz_describe_nearest(const char *path, char *nearest, size_t size)
 {
     size_t group = group_length(path);
-    const char *meant = path + group;
-    if (strlen(meant) > LONGEST_NAME) {
+    size_t letters = strlen(path + group);
+    if (letters > LONGEST_NAME) {
         return false;
     }
     /* A third of the letters wrong is still a slip of the hand; more is another word. */
-    int best = (int)strlen(meant) / 3 + 1;
+    int best = (int)letters / 3 + 1;
     bool found = false;
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
-        bool same_group = strncmp(key->path, path, group) == 0;
-        size_t start = same_group ? group : group_length(key->path);
-        char name[LONGEST_NAME + 1];
-        size_t length = name_at(key->path + start, name);
-        /* A name of another group must be spelled right. */
-        int away = same_group ? distance(meant, name) : strcmp(meant, name) == 0 ? 1 : best;
-        if (away < best && length) {
+        size_t length = 0;
+        int away = how_far(key, path, group, &length);
+        if (away < best) {
             best = away;
             found = true;
-            snprintf(nearest, size, "%.*s", (int)(start + length), key->path);
+            snprintf(nearest, size, "%.*s", (int)length, key->path);
         }
     }
     return found;

@@ -8,9 +8,9 @@
 #include <yaml.h>
 
 enum {
-    DEEPEST = 32,     /* scenes need 5; the builder and all that walks the tree recurse       */
-    MOST_KEYS = 1000, /* in one map; the search for duplicates is quadratic                   */
-    LARGEST_TEXT = 1 << 24
+    DEEPEST = 32,           /* scenes need 5; the builder and all that walks the tree recurse */
+    MOST_KEYS = 1000,       /* in one map; the search for duplicates is quadratic             */
+    LARGEST_TEXT = 1 << 21, /* 10000 populations; the worst text makes a tree 60 times its size */
 };
 
 typedef struct Builder {
@@ -264,7 +264,7 @@ OzStatus oz_document_parse(OzNode **root, const char *text, size_t length, const
     *root = NULL;
     Builder builder = {.text = text, .length = length, .source = source, .faults = faults};
     if (length > LARGEST_TEXT) {
-        return STOP(&builder, 1, "the file has %zu bytes; expected at most %d (16 MiB)", length,
+        return STOP(&builder, 1, "the file has %zu bytes; expected at most %d", length,
                     LARGEST_TEXT);
     }
     if (!yaml_parser_initialize(&builder.parser)) {

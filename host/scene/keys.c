@@ -315,13 +315,6 @@ size_t oz_keys_size(const OzKey *key)
 _Static_assert(sizeof(OzIntegrator) == sizeof(int) && sizeof(int64_t) == sizeof(double),
                "enums are stored as int, integers and numbers in eight bytes");
 
-static const char *reload_name(OzReload reload)
-{
-    static const char *const NAMES[] = {
-        [OZ_RELOAD_REFUSE] = "no", [OZ_RELOAD_APPLY] = "yes", [OZ_RELOAD_REBUILD] = "rebuild"};
-    return NAMES[reload];
-}
-
 static void print_default(const OzKey *key, FILE *file)
 {
     if (key->required) {
@@ -356,6 +349,6 @@ void oz_keys_print(FILE *file)
         fprintf(file, "%s\n    %s\n    %s; ", key->path, key->help, expected);
         print_default(key, file);
         print_kinds(key, file);
-        fprintf(file, "; changes while running: %s\n", reload_name(key->reload));
+        fputc('\n', file);
     }
 }

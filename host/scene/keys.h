@@ -27,7 +27,7 @@ typedef enum OzKeyType {
     OZ_KEY_EXTENDS  /* nothing: used up before keys are read                       */
 } OzKeyType;
 
-/* What a change of this key asks of a running simulation. */
+/* What a change of this key asks of a running simulation, for a live reload. */
 typedef enum OzReload { OZ_RELOAD_REFUSE, OZ_RELOAD_APPLY, OZ_RELOAD_REBUILD } OzReload;
 
 /* When a row is written back. */
@@ -72,7 +72,7 @@ const char *oz_keys_choice_name(const char *path, int value);
 /* The bytes that a row's value takes at its offset, without what it points to. */
 size_t oz_keys_size(const OzKey *key);
 
-/* Every key: type, unit, range, default, reload class and meaning. */
+/* Every key: meaning, type, range, unit, default and, for items, its kinds. */
 void oz_keys_print(FILE *file);
 
 #endif

@@ -2,20 +2,26 @@
 #include "scene/layers.h"
 
 #include "base/memory.h"
+#include "scene/document.h"
 #include "scene/keys.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The entry of map that says in another way what `name` would, or NULL. */
-static OzNode *rival_of(const OzNode *map, const char *name)
+static const OzKey *key_of(const OzNode *map, const char *name)
 {
     char path[256];
     oz_tree_path(map, true, path, sizeof path);
     size_t used = strlen(path);
     snprintf(path + used, sizeof path - used, "%s%s", used ? "." : "", name);
-    const OzKey *key = oz_keys_find(path);
+    return oz_keys_find(path);
+}
+
+/* The entry of map that says in another way what `name` would, or NULL. */
+static OzNode *rival_of(const OzNode *map, const char *name)
+{
+    const OzKey *key = key_of(map, name);
     return key && key->rival ? oz_tree_child(map, key->rival) : NULL;
 }
 
@@ -80,6 +86,23 @@ static void put_item(OzNode *list, const char *name, OzNode *value, OzFaults *fa
     oz_tree_free(old);
 }
 
+/* What stands at `name` of map before anything was written there: a list's default, so that
+ * gravity.2 can be set alone, else an empty group. */
+static OzStatus make_entry(OzNode **entry, OzNode *map, const char *name, const OzSource *source,
+                           OzFaults *faults)
+{
+    OzStatus status = OZ_OK;
+    const OzKey *key = key_of(map, name);
+    if (key && key->fallback && key->fallback[0] == '[') {
+        OZ_TRY(oz_document_parse(entry, key->fallback, strlen(key->fallback), source, faults));
+    } else {
+        OZ_TRY(oz_tree_create(entry, OZ_NODE_MAP, source, 1, NULL, NULL));
+    }
+    OZ_TRY(put_entry(map, name, *entry));
+done:
+    return status;
+}
+
 /* The group or list in which the path's next name is looked up: the entry `name` of node, made if
  * missing. *next stays NULL, with a fault, where there is no way. */
 static OzStatus enter(OzNode *node, const char *name, const OzSource *source, OzNode **next,
@@ -87,10 +110,10 @@ static OzStatus enter(OzNode *node, const char *name, const OzSource *source, Oz
 {
     OzStatus status = OZ_OK;
     OzNode *child = oz_tree_at(node, name);
-    bool replaced = child && child->kind == OZ_NODE_SCALAR && node->kind == OZ_NODE_MAP;
-    if ((!child && node->kind == OZ_NODE_MAP) || replaced) {
-        OZ_TRY(oz_tree_create(&child, OZ_NODE_MAP, source, 1, name, NULL));
-        OZ_TRY(put_entry(node, name, child));
+    bool scalar = child && child->kind == OZ_NODE_SCALAR;
+    *next = NULL;
+    if (node->kind == OZ_NODE_MAP && (!child || scalar)) {
+        OZ_TRY(make_entry(&child, node, name, source, faults));
     }
     if (!child || child->kind == OZ_NODE_SCALAR) {
         char path[256];

@@ -243,9 +243,8 @@ static bool is_asked_for(const OzKey *key, const Place *place)
     for (const char *dot = strchr(key->path + start, '.'); dot; dot = strchr(dot + 1, '.')) {
         snprintf(path, sizeof path, "%.*s", (int)(dot - key->path), key->path);
         const OzNode *group = oz_tree_at((OzNode *)(uintptr_t)place->node, path + start);
-        const OzKey *section = oz_keys_find(path);
-        bool absent = !group || (section && is_false(group));
-        if (section ? absent : group && group->kind != OZ_NODE_MAP && !oz_tree_is_empty(group)) {
+        bool absent = !group && oz_keys_find(path);
+        if (absent || (group && group->kind != OZ_NODE_MAP && !oz_tree_is_empty(group))) {
             return false;
         }
     }
@@ -272,7 +271,7 @@ static void check_required(const Reader *reader, const Place *place)
 
 static unsigned read_kind(const char *prefix, const OzNode *item)
 {
-    char path[LONGEST_PATH];
+    char path[LONGEST_PATH + 8];
     snprintf(path, sizeof path, "%skind", prefix);
     const OzKey *key = oz_keys_find(path);
     const OzNode *node = oz_tree_child(item, "kind");
@@ -329,7 +328,7 @@ done:
     return status;
 }
 
-OzStatus oz_read_scene(OzScene *scene, const OzNode *root, OzFaults *faults)
+OzStatus oz_read_scene(OzScene *scene, const OzNode *root, bool whole, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
     Reader reader = {scene, faults, root};
@@ -338,7 +337,9 @@ OzStatus oz_read_scene(OzScene *scene, const OzNode *root, OzFaults *faults)
     OZ_TRY(read_map(&reader, root, &place, false));
     inherit(&reader, &place);
     OZ_TRY(read_map(&reader, root, &place, true));
-    check_required(&reader, &place);
+    if (whole) {
+        check_required(&reader, &place);
+    }
 done:
     return status;
 }

@@ -6,7 +6,8 @@
 #include "scene/tree.h"
 
 /* Puts every default and then every written value into a zeroed scene. Adds faults for unknown,
- * missing, contradicting and wrong values, which keep their defaults. */
-OzStatus oz_read_scene(OzScene *scene, const OzNode *root, OzFaults *faults);
+ * contradicting and wrong values, which keep their defaults, and, when the tree is whole, for
+ * missing ones. */
+OzStatus oz_read_scene(OzScene *scene, const OzNode *root, bool whole, OzFaults *faults);
 
 #endif

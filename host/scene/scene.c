@@ -22,6 +22,7 @@ typedef struct Loader {
     char **labels; /* of the settings and the extended file                 */
     OzFaults faults;
     OzNode *root;
+    bool whole; /* what the scene extends was found and read                    */
 } Loader;
 
 /* The folder part of a path in a new text; NULL for the working folder. */
@@ -140,6 +141,7 @@ static OzStatus extend(Loader *loader)
 {
     OzStatus status = OZ_OK;
     OzNode *base = NULL, *deeper = NULL, *extends = take_extends(loader->root);
+    loader->whole = !extends;
     if (!extends) {
         goto done;
     }
@@ -158,6 +160,7 @@ static OzStatus extend(Loader *loader)
                       "extends in a file that is itself extended; expected one level only");
     }
     OZ_TRY(oz_layers_merge(loader->root, base));
+    loader->whole = true;
 done:
     oz_tree_free(extends);
     oz_tree_free(deeper);
@@ -208,7 +211,7 @@ static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_
     for (int i = 0; i < setting_count; i++) {
         OZ_TRY(parse_setting(loader, settings[i], i));
     }
-    OZ_TRY(oz_read_scene(scene, loader->root, &loader->faults));
+    OZ_TRY(oz_read_scene(scene, loader->root, loader->whole, &loader->faults));
     OZ_TRY(oz_check_scene(scene, loader->root, &loader->faults));
 done:
     return status;

@@ -1,0 +1,299 @@
+/* Scenes: what a good file gives, and what a bad one is told. */
+#include "base/file.h"
+#include "scene/keys.h"
+#include "scene/scene.h"
+
+#include <glob.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define SMALL                                                                                      \
+    "model: rods\n"                                                                                \
+    "time: {step: 1e-5, duration: 1}\n"                                                            \
+    "contact: {contact_time: 1e-3, restitution: 0.5}\n"                                            \
+    "grains: []\n"
+
+#define SHAKEN SMALL "walls:\n  - kind: plane\n    motion: {frequency: 30, acceleration_ratio: 2}\n"
+
+/* The arguments `settings, setting_count`. */
+#define SETTINGS(...)                                                                              \
+    (char *[]){__VA_ARGS__}, (int)(sizeof((char *[]){__VA_ARGS__}) / sizeof(char *))
+
+static OzScene parse(const char *text, char *const *settings, int count)
+{
+    OzScene scene;
+    if (oz_scene_parse(&scene, "scenes/small.yaml", text, settings, count) != OZ_OK) {
+        fail_msg("%s", oz_status_text());
+    }
+    return scene;
+}
+
+static void expect_error(const char *text, const char *message, char *const *settings, int count)
+{
+    OzScene scene;
+    assert_int_equal(oz_scene_parse(&scene, "small.yaml", text, settings, count), OZ_ERR_INPUT);
+    assert_string_equal(oz_status_text(), message);
+    assert_null(scene.name);
+}
+
+static void fills_in_defaults(void **state)
+{
+    (void)state;
+    OzScene scene = parse(SMALL, NULL, 0);
+    assert_string_equal(scene.name, "small");
+    assert_true(scene.contact.friction == 0.3);
+    assert_true(scene.contact.tangential_stiffness == 2.0 / 7.0);
+    assert_true(scene.contact.tangential_damping == 2.0 / 7.0);
+    assert_int_equal(scene.contact.slip, OZ_SLIP_CUT);
+    assert_int_equal(scene.contact.contact_point, OZ_POINT_MIDPOINT);
+    assert_true(scene.gyroscopic);
+    assert_true(scene.gravity[2] == -9.81);
+    assert_int_equal(scene.integrator, OZ_INTEGRATOR_SYMPLECTIC_EULER);
+    assert_int_equal(scene.precision, OZ_PRECISION_FLOAT);
+    assert_int_equal(scene.observe.samples_per_tap, 16);
+    assert_true(scene.observe.interval == 0.01);
+    assert_true(scene.observe.layer_thickness == 0.004);
+    assert_false(scene.movie.present || scene.settle.present);
+    assert_int_equal(scene.movie.width, 1280);
+    assert_int_equal(scene.movie.view_count, 2);
+    assert_int_equal(scene.movie.views[1], OZ_VIEW_CUT);
+    oz_scene_free(&scene);
+    oz_scene_free(&scene);
+}
+
+static void reads_an6(void **state)
+{
+    (void)state;
+    OzScene scene;
+    assert_int_equal(oz_scene_load(&scene, ORZO_SCENES "/an6.yaml", NULL, 0), OZ_OK);
+    assert_true(scene.period == 1.0 / 30);
+    assert_true(scene.duration == 4134 * scene.period);
+    assert_true(scene.observe.interval == scene.period);
+    assert_true(scene.snapshots.times[1] == 300 * scene.period);
+    assert_int_equal(scene.populations[0].count, 1000);
+    assert_true(scene.populations[0].fill == 0.15);
+    assert_int_equal(scene.integrator, OZ_INTEGRATOR_EULER);
+    assert_int_equal(scene.contact.contact_point, OZ_POINT_SURFACES);
+    /* A = 2 g / (2 pi 30)^2, to the digits given here. */
+    assert_true(fabs(scene.walls[0].motion.amplitude - 5.5220045e-4) < 1e-11);
+    assert_true(scene.walls[1].contact.friction == 0.1);
+    oz_scene_free(&scene);
+}
+
+/* What a scene is, as text; the caller frees it. */
+static char *written(const char *path, char *const *settings, int count)
+{
+    OzScene scene;
+    char *text = NULL;
+    size_t length = 0;
+    if (oz_scene_load(&scene, path, settings, count) != OZ_OK) {
+        fail_msg("%s", oz_status_text());
+    }
+    FILE *file = open_memstream(&text, &length);
+    assert_int_equal(oz_scene_write(&scene, file), OZ_OK);
+    fclose(file);
+    oz_scene_free(&scene);
+    return text;
+}
+
+static void extends_key_by_key(void **state)
+{
+    (void)state;
+    char *base = written(ORZO_SCENES "/an6.yaml",
+                         SETTINGS("contact.restitution=0.1", "title=an3, Pournin et al. 2005"));
+    char *other = written(ORZO_SCENES "/an3.yaml", NULL, 0);
+    assert_string_equal(base, other);
+    free(base);
+    free(other);
+    base =
+        written(ORZO_SCENES "/an6.yaml",
+                SETTINGS("grains=[{kind: random, count: 1414, diameter: 0.523e-3, aspect: 2.83}]",
+                         "title=an9, Pournin et al. 2005"));
+    other = written(ORZO_SCENES "/an9.yaml", NULL, 0);
+    assert_string_equal(base, other);
+    free(base);
+    free(other);
+}
+
+static void settings_replace(void **state)
+{
+    (void)state;
+    OzScene scene = parse(SHAKEN, SETTINGS("time.taps=30", "walls.0.motion.amplitude=1e-3",
+                                           "contact.friction=0.2", "movie=", "gravity.2=-1.6"));
+    assert_true(scene.taps == 30 && scene.duration == 30 * scene.period);
+    assert_true(scene.walls[0].motion.amplitude == 1e-3);
+    double omega = 2 * acos(-1) * 30;
+    assert_true(fabs(scene.walls[0].motion.acceleration_ratio / (1e-3 * omega * omega / 1.6) - 1) <
+                1e-14); /* a few roundings */
+    assert_true(scene.walls[0].contact.friction == 0.2);
+    assert_true(scene.movie.present && scene.movie.speed == 1);
+    oz_scene_free(&scene);
+    scene = parse(SHAKEN, SETTINGS("time.taps=3", "movie.length=3", "movie=false"));
+    assert_false(scene.movie.present);
+    oz_scene_free(&scene);
+}
+
+static void walls_have_their_own_contact(void **state)
+{
+    (void)state;
+    OzScene scene = parse(SHAKEN "    contact: {restitution: 0.9, tangential_stiffness: 0.5}\n"
+                                 "  - {kind: cylinder, diameter: 1}\n",
+                          SETTINGS("contact.friction=0.7"));
+    const OzContactValues *own = &scene.walls[0].contact, *none = &scene.walls[1].contact;
+    assert_true(own->restitution == 0.9 && own->friction == 0.7 && own->contact_time == 1e-3);
+    assert_true(own->tangential_stiffness == 0.5 && own->tangential_damping == 0.5);
+    assert_memory_equal(none, &scene.contact, sizeof *none);
+    oz_scene_free(&scene);
+    scene = parse(SHAKEN "    contact: {tangential_stiffness: 0.5}\n",
+                  SETTINGS("contact.tangential_damping=0.1"));
+    assert_true(scene.walls[0].contact.tangential_damping == 0.1);
+    oz_scene_free(&scene);
+}
+
+static char *golden_of(const char *path)
+{
+    char name[256], *text = NULL;
+    snprintf(name, sizeof name, "%.*s.expected", (int)(strlen(path) - strlen(".yaml")), path);
+    if (oz_file_read(&text, NULL, name) != OZ_OK) {
+        fail_msg("%s", oz_status_text());
+    }
+    text[strcspn(text, "\n") ? strlen(text) - 1 : 0] = '\0';
+    return text;
+}
+
+static void tells_what_is_wrong(void **state)
+{
+    (void)state;
+    glob_t files;
+    assert_int_equal(glob("bad/*.yaml", 0, NULL, &files), 0);
+    assert_true(files.gl_pathc >= 25);
+    for (size_t i = 0; i < files.gl_pathc; i++) {
+        OzScene scene;
+        char *golden = golden_of(files.gl_pathv[i]);
+        assert_int_equal(oz_scene_load(&scene, files.gl_pathv[i], NULL, 0), OZ_ERR_INPUT);
+        assert_string_equal(oz_status_text(), golden);
+        free(golden);
+    }
+    globfree(&files);
+}
+
+static void tells_what_is_wrong_with_settings(void **state)
+{
+    (void)state;
+    expect_error(SMALL,
+                 "--set contact.friction=much: contact.friction is much; expected a number "
+                 "from 0 to 1e6",
+                 SETTINGS("contact.friction=much"));
+    expect_error(SMALL,
+                 "--set contact.fricton=1: unknown key contact.fricton; did you mean "
+                 "contact.friction?",
+                 SETTINGS("contact.fricton=1"));
+    expect_error(SHAKEN,
+                 "--set walls.7.kind=plane: walls has no group 7; expected one of its 1, "
+                 "counted from 0",
+                 SETTINGS("walls.7.kind=plane"));
+    expect_error(SHAKEN,
+                 "--set time.taps=3: time.taps contradicts duration; expected one of the two",
+                 SETTINGS("time.duration=3", "time.taps=3"));
+    expect_error(SMALL, "--set friction: no key and value; expected --set key=value",
+                 SETTINGS("friction"));
+    expect_error(SMALL,
+                 "--set extends=a.yaml: extends cannot be set; expected it in the scene file",
+                 SETTINGS("extends=a.yaml"));
+    expect_error(SMALL "seed: x\n",
+                 "small.yaml:5: seed is x; expected a whole number from 0 to 9.2e18\n"
+                 "--set time.step=0: time.step is 0; expected a number from 1e-12 to 1 s",
+                 SETTINGS("time.step=0"));
+}
+
+static char *repeat(const char *head, const char *part, size_t count)
+{
+    size_t length = strlen(part);
+    char *text = malloc(strlen(head) + count * length + 1);
+    assert_non_null(text);
+    strcpy(text, head);
+    char *end = text + strlen(head);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(end + i * length, part, length + 1);
+    }
+    return text;
+}
+
+static void expect_refusal(char *text, const char *message)
+{
+    OzScene scene;
+    assert_int_equal(oz_scene_parse(&scene, "huge.yaml", text, NULL, 0), OZ_ERR_INPUT);
+    if (!strstr(oz_status_text(), message)) {
+        fail_msg("%.300s", oz_status_text());
+    }
+    free(text);
+}
+
+static void refuses_huge_files(void **state)
+{
+    (void)state;
+    expect_refusal(repeat("", "# filler\n", 1000000), "huge.yaml:1: the file has 9000000 bytes");
+    expect_refusal(repeat("a: ", "[", 100000), "nested deeper than 32");
+    expect_refusal(repeat("", "{a: ", 100000), "nested deeper than 32");
+    expect_refusal(repeat(SMALL, "seed: 1\n", 100000), "... and 99899 more");
+    expect_refusal(repeat(SMALL "title: [", "a, ", 100000), "expected valid YAML");
+    expect_refusal(repeat(SMALL "walls:\n", "- {kind: plane}\n", 10001),
+                   "walls is a list of 10001");
+    char *keys = repeat(SMALL, "k0000: 1\n", 1100);
+    for (int i = 0; i < 1100; i++) {
+        char *digits = keys + strlen(SMALL) + 9 * (size_t)i + 1;
+        digits[0] = (char)('0' + i / 1000), digits[1] = (char)('0' + i / 100 % 10);
+        digits[2] = (char)('0' + i / 10 % 10), digits[3] = (char)('0' + i % 10);
+    }
+    expect_refusal(keys, "more than 1000 keys in one group");
+}
+
+static void rows_are_complete(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    oz_keys_print(file);
+    fclose(file);
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        assert_ptr_equal(oz_keys_find(key->path), key);
+        assert_non_null(key->help);
+        assert_non_null(key->unit);
+        assert_true(!key->rival || key->write != OZ_WRITE_ALWAYS);
+        assert_true(!key->inherits || oz_keys_find(key->inherits));
+        assert_non_null(strstr(text, key->path));
+        bool has_default = key->fallback || key->fallback_help || key->inherits;
+        assert_false(has_default && key->required);
+    }
+    free(text);
+    assert_string_equal(oz_keys_choice_name("integrator", OZ_INTEGRATOR_VELOCITY_VERLET),
+                        "velocity-verlet");
+    assert_string_equal(oz_keys_choice_name("integrator", 3), "?");
+    assert_string_equal(oz_keys_choice_name("seed", 0), "?");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fills_in_defaults),
+        cmocka_unit_test(reads_an6),
+        cmocka_unit_test(extends_key_by_key),
+        cmocka_unit_test(settings_replace),
+        cmocka_unit_test(walls_have_their_own_contact),
+        cmocka_unit_test(tells_what_is_wrong),
+        cmocka_unit_test(tells_what_is_wrong_with_settings),
+        cmocka_unit_test(refuses_huge_files),
+        cmocka_unit_test(rows_are_complete),
+    };
+    if (chdir(ORZO_TESTS) != 0) {
+        return 1;
+    }
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
