@@ -7,16 +7,25 @@
 #include "draw/image.h"
 #include "observe/snapshot.h"
 
+#include <stdbool.h>
+#include <stdio.h>
+
 typedef enum OzGlBackend { OZ_GL_AUTO, OZ_GL_EGL, OZ_GL_OSMESA } OzGlBackend;
 
-/* What a picture shows. */
+/* What a picture shows. Start from oz_renderer_look and change size, views and colour at will: the
+ * framing is in metres and holds for any of them. */
 typedef struct OzLook {
-    int width, height;  /* pixels */
+    int width, height; /* pixels, 64 to 8192 a side, any aspect */
     OzView views[2];
-    int view_count;     /* 1, or 2 side by side */
+    int view_count; /* 1, or 2 side by side */
     OzColour colour;
     double height_low, height_high; /* m: the vertical range that the camera frames */
-    double speed_high;  /* m/s at the top of the colour bar, for OZ_COLOUR_SPEED */
+    double speed_high;              /* m/s at the top of the colour bar, for OZ_COLOUR_SPEED */
+    double centre[2];               /* m: x and y at the middle of the picture */
+    double half_width; /* m: what is framed to the left and right of the middle, and in depth */
+    double cut;        /* m: the cut view shows what lies at y above this */
+    double elevation;  /* rad: how far above the horizon the camera stands */
+    bool bare;         /* grains alone on white: no container, no overlay */
 } OzLook;
 
 typedef struct OzRenderer OzRenderer;
@@ -26,14 +35,21 @@ typedef struct OzRenderer OzRenderer;
 OzStatus oz_renderer_create(OzRenderer **renderer, OzGlBackend backend, const char *source_dir);
 void oz_renderer_free(OzRenderer *renderer); /* NULL is fine */
 
-/* "EGL, Mesa ..., llvmpipe ...", for logs and metadata. */
+/* "EGL surfaceless, OpenGL ... Mesa ..., llvmpipe ...", for logs and metadata. */
 const char *oz_renderer_name(const OzRenderer *renderer);
 
-/* The look for a scene's movie settings, framing this snapshot's bed. */
+/* The look for a scene's movie settings (1280x720, both views and angle without any), framing this
+ * snapshot's bed and its walls with room above for bouncing. Meant to be taken once, from the
+ * settled bed, and kept, so that pictures do not jitter. */
 OzLook oz_renderer_look(const OzScene *scene, const OzSnapshot *snapshot);
 
-/* Draws into image, which has the look's size. */
+/* Draws into image, which has the look's size. Fails with OZ_ERR_GRAPHICS, beyond the driver's
+ * largest picture too. */
 OzStatus oz_renderer_draw(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
                           OzImage *image);
+
+/* For `orzo devices`: one line for each GL back-end, what it gives or why it is refused. Call it
+ * before any renderer or OpenCL device exists in this process: it forks. */
+void oz_renderer_describe(FILE *file);
 
 #endif

@@ -1,0 +1,127 @@
+/* The camera's place and the picture's division from a look alone. Knows neither GL nor grains. */
+#include "draw/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Distance of the eye in units (a unit is about half the framed size): far enough that parallel
+ * rods look parallel, near enough that the depth is felt. */
+static const double EYE_DISTANCE = 14;
+
+/* Below this size the overlay would cover the grains. */
+enum { OVERLAY_MIN_WIDTH = 240, OVERLAY_MIN_HEIGHT = 160 };
+
+static double font_size(const OzLook *look)
+{
+    if (look->bare || look->width < OVERLAY_MIN_WIDTH || look->height < OVERLAY_MIN_HEIGHT) {
+        return 0;
+    }
+    return fmax(9, fmin(look->height / 34.0, look->width / 44.0));
+}
+
+static void stand(OzCamera *camera, const OzLook *look)
+{
+    double s = sin(look->elevation), c = cos(look->elevation);
+    const double axes[3][3] = {{1, 0, 0}, {0, s, c}, {0, -c, s}};
+    double half_height = 0.5 * (look->height_high - look->height_low);
+    memcpy(camera->axes, axes, sizeof axes);
+    camera->centre[0] = look->centre[0];
+    camera->centre[1] = look->centre[1];
+    camera->centre[2] = 0.5 * (look->height_low + look->height_high);
+    camera->unit = fmax(fmax(half_height, look->half_width), 1e-12);
+    camera->distance = EYE_DISTANCE;
+    camera->depth = 1.5 * (look->half_width * c + half_height * s) / camera->unit;
+}
+
+/* The largest scale at which the framed volume fits the area, seen from the camera's height. */
+static void fit(OzCamera *camera, const OzLook *look, double width, double height)
+{
+    double half_height = 0.5 * (look->height_high - look->height_low);
+    double across = 2 * look->half_width / camera->unit;
+    double upright =
+        2 * (half_height * cos(look->elevation) + look->half_width * sin(look->elevation)) /
+        camera->unit;
+    /* What stands in front of the centre looks larger. */
+    double nearer = camera->distance / (camera->distance - look->half_width / camera->unit);
+    camera->scale = fmin(width / across, height / upright) / nearer;
+    camera->content_width = across * nearer * camera->scale;
+    camera->content_height = upright * nearer * camera->scale;
+}
+
+/* Views stand side by side about the picture's middle, not much further apart than they are wide.
+ */
+static void divide(OzCamera *camera, const OzLook *look, double left, double right, double middle_y)
+{
+    double share = (right - left) / look->view_count;
+    double pitch = fmin(share, 1.7 * camera->content_width);
+    double middle = 0.5 * (left + right);
+    camera->panel_count = look->view_count;
+    for (int i = 0; i < look->view_count; i++) {
+        OzPanel *panel = &camera->panels[i];
+        panel->middle_x = middle + pitch * (i - 0.5 * (look->view_count - 1));
+        panel->middle_y = middle_y;
+        panel->x = i == 0 ? 0 : (int)lround(middle);
+        panel->width = (i == look->view_count - 1 ? look->width : (int)lround(middle)) - panel->x;
+    }
+}
+
+/* Blank borders for the overlay, in text sizes beside the margin: the colour bar's column on the
+ * right (as much on the left where there is room), captions below, the heading above. */
+static void place(OzCamera *camera, const OzLook *look, double heading)
+{
+    double font = camera->font;
+    double margin = font > 0 ? 0.8 * font : 0.02 * fmin(look->width, look->height);
+    double right = look->width - margin - 6 * font;
+    double left = margin + (look->width > 1.3 * look->height ? 6 * font : 0);
+    double top = margin + heading * font, bottom = look->height - margin - 1.3 * font;
+    double gaps = look->view_count > 1 ? 1.12 : 1.0;
+    fit(camera, look, (right - left) / look->view_count / gaps, bottom - top);
+    divide(camera, look, left, right, 0.5 * (top + bottom));
+}
+
+OzCamera oz_camera_make(const OzLook *look)
+{
+    OzCamera camera = {.font = font_size(look)};
+    stand(&camera, look);
+    /* Beside slender containers the heading's second line finds room; above wide ones it needs
+     * some. */
+    place(&camera, look, 1.8);
+    if (camera.panels[0].middle_x - 0.5 * camera.content_width < 14 * camera.font) {
+        place(&camera, look, 3.2);
+    }
+    return camera;
+}
+
+OzBox oz_camera_box(const OzCamera *camera, const OzLook *look, int panel, const double low[2],
+                    const double high[2])
+{
+    enum { BORDER = 4 }; /* pixels: lines and samples beside the content */
+    const OzPanel *p = &camera->panels[panel];
+    double scale = camera->scale,
+           half[2] = {0.5 * camera->content_width, 0.5 * camera->content_height};
+    double left = p->middle_x + fmin(-half[0], scale * low[0]) - BORDER;
+    double right = p->middle_x + fmax(half[0], scale * high[0]) + BORDER;
+    double top = p->middle_y - fmax(half[1], scale * high[1]) - BORDER;
+    double bottom = p->middle_y - fmin(-half[1], scale * low[1]) + BORDER;
+    OzBox box = {.x = (int)fmax(left, p->x), .y = (int)fmax(top, 0)};
+    box.width = (int)fmax(fmin(right, p->x + p->width) - box.x, 0);
+    box.height = (int)fmax(fmin(bottom, look->height) - box.y, 0);
+    return box;
+}
+
+void oz_camera_turn(const OzCamera *camera, const double world[3], double view[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const double *axis = camera->axes[i];
+        view[i] = axis[0] * world[0] + axis[1] * world[1] + axis[2] * world[2];
+    }
+}
+
+void oz_camera_see(const OzCamera *camera, const double world[3], double view[3])
+{
+    double offset[3];
+    for (int i = 0; i < 3; i++) {
+        offset[i] = (world[i] - camera->centre[i]) / camera->unit;
+    }
+    oz_camera_turn(camera, offset, view);
+}

@@ -1,0 +1,46 @@
+/* Where the camera stands, and how the picture is divided. View coordinates have their origin at
+ * the middle of what is framed, x to the right, y up and z towards the eye; their unit is a length
+ * of the scene's size, so that all coordinates in shaders are of order one. */
+#ifndef OZ_DRAW_CAMERA_H
+#define OZ_DRAW_CAMERA_H
+
+#include "draw/renderer.h"
+
+/* A view's part of the picture, pixels from the top left. */
+typedef struct OzPanel {
+    int x, width;              /* columns that the view may paint; it has all rows            */
+    double middle_x, middle_y; /* where the origin of view coordinates comes to lie   */
+} OzPanel;
+
+/* Pixels from the top left. */
+typedef struct OzBox {
+    int x, y, width, height;
+} OzBox;
+
+typedef struct OzCamera {
+    double centre[3];  /* m, world: the origin of view coordinates           */
+    double axes[3][3]; /* unit vectors x, y, z of view coordinates, in the world */
+    double unit;       /* m: one unit of view coordinates                    */
+    double distance;   /* units from the eye to the centre                   */
+    double scale;      /* pixels per unit at the centre's depth              */
+    double depth;      /* units: depths from -depth to depth are told apart  */
+    double font;       /* pixels: the overlay's text size; 0 leaves it out   */
+    double content_width, content_height; /* pixels that the framed volume covers     */
+    int panel_count;
+    OzPanel panels[2];
+} OzCamera;
+
+OzCamera oz_camera_make(const OzLook *look);
+
+/* The part of a panel where framed things, or anything between low and high (view coordinates x and
+ * y), can appear. */
+OzBox oz_camera_box(const OzCamera *camera, const OzLook *look, int panel, const double low[2],
+                    const double high[2]);
+
+/* A point of the world in view coordinates. */
+void oz_camera_see(const OzCamera *camera, const double world[3], double view[3]);
+
+/* A direction of the world (not scaled) in view coordinates. */
+void oz_camera_turn(const OzCamera *camera, const double world[3], double view[3]);
+
+#endif

@@ -1,0 +1,460 @@
+/* Meshes of the container's walls. Knows no grains. */
+#include "draw/container.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+enum {
+    SEGMENTS = 96,      /* of a circle: below a tenth of a pixel from round at 1000 pixels */
+    POLYGON_LIMIT = 160 /* corners of a floor: a circle's and those that clipping adds     */
+};
+
+static const float FLOOR[4] = {0.855f, 0.865f, 0.885f, 1.0f};
+static const float EDGE[4] = {0.42f, 0.46f, 0.53f, 0.85f};
+static const float FAINT[4] = {0.42f, 0.46f, 0.53f, 0.40f};
+
+/* What every mesh maker needs to know. */
+typedef struct Scope {
+    const OzSnapshot *snapshot;
+    const OzLook *look;
+    const OzCamera *camera;
+    OzView view;
+    double radius; /* m, of the narrowest cylinder; 0 without one */
+} Scope;
+
+typedef struct Polygon {
+    double points[POLYGON_LIMIT][3]; /* m, world */
+    int count;
+} Polygon;
+
+OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    const char *colour = (const char *)NULL + offsetof(OzCorner, rgba);
+    memset(container, 0, sizeof *container);
+    container->gl = gl;
+    OZ_TRY(oz_gl_program(gl, &container->program, source_dir, "mesh", ""));
+    gl->GenVertexArrays(1, &container->vertices);
+    gl->BindVertexArray(container->vertices);
+    gl->GenBuffers(1, &container->buffer);
+    gl->BindBuffer(GL_ARRAY_BUFFER, container->buffer);
+    gl->EnableVertexAttribArray(0);
+    gl->EnableVertexAttribArray(1);
+    gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OzCorner), NULL);
+    gl->VertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(OzCorner), colour);
+    OZ_TRY(oz_gl_check(gl, "preparing the container's buffer"));
+done:
+    return status;
+}
+
+void oz_container_free(OzContainer *container)
+{
+    if (container->gl) {
+        container->gl->DeleteProgram(container->program);
+        container->gl->DeleteBuffers(1, &container->buffer);
+        container->gl->DeleteVertexArrays(1, &container->vertices);
+    }
+    free(container->floors.corners);
+    free(container->behind.corners);
+    free(container->before.corners);
+    memset(container, 0, sizeof *container);
+}
+
+static void add_corner(OzMesh *mesh, const double view[3], const float rgba[4])
+{
+    if (mesh->status == OZ_OK && mesh->count == mesh->capacity) {
+        size_t wanted = mesh->capacity ? 2 * mesh->capacity : 2048;
+        mesh->status = oz_memory_grow((void **)&mesh->corners, mesh->capacity, wanted,
+                                      sizeof *mesh->corners, "container mesh");
+        mesh->capacity = mesh->status == OZ_OK ? wanted : mesh->capacity;
+    }
+    if (mesh->status == OZ_OK) {
+        OzCorner *corner = &mesh->corners[mesh->count++];
+        for (int i = 0; i < 3; i++) {
+            corner->place[i] = (GLfloat)view[i];
+        }
+        memcpy(corner->rgba, rgba, sizeof corner->rgba);
+    }
+}
+
+/* Corners in order around; the first pair has one colour, the second another. */
+static void add_quad(OzMesh *mesh, double view[4][3], const float near_rgba[4],
+                     const float far_rgba[4])
+{
+    static const int order[6] = {0, 1, 2, 0, 2, 3};
+    for (int i = 0; i < 6; i++) {
+        add_corner(mesh, view[order[i]], order[i] < 2 ? near_rgba : far_rgba);
+    }
+}
+
+/* A line of the given width in pixels, turned towards the eye. */
+static void add_line(OzMesh *mesh, const Scope *scope, const double from[3], const double to[3],
+                     double width, const float rgba[4])
+{
+    double ends[2][3], corners[4][3];
+    oz_camera_see(scope->camera, from, ends[0]);
+    oz_camera_see(scope->camera, to, ends[1]);
+    double along[2] = {ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]};
+    double length = hypot(along[0], along[1]);
+    if (!(length > 1e-9)) {
+        return;
+    }
+    double half = 0.5 * width / scope->camera->scale / length;
+    for (int i = 0; i < 4; i++) {
+        double side = i == 0 || i == 3 ? half : -half;
+        memcpy(corners[i], ends[i / 2], sizeof corners[i]);
+        corners[i][0] -= side * along[1];
+        corners[i][1] += side * along[0];
+    }
+    add_quad(mesh, corners, rgba, rgba);
+}
+
+static double line_width(const Scope *scope)
+{
+    return fmax(1.0, 0.0021 * scope->look->height);
+}
+
+static void on_circle(const Scope *scope, double angle, double z, double point[3])
+{
+    point[0] = scope->radius * cos(angle);
+    point[1] = scope->radius * sin(angle);
+    point[2] = z;
+}
+
+static void add_arc(OzMesh *mesh, const Scope *scope, double z, double from, double to,
+                    const float rgba[4])
+{
+    for (int i = 0; i < SEGMENTS / 2; i++) {
+        double points[2][3];
+        on_circle(scope, from + (to - from) * 2 * i / SEGMENTS, z, points[0]);
+        on_circle(scope, from + (to - from) * 2 * (i + 1) / SEGMENTS, z, points[1]);
+        add_line(mesh, scope, points[0], points[1], line_width(scope), rgba);
+    }
+}
+
+static void add_band(OzMesh *mesh, const Scope *scope, const double angles[2], double low,
+                     double high, float rgba[2][4])
+{
+    double world[4][3], view[4][3];
+    on_circle(scope, angles[0], low, world[0]);
+    on_circle(scope, angles[0], high, world[1]);
+    on_circle(scope, angles[1], high, world[2]);
+    on_circle(scope, angles[1], low, world[3]);
+    for (int k = 0; k < 4; k++) {
+        oz_camera_see(scope->camera, world[k], view[k]);
+    }
+    add_quad(mesh, view, rgba[0], rgba[1]);
+}
+
+/* Glass is seen best where one looks along it; a streak of light makes the front look round. */
+static void glass_colour(double angle, bool front, float rgba[4])
+{
+    double edge = pow(fabs(cos(angle)), 5);
+    double streak = exp(-pow((angle - 1.32 * PI) / 0.10, 2));
+    double alpha = front ? 0.02 + 0.30 * edge + 0.16 * streak : 0.16 + 0.22 * edge;
+    double white = front ? 0.16 * streak / alpha : 0;
+    rgba[0] = (float)(0.66 + (1 - 0.66) * white);
+    rgba[1] = (float)(0.74 + (1 - 0.74) * white);
+    rgba[2] = (float)(0.83 + (1 - 0.83) * white);
+    rgba[3] = (float)alpha;
+}
+
+static void add_glass(OzMesh *mesh, const Scope *scope, double from, bool front)
+{
+    for (int i = 0; i < SEGMENTS / 2; i++) {
+        double angles[2] = {from + 2 * PI * i / SEGMENTS, from + 2 * PI * (i + 1) / SEGMENTS};
+        float rgba[2][4];
+        glass_colour(angles[0], front, rgba[0]);
+        glass_colour(angles[1], front, rgba[1]);
+        add_band(mesh, scope, angles, scope->look->height_low, scope->look->height_high, rgba);
+    }
+}
+
+/* The edge of the floor's body, lighter where the glass turns towards the light. */
+static void piston_colour(double angle, float rgba[4])
+{
+    float light = (float)(0.74 + 0.13 * fmax(cos(angle - 1.35 * PI), 0));
+    rgba[0] = light;
+    rgba[1] = light + 0.012f;
+    rgba[2] = light + 0.032f;
+    rgba[3] = 1;
+}
+
+/* A level floor is the top of a piston, seen from the side or sliced. */
+static void add_piston(OzContainer *container, const Scope *scope, double z)
+{
+    double low = scope->look->height_low;
+    bool cut = scope->view == OZ_VIEW_CUT;
+    if (z <= low) {
+        return;
+    }
+    for (int i = 0; i < (cut ? 1 : SEGMENTS / 2); i++) {
+        double step = cut ? PI : 2 * PI / SEGMENTS;
+        double angles[2] = {PI + i * step, PI + (i + 1) * step};
+        float rgba[2][4];
+        piston_colour(cut ? 1.6 * PI : angles[0], rgba[0]);
+        piston_colour(cut ? 1.6 * PI : angles[1], rgba[1]);
+        add_band(&container->before, scope, angles, low, z, rgba);
+    }
+    if (!cut) {
+        add_arc(&container->before, scope, z, PI, 2 * PI, FAINT);
+        return;
+    }
+    for (int edge = 0; edge < 2; edge++) {
+        double from[3] = {-scope->radius, 0, edge ? z : low};
+        double to[3] = {scope->radius, 0, from[2]};
+        add_line(&container->before, scope, from, to, line_width(scope), EDGE);
+    }
+}
+
+static void add_cylinder(OzContainer *container, const Scope *scope)
+{
+    double low = scope->look->height_low, high = scope->look->height_high;
+    bool cut = scope->view == OZ_VIEW_CUT;
+    add_glass(&container->behind, scope, 0, false);
+    add_arc(&container->behind, scope, low, 0, PI, FAINT);
+    add_arc(&container->behind, scope, high, 0, PI, EDGE);
+    for (int side = -1; side <= 1; side += 2) {
+        double foot[3] = {side * scope->radius, 0, low}, top[3] = {side * scope->radius, 0, high};
+        add_line(&container->before, scope, foot, top, line_width(scope), EDGE);
+    }
+    if (!cut) {
+        add_glass(&container->before, scope, PI, true);
+        add_arc(&container->before, scope, low, PI, 2 * PI, EDGE);
+        add_arc(&container->before, scope, high, PI, 2 * PI, EDGE);
+    }
+}
+
+/* Keeps the part of a convex polygon where normal . (p - point) >= 0. */
+static void clip(Polygon *polygon, const double point[3], const double normal[3])
+{
+    Polygon kept = {.count = 0};
+    for (int i = 0; i < polygon->count; i++) {
+        const double *a = polygon->points[i], *b = polygon->points[(i + 1) % polygon->count];
+        double height_a = 0, height_b = 0;
+        for (int k = 0; k < 3; k++) {
+            height_a += normal[k] * (a[k] - point[k]);
+            height_b += normal[k] * (b[k] - point[k]);
+        }
+        if (height_a >= 0 && kept.count < POLYGON_LIMIT) {
+            memcpy(kept.points[kept.count++], a, sizeof kept.points[0]);
+        }
+        if ((height_a >= 0) != (height_b >= 0) && kept.count < POLYGON_LIMIT) {
+            double *crossing = kept.points[kept.count++];
+            double share = height_a / (height_a - height_b);
+            for (int k = 0; k < 3; k++) {
+                crossing[k] = a[k] + share * (b[k] - a[k]);
+            }
+        }
+    }
+    *polygon = kept;
+}
+
+static void wall_point(const Scope *scope, int row, double point[3])
+{
+    memcpy(point, scope->snapshot->scene->walls[row].point, 3 * sizeof *point);
+    point[2] += scope->snapshot->wall_offset[row];
+}
+
+/* Where a plane that is not upright closes the cylinder. */
+static void plane_in_cylinder(Polygon *polygon, const Scope *scope, const double point[3],
+                              const double normal[3])
+{
+    polygon->count = fabs(normal[2]) > 0.05 ? SEGMENTS : 0;
+    for (int i = 0; i < polygon->count; i++) {
+        double *p = polygon->points[i];
+        on_circle(scope, 2 * PI * i / SEGMENTS, 0, p);
+        p[2] =
+            point[2] - (normal[0] * (p[0] - point[0]) + normal[1] * (p[1] - point[1])) / normal[2];
+    }
+}
+
+/* A square of the plane about the picture's middle, larger than what is framed. */
+static void plane_square(Polygon *polygon, const Scope *scope, const double point[3],
+                         const double n[3])
+{
+    const double *centre = scope->camera->centre;
+    double size = 8 * scope->camera->unit, height = 0;
+    int least = fabs(n[0]) < fabs(n[1]) ? 0 : 1;
+    least = fabs(n[2]) < fabs(n[least]) ? 2 : least;
+    double e[3] = {0}, f[3];
+    for (int k = 0; k < 3; k++) {
+        e[k] = (k == least) - n[least] * n[k];
+        height += n[k] * (centre[k] - point[k]);
+    }
+    double length = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+    for (int k = 0; k < 3; k++) {
+        e[k] /= length;
+    }
+    f[0] = n[1] * e[2] - n[2] * e[1];
+    f[1] = n[2] * e[0] - n[0] * e[2];
+    f[2] = n[0] * e[1] - n[1] * e[0];
+    polygon->count = 4;
+    for (int i = 0; i < 4; i++) {
+        double along = i == 0 || i == 3 ? -size : size, across = i < 2 ? -size : size;
+        for (int k = 0; k < 3; k++) {
+            polygon->points[i][k] = centre[k] - height * n[k] + along * e[k] + across * f[k];
+        }
+    }
+}
+
+/* The framed box, and the free side of every other plane. */
+static void clip_to_scene(Polygon *polygon, const Scope *scope, int row)
+{
+    const OzLook *look = scope->look;
+    const OzScene *scene = scope->snapshot->scene;
+    for (int side = -1; side <= 1; side += 2) {
+        double point[3] = {
+            look->centre[0] - side * look->half_width, look->centre[1] - side * look->half_width,
+            side > 0 ? look->height_low - 0.02 * scope->camera->unit : look->height_high};
+        clip(polygon, point, (const double[3]){side, 0, 0});
+        clip(polygon, point, (const double[3]){0, side, 0});
+        clip(polygon, point, (const double[3]){0, 0, side});
+    }
+    for (int w = 0; w < scene->wall_count; w++) {
+        if (w != row && scene->walls[w].kind == OZ_WALL_PLANE) {
+            double point[3];
+            wall_point(scope, w, point);
+            clip(polygon, point, scene->walls[w].normal);
+        }
+    }
+}
+
+static void add_outline(OzMesh *mesh, const Scope *scope, const Polygon *polygon,
+                        const float rgba[4])
+{
+    for (int i = 0; i < polygon->count; i++) {
+        add_line(mesh, scope, polygon->points[i], polygon->points[(i + 1) % polygon->count],
+                 line_width(scope), rgba);
+    }
+}
+
+static void add_filled(OzMesh *mesh, const Scope *scope, const Polygon *polygon,
+                       const float rgba[4])
+{
+    for (int i = 1; i + 1 < polygon->count; i++) {
+        const int corners[3] = {0, i, i + 1};
+        for (int k = 0; k < 3; k++) {
+            double view[3];
+            oz_camera_see(scope->camera, polygon->points[corners[k]], view);
+            add_corner(mesh, view, rgba);
+        }
+    }
+}
+
+/* A plane whose free side faces the eye is a floor or a back wall; others would hide the grains and
+ * are outlines. */
+static void add_plane(OzContainer *container, const Scope *scope, int row)
+{
+    const OzWall *wall = &scope->snapshot->scene->walls[row];
+    Polygon polygon = {.count = 0};
+    double point[3], normal[3];
+    wall_point(scope, row, point);
+    if (scope->radius > 0) {
+        plane_in_cylinder(&polygon, scope, point, wall->normal);
+    } else {
+        plane_square(&polygon, scope, point, wall->normal);
+        clip_to_scene(&polygon, scope, row);
+    }
+    if (scope->view == OZ_VIEW_CUT) {
+        clip(&polygon, (const double[3]){0, scope->look->cut, 0}, (const double[3]){0, 1, 0});
+    }
+    oz_camera_turn(scope->camera, wall->normal, normal);
+    if (normal[2] > 0) {
+        add_filled(&container->floors, scope, &polygon, FLOOR);
+        add_outline(&container->behind, scope, &polygon, FAINT);
+        if (scope->radius > 0 && wall->normal[2] > 0.999) {
+            add_piston(container, scope, point[2]);
+        }
+    } else {
+        add_outline(&container->before, scope, &polygon, FAINT);
+    }
+}
+
+static double narrowest_radius(const OzScene *scene)
+{
+    double radius = 0;
+    for (int w = 0; w < scene->wall_count; w++) {
+        double own = 0.5 * scene->walls[w].diameter;
+        if (scene->walls[w].kind == OZ_WALL_CYLINDER && (radius <= 0 || own < radius)) {
+            radius = own;
+        }
+    }
+    return radius;
+}
+
+OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, const OzLook *look,
+                            const OzCamera *camera, OzView view)
+{
+    Scope scope = {snapshot, look, camera, view, narrowest_radius(snapshot->scene)};
+    OzMesh *meshes[3] = {&container->floors, &container->behind, &container->before};
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < 3; i++) {
+        meshes[i]->count = 0;
+        meshes[i]->status = OZ_OK;
+    }
+    for (int w = 0; w < snapshot->scene->wall_count; w++) {
+        if (snapshot->scene->walls[w].kind == OZ_WALL_PLANE) {
+            add_plane(container, &scope, w);
+        }
+    }
+    if (scope.radius > 0) {
+        add_cylinder(container, &scope);
+    }
+    for (int i = 0; i < 3 && status == OZ_OK; i++) {
+        status = meshes[i]->status;
+    }
+    return status;
+}
+
+static void draw_mesh(const OzContainer *container, const OzMesh *mesh, const OzCamera *camera,
+                      double width, double height)
+{
+    const OzGl *gl = container->gl;
+    if (!mesh->count) {
+        return;
+    }
+    gl->UseProgram(container->program);
+    gl->Uniform4f(gl->GetUniformLocation(container->program, "lens"),
+                  (float)(2 * camera->scale / width), (float)(2 * camera->scale / height),
+                  (float)camera->distance, (float)camera->depth);
+    gl->BindVertexArray(container->vertices);
+    gl->BindBuffer(GL_ARRAY_BUFFER, container->buffer);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->count * sizeof *mesh->corners),
+                   mesh->corners, GL_STREAM_DRAW);
+    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)mesh->count);
+}
+
+void oz_container_draw_behind(const OzContainer *container, const OzCamera *camera, double width,
+                              double height)
+{
+    const OzGl *gl = container->gl;
+    draw_mesh(container, &container->floors, camera, width, height);
+    gl->DepthMask(GL_FALSE);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_mesh(container, &container->behind, camera, width, height);
+    gl->Disable(GL_BLEND);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthMask(GL_TRUE);
+}
+
+void oz_container_draw_before(const OzContainer *container, const OzCamera *camera, double width,
+                              double height)
+{
+    const OzGl *gl = container->gl;
+    gl->DepthMask(GL_FALSE);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_mesh(container, &container->before, camera, width, height);
+    gl->Disable(GL_BLEND);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthMask(GL_TRUE);
+}

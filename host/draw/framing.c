@@ -1,0 +1,168 @@
+/* A steady framing from walls and the first bed. Knows no GL. */
+#include "draw/framing.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* High enough that the floor and the bed's surface are seen as areas, low enough that the cut plane
+ * is seen nearly straight on. */
+static const double ELEVATION = 11 * 3.14159265358979323846 / 180;
+
+/* The space that the picture must hold, m. */
+typedef struct Room {
+    double low[3], high[3];
+} Room;
+
+double oz_framing_round_up(double x)
+{
+    double power = pow(10, floor(log10(x)));
+    double steps[] = {1, 2, 5, 10};
+    for (int i = 0; i < 3; i++) {
+        if (x <= steps[i] * power * (1 + 1e-9)) {
+            return steps[i] * power;
+        }
+    }
+    return 10 * power;
+}
+
+static Room grain_room(const OzSnapshot *snapshot)
+{
+    Room room = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (int64_t i = 0; i < snapshot->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            double middle = snapshot->position[3 * i + k];
+            double reach = 0.5 * (snapshot->grains->diameter[i] +
+                                  snapshot->grains->length[i] * fabs(snapshot->axis[3 * i + k]));
+            room.low[k] = fmin(room.low[k], middle - reach);
+            room.high[k] = fmax(room.high[k], middle + reach);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(room.low[k]) || !isfinite(room.high[k])) {
+            room.low[k] = k == 2 ? 0 : -0.005;
+            room.high[k] = k == 2 ? 0.01 : 0.005;
+        }
+    }
+    return room;
+}
+
+static double cylinder_radius(const OzScene *scene)
+{
+    double radius = INFINITY;
+    for (int w = 0; w < scene->wall_count; w++) {
+        if (scene->walls[w].kind == OZ_WALL_CYLINDER) {
+            radius = fmin(radius, 0.5 * scene->walls[w].diameter);
+        }
+    }
+    return radius;
+}
+
+/* Room to bounce into: the floor's whole stroke and a throw at its highest speed. */
+static double bounce(const OzScene *scene)
+{
+    double gravity =
+        sqrt(scene->gravity[0] * scene->gravity[0] + scene->gravity[1] * scene->gravity[1] +
+             scene->gravity[2] * scene->gravity[2]);
+    double most = 0;
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzMotion *motion = &scene->walls[w].motion;
+        if (motion->present && gravity > 0) {
+            double speed = 2 * PI * motion->frequency * motion->amplitude;
+            most = fmax(most, 2 * motion->amplitude + 0.5 * speed * speed / gravity);
+        }
+    }
+    return most;
+}
+
+/* Straight walls end the room where they stand: at the lowest point of their motion if they are
+ * floors (and a little lower, to show the floor's body), and the highest if they are lids. */
+static void close_by_planes(Room *room, const OzScene *scene)
+{
+    double body = 0.03 * (room->high[2] - room->low[2]);
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        for (int k = 0; k < 3 && wall->kind == OZ_WALL_PLANE; k++) {
+            double stroke = k == 2 && wall->motion.present ? wall->motion.amplitude : 0;
+            if (wall->normal[k] > 0.99) {
+                room->low[k] = wall->point[k] - stroke - (k == 2 ? body : 0);
+            } else if (wall->normal[k] < -0.99) {
+                room->high[k] = wall->point[k] + stroke;
+            }
+        }
+    }
+}
+
+static void widen(Room *room, const OzScene *scene)
+{
+    double height = room->high[2] - room->low[2];
+    double wide = fmax(room->high[0] - room->low[0], room->high[1] - room->low[1]);
+    double margin = 0.15 * fmax(wide, 0.5 * height);
+    for (int k = 0; k < 2; k++) {
+        room->low[k] -= margin;
+        room->high[k] += margin;
+    }
+    room->low[2] -= 0.02 * height;
+    room->high[2] += fmax(0.08 * height, fmin(bounce(scene), 0.6 * height));
+}
+
+/* The scale of speed: what a moving floor gives, else what a fall through the bed gives, else what
+ * there is. */
+static double typical_speed(const OzScene *scene, const OzSnapshot *snapshot, double height)
+{
+    double speed = 0;
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzMotion *motion = &scene->walls[w].motion;
+        if (motion->present) {
+            speed = fmax(speed, 2.5 * PI * motion->frequency * motion->amplitude);
+        }
+    }
+    if (!(speed > 0)) {
+        speed = sqrt(2 * height * fabs(scene->gravity[2]));
+    }
+    for (int64_t i = 0; i < snapshot->count && !(speed > 0); i++) {
+        const double *v = &snapshot->velocity[3 * i];
+        speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    return speed > 0 ? oz_framing_round_up(speed) : 1;
+}
+
+static void take_settings(OzLook *look, const OzMovieSettings *movie)
+{
+    if (movie->present) {
+        look->width = movie->width;
+        look->height = movie->height;
+        look->view_count = movie->view_count;
+        look->views[0] = movie->views[0];
+        look->views[1] = movie->views[1];
+        look->colour = movie->colour;
+    }
+}
+
+OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
+{
+    OzLook look = {.width = 1280,
+                   .height = 720,
+                   .views = {OZ_VIEW_LATERAL, OZ_VIEW_CUT},
+                   .view_count = 2,
+                   .colour = OZ_COLOUR_ANGLE,
+                   .elevation = ELEVATION};
+    Room room = grain_room(snapshot);
+    double radius = cylinder_radius(scene);
+    take_settings(&look, &scene->movie);
+    widen(&room, scene);
+    close_by_planes(&room, scene);
+    look.height_low = room.low[2];
+    look.height_high = fmax(room.high[2], room.low[2] + 1e-9);
+    if (isfinite(radius)) {
+        look.half_width = radius;
+    } else {
+        double wide = fmax(room.high[0] - room.low[0], room.high[1] - room.low[1]);
+        look.half_width = fmax(0.5 * wide, 1e-9);
+        look.centre[0] = 0.5 * (room.low[0] + room.high[0]);
+        look.centre[1] = 0.5 * (room.low[1] + room.high[1]);
+        look.cut = look.centre[1];
+    }
+    look.speed_high = typical_speed(scene, snapshot, look.height_high - look.height_low);
+    return look;
+}

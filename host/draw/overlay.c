@@ -1,0 +1,209 @@
+/* Setting the overlay on an image. Knows no GL. */
+#include "draw/overlay.h"
+
+#include "draw/framing.h"
+#include "draw/palette.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const float INK[3] = {0.15f, 0.17f, 0.21f};
+static const float PALE[3] = {0.38f, 0.41f, 0.47f};
+
+/* What every part needs. */
+typedef struct Page {
+    const OzFont *font;
+    OzImage *image;
+    const OzSnapshot *snapshot;
+    const OzLook *look;
+    const OzCamera *camera;
+    double size, margin; /* pixels: the text's size, the blank border */
+} Page;
+
+/* place: 0 starts at x, 1 ends there, 0.5 is centred. Long texts shrink to fit the picture. */
+static void write_text(const Page *page, OzWeight weight, double size, double place, double x,
+                       double y, const float rgb[3], const char *text)
+{
+    double width = oz_font_width(page->font, weight, size, text);
+    double most = page->look->width - 2 * page->margin;
+    if (width > most) {
+        size *= most / width;
+        width = most;
+    }
+    double left = fmin(x - place * width, page->look->width - page->margin - width);
+    oz_font_draw(page->font, page->image, weight, size, fmax(left, page->margin), y, rgb, text);
+}
+
+static void fill(const Page *page, double left, double top, double right, double bottom,
+                 const float rgb[3])
+{
+    const OzImage *image = page->image;
+    int y_end = (int)lround(fmin(bottom, image->height));
+    int x_end = (int)lround(fmin(right, image->width));
+    for (int y = (int)lround(fmax(top, 0)); y < y_end; y++) {
+        for (int x = (int)lround(fmax(left, 0)); x < x_end; x++) {
+            uint8_t *pixel = image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+            for (int k = 0; k < 3; k++) {
+                pixel[k] = (uint8_t)lroundf(255 * rgb[k]);
+            }
+        }
+    }
+}
+
+static void add_heading(const Page *page)
+{
+    const OzScene *scene = page->snapshot->scene;
+    const char *title = scene->title && *scene->title ? scene->title : scene->name;
+    double y = page->margin + 0.9 * page->size;
+    char text[96];
+    int used = snprintf(text, sizeof text, "t = %.3f s", page->snapshot->time);
+    if (scene->period > 0) {
+        snprintf(text + used, sizeof text - (size_t)used, "   tap %.1f",
+                 page->snapshot->time / scene->period);
+    }
+    if (title) {
+        write_text(page, OZ_WEIGHT_BOLD, 1.05 * page->size, 0, page->margin, y, INK, title);
+        y += 1.45 * page->size;
+    }
+    write_text(page, OZ_WEIGHT_REGULAR, page->size, 0, page->margin, y, INK, text);
+}
+
+static void add_captions(const Page *page)
+{
+    double y = page->look->height - page->margin - 0.25 * page->size;
+    for (int i = 0; i < page->camera->panel_count; i++) {
+        bool cut = page->look->views[i] == OZ_VIEW_CUT;
+        write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, page->camera->panels[i].middle_x,
+                   y, PALE, cut ? "axial cut" : "lateral view");
+    }
+}
+
+static void length_text(char *text, size_t size, double length)
+{
+    static const struct {
+        double metres;
+        const char *name;
+    } units[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "\xc2\xb5m"}, {1e-9, "nm"}};
+    int row = 0;
+    while (row < 3 && length < 0.1 * units[row].metres * (1 - 1e-9)) {
+        row++;
+    }
+    snprintf(text, size, "%.3g %s", length / units[row].metres, units[row].name);
+}
+
+/* The largest round length of at most about a ninth of the picture. */
+static void add_scale_bar(const Page *page)
+{
+    double pixels_per_metre = page->camera->scale / page->camera->unit;
+    double most = fmax(page->look->width / 9.0, 3 * page->size) / pixels_per_metre;
+    double length = oz_framing_round_up(most * 0.4001);
+    double x = page->margin, y = page->look->height - page->margin;
+    double width = length * pixels_per_metre, thick = fmax(2, 0.14 * page->size);
+    double tick = 0.25 * page->size;
+    char text[32];
+    length_text(text, sizeof text, length);
+    fill(page, x, y - thick, x + width, y, INK);
+    fill(page, x, y - tick - thick, x + 0.6 * thick, y, INK);
+    fill(page, x + width - 0.6 * thick, y - tick - thick, x + width, y, INK);
+    write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, x + 0.5 * width,
+               y - thick - 0.55 * page->size, INK, text);
+}
+
+static void bar_colour(OzColour colour, double share, float rgb[3])
+{
+    if (colour == OZ_COLOUR_AZIMUTH) {
+        oz_palette_cyclic(share, rgb);
+    } else {
+        oz_palette_viridis(share, rgb);
+    }
+}
+
+static void tick_text(const OzLook *look, double share, char *text, size_t size)
+{
+    switch (look->colour) {
+    case OZ_COLOUR_ANGLE:
+        snprintf(text, size, "%.0f\xc2\xb0", 90 * share);
+        break;
+    case OZ_COLOUR_AZIMUTH:
+        snprintf(text, size, "%.0f\xc2\xb0", 180 * share);
+        break;
+    default:
+        snprintf(text, size, "%.3g", look->speed_high * share);
+    }
+}
+
+static void add_colour_bar(const Page *page)
+{
+    static const char *const names[] = {[OZ_COLOUR_ANGLE] = "angle to floor",
+                                        [OZ_COLOUR_AZIMUTH] = "azimuth",
+                                        [OZ_COLOUR_SPEED] = "speed (m/s)"};
+    double right = page->look->width - page->margin, width = 0.85 * page->size;
+    double height = fmin(0.45 * page->look->height, 14 * page->size);
+    double top = 0.5 * (page->look->height - height), left = right - width;
+    int divisions = page->look->colour == OZ_COLOUR_ANGLE ? 3 : 4;
+    for (int row = 0; row < (int)height; row++) {
+        float rgb[3];
+        bar_colour(page->look->colour, 1 - (row + 0.5) / height, rgb);
+        fill(page, left, floor(top) + row, right, floor(top) + row + 1, rgb);
+    }
+    for (int i = 0; i <= divisions; i++) {
+        double y = top + height * (1 - (double)i / divisions);
+        char text[32];
+        tick_text(page->look, (double)i / divisions, text, sizeof text);
+        fill(page, left - 0.3 * page->size, y - 0.5, left, y + 0.5, PALE);
+        write_text(page, OZ_WEIGHT_REGULAR, 0.8 * page->size, 1, left - 0.5 * page->size,
+                   y + 0.29 * page->size, INK, text);
+    }
+    write_text(page, OZ_WEIGHT_REGULAR, 0.85 * page->size, 1, right, top - 0.85 * page->size, INK,
+               names[page->look->colour]);
+}
+
+static void population_text(const OzPopulation *population, char *text, size_t size)
+{
+    char length[32];
+    length_text(length, sizeof length,
+                0.5 * (population->diameter.low + population->diameter.high));
+    if (population->kind == OZ_GRAINS_FILE) {
+        snprintf(text, size, "from file");
+    } else if (population->aspect.high > 0) {
+        snprintf(text, size, "rods %s, %.3g:1", length,
+                 0.5 * (population->aspect.low + population->aspect.high));
+    } else {
+        snprintf(text, size, "spheres %s", length);
+    }
+}
+
+static void add_type_legend(const Page *page)
+{
+    const OzScene *scene = page->snapshot->scene;
+    int rows = scene->population_count < 12 ? scene->population_count : 12;
+    double right = page->look->width - page->margin, box = 0.8 * page->size;
+    double y = 0.5 * page->look->height - 0.75 * rows * page->size;
+    for (int i = 0; i < rows; i++, y += 1.5 * page->size) {
+        float rgb[3];
+        char text[64];
+        oz_palette_type(i, rgb);
+        population_text(&scene->populations[i], text, sizeof text);
+        fill(page, right - box, y, right, y + box, rgb);
+        write_text(page, OZ_WEIGHT_REGULAR, 0.8 * page->size, 1, right - box - 0.5 * page->size,
+                   y + 0.72 * page->size, INK, text);
+    }
+}
+
+void oz_overlay_draw(const OzFont *font, OzImage *image, const OzSnapshot *snapshot,
+                     const OzLook *look, const OzCamera *camera)
+{
+    Page page = {font, image, snapshot, look, camera, camera->font, 0.8 * camera->font};
+    if (!(page.size > 0)) {
+        return;
+    }
+    add_heading(&page);
+    add_captions(&page);
+    add_scale_bar(&page);
+    if (look->colour == OZ_COLOUR_TYPE) {
+        add_type_legend(&page);
+    } else {
+        add_colour_bar(&page);
+    }
+}

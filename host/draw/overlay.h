@@ -1,0 +1,13 @@
+/* What is written on a picture: title, time and tap, captions, scale bar, colour bar. Set on the
+ * finished image. */
+#ifndef OZ_DRAW_OVERLAY_H
+#define OZ_DRAW_OVERLAY_H
+
+#include "draw/camera.h"
+#include "draw/font.h"
+
+/* Does nothing when camera->font is 0. */
+void oz_overlay_draw(const OzFont *font, OzImage *image, const OzSnapshot *snapshot,
+                     const OzLook *look, const OzCamera *camera);
+
+#endif

@@ -1,0 +1,20 @@
+/* Colours: what a grain's colour means, and the colour bar's own. sRGB, 0..1. */
+#ifndef OZ_DRAW_PALETTE_H
+#define OZ_DRAW_PALETTE_H
+
+#include "draw/renderer.h"
+
+/* Dark blue over green to yellow for x from 0 to 1, even in lightness; after viridis (van der Walt
+ * and Smith 2015). Clamped. */
+void oz_palette_viridis(double x, float rgb[3]);
+
+/* Once around the hues, equally light, for x from 0 to 1; wraps. */
+void oz_palette_cyclic(double x, float rgb[3]);
+
+/* A colour told apart from those of the other rows; after eight rows they begin again. */
+void oz_palette_type(int row, float rgb[3]);
+
+/* The colour of grain i; a grain without the quantity (the angle of a sphere) is grey. */
+void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i, float rgb[3]);
+
+#endif

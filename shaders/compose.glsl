@@ -1,0 +1,66 @@
+/* The samples of each pixel become its colour, darkened where nearer things stand around it (Luft,
+ * Colditz & Deussen 2006: a depth buffer against its own surroundings) and faded with depth. Row 0 of
+ * the result is the picture's top. */
+
+#ifdef OZ_VERTEX
+void main()
+{
+    gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);
+}
+#endif
+
+#ifdef OZ_FRAGMENT
+const int PAIRS = 6;
+
+uniform sampler2DMS colours;
+uniform sampler2DMS depths;
+uniform int sample_count;
+uniform int rows;
+uniform vec2 taps[PAIRS]; /* pixels; the other of a pair lies opposite */
+uniform vec4 mood;        /* 1/depth at which a pair darkens fully; darkening; fade */
+uniform vec4 retreat;     /* by depth, by row, constant: how far behind the middle, 0 to 1 */
+uniform vec4 background;
+
+out vec4 result;
+
+/* Depth at a place of the picture; where there is nothing, the depth given, which darkens nothing. */
+float depth_at(ivec2 place, float otherwise)
+{
+    float own = texelFetch(depths, clamp(place, ivec2(0), textureSize(depths) - 1), 0).r;
+    return own < 1.0 ? own : otherwise;
+}
+
+/* How much stands in front of this depth nearby, 0 to 1. Opposite neighbours are taken together, so that
+ * a slanting surface does not darken itself. */
+float crowding(ivec2 place, float depth)
+{
+    float sum = 0.0;
+    int count = depth > 0.0 ? PAIRS : 0; /* a loop is left early where an if is not */
+    for (int i = 0; i < count; i++) {
+        ivec2 tap = ivec2(taps[i]);
+        float nearer = 2.0 * depth - depth_at(place + tap, depth) - depth_at(place - tap, depth);
+        sum += clamp(nearer * mood.x, 0.0, 1.0);
+    }
+    return sum / float(PAIRS);
+}
+
+void main()
+{
+    ivec2 place = ivec2(int(gl_FragCoord.x), rows - 1 - int(gl_FragCoord.y));
+    vec3 rgb = vec3(0.0);
+    float depth = 0.0, filled = 0.0; /* of the samples that hold anything */
+    for (int i = 0; i < sample_count; i++) {
+        float own = texelFetch(depths, place, i).r;
+        rgb += texelFetch(colours, place, i).rgb;
+        depth += own < 1.0 ? own : 0.0;
+        filled += own < 1.0 ? 1.0 : 0.0;
+    }
+    rgb /= float(sample_count);
+    depth /= max(filled, 1.0);
+    filled /= float(sample_count);
+    float behind = retreat.x * depth + retreat.y * float(place.y) + retreat.z;
+    rgb *= 1.0 - mood.y * filled * crowding(place, depth);
+    rgb = mix(rgb, background.rgb, mood.z * filled * clamp(behind, 0.0, 1.0));
+    result = vec4(rgb, 1.0);
+}
+#endif

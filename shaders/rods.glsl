@@ -1,0 +1,168 @@
+/* Spherocylinders (spheres when half_shaft is 0) as ray-cast impostors with exact depth and analytic
+ * coverage of each sample. OZ_SLICED cuts them by a plane and fills the cross-section. */
+
+uniform float pixel; /* view units per pixel at the middle's depth */
+
+#ifdef OZ_VERTEX
+layout(location = 0) in vec4 centre_radius;
+layout(location = 1) in vec4 axis_half;
+layout(location = 2) in vec4 rgb;
+
+flat out vec4 capsule_centre;
+flat out vec4 capsule_axis;
+flat out vec3 capsule_rgb;
+out vec2 offset; /* of this corner from the centre, in the plane z = centre.z */
+
+/* A rectangle in the plane z = centre.z that hides the whole capsule from the eye: both end spheres are
+ * projected onto the plane and covered with a margin of 2 % (their outline is an ellipse off the
+ * picture's middle) and 1.5 pixels (samples beside the outline). */
+void main()
+{
+    vec3 centre = centre_radius.xyz;
+    vec3 reach = axis_half.xyz * axis_half.w;
+    float plane_distance = lens.z - centre.z;
+    vec2 near_scale = plane_distance / (plane_distance - abs(reach.z) * vec2(1.0, -1.0));
+    vec3 toward = reach.z >= 0.0 ? reach : -reach;
+    vec2 ends[2];
+    ends[0] = (centre.xy + toward.xy) * near_scale.x - centre.xy;
+    ends[1] = (centre.xy - toward.xy) * near_scale.y - centre.xy;
+    float margin = 1.02 * centre_radius.w * plane_distance
+        / (plane_distance - abs(reach.z) - centre_radius.w) + 1.5 * pixel;
+    vec2 along = ends[0] - ends[1];
+    along = dot(along, along) > 1e-14 ? normalize(along) : vec2(1.0, 0.0);
+    vec2 across = vec2(-along.y, along.x);
+    float low = min(dot(ends[0], along), dot(ends[1], along)) - margin;
+    float high = max(dot(ends[0], along), dot(ends[1], along)) + margin;
+    float side_low = min(dot(ends[0], across), dot(ends[1], across)) - margin;
+    float side_high = max(dot(ends[0], across), dot(ends[1], across)) + margin;
+    offset = along * ((gl_VertexID & 1) == 0 ? low : high)
+        + across * ((gl_VertexID & 2) == 0 ? side_low : side_high);
+    capsule_centre = centre_radius;
+    capsule_axis = axis_half;
+    capsule_rgb = rgb.rgb;
+    gl_Position = clip_of(vec3(centre.xy + offset, centre.z));
+}
+#endif
+
+#ifdef OZ_FRAGMENT
+uniform vec2 samples[4]; /* pixels: where the samples lie about the pixel's middle */
+uniform vec4 plane;      /* the cut: normal into the half that is kept, and its offset */
+
+flat in vec4 capsule_centre;
+flat in vec4 capsule_axis;
+flat in vec3 capsule_rgb;
+in vec2 offset;
+out vec4 colour;
+
+const vec3 LIGHT = vec3(-0.41, 0.58, 0.70);
+const vec3 HALFWAY = vec3(-0.225, 0.318, 0.921); /* between the light and the eye */
+
+/* Where the ray q + t d (q relative to the centre) meets the capsule, which = -1 for entering and 1 for
+ * leaving; beside the capsule, where it comes closest. The infinite cylinder is met first; if that is
+ * beyond an end, the sphere there decides. spine receives the nearest point's place on the axis. */
+float meet(vec3 q, vec3 d, float which, out float spine)
+{
+    vec3 u = capsule_axis.xyz;
+    float h = capsule_axis.w, r = capsule_centre.w;
+    float uq = dot(u, q), ud = dot(u, d);
+    vec3 w = q - uq * u;
+    float a = max(1.0 - ud * ud, 1e-9), b = dot(w, d), c = dot(w, w) - r * r;
+    float t = (which * sqrt(max(b * b - a * c, 0.0)) - b) / a;
+    float y = uq + t * ud;
+    spine = clamp(y, -h, h);
+    if (y != spine) {
+        vec3 e = q - spine * u;
+        b = dot(e, d);
+        t = which * sqrt(max(b * b - dot(e, e) + r * r, 0.0)) - b;
+    }
+    return t;
+}
+
+/* How far the ray passes beside the capsule's surface; negative when it hits. */
+float miss_distance(vec3 q, vec3 d)
+{
+    vec3 u = capsule_axis.xyz;
+    float uq = dot(u, q), ud = dot(u, d);
+    vec3 w = q - uq * u;
+    float closest = uq - dot(w, d) * ud / max(1.0 - ud * ud, 1e-9);
+    vec3 e = q - clamp(closest, -capsule_axis.w, capsule_axis.w) * u;
+    return length(e - dot(e, d) * d) - capsule_centre.w;
+}
+
+/* Soft light from the upper left, a sky from above, edges darkened so that each rod stands out. */
+vec3 shade(vec3 n, vec3 d)
+{
+    float facing = clamp(-dot(n, d), 0.0, 1.0);
+    float light = 0.58 + 0.42 * max(dot(n, LIGHT), 0.0) + 0.10 * n.y;
+    float shine = max(dot(n, HALFWAY), 0.0);
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    float rim = facing * (2.0 - facing);
+    return mix(capsule_rgb, vec3(1.0), 0.05) * light * mix(0.42, 1.10, rim) + 0.22 * shine * shine;
+}
+
+/* Flat, with a dark outline a seventh of the radius wide, at least a pixel. */
+vec3 shade_section(float inside)
+{
+    float width = max(0.14 * capsule_centre.w, pixel);
+    float fill = clamp((inside - width) / pixel + 0.5, 0.0, 1.0);
+    return mix(0.40 * capsule_rgb, mix(capsule_rgb, vec3(1.0), 0.08), fill);
+}
+
+float axis_distance(vec3 p)
+{
+    return length(p - clamp(dot(p, capsule_axis.xyz), -capsule_axis.w, capsule_axis.w)
+        * capsule_axis.xyz);
+}
+
+void main()
+{
+    vec3 q = vec3(offset, 0.0);
+    vec3 from_eye = vec3(capsule_centre.xy + offset, capsule_centre.z - lens.z);
+    vec3 d = normalize(from_eye);
+    float spine;
+    float miss = miss_distance(q, d);
+    float t = meet(q, d, -1.0, spine);
+    vec2 miss_slope = vec2(dFdx(miss), dFdy(miss));
+#ifdef OZ_SLICED
+    /* Convex: the kept half is hit exactly where the ray leaves the capsule behind the plane. */
+    float last_spine;
+    float start = dot(plane.xyz, capsule_centre.xyz + q) - plane.w;
+    float rise = dot(plane.xyz, d);
+    float left = start + meet(q, d, 1.0, last_spine) * rise;
+    vec2 left_slope = vec2(dFdx(left), dFdy(left));
+    bool section = start + t * rise < 0.0;
+    t = section ? -start / rise : t;
+#endif
+#ifdef GL_ARB_sample_shading
+    int covered = 0;
+    for (int i = 0; i < 4; i++) {
+        bool hit = miss + dot(miss_slope, samples[i]) < 0.0;
+#ifdef OZ_SLICED
+        hit = hit && left + dot(left_slope, samples[i]) > 0.0;
+#endif
+        covered |= hit ? 1 << i : 0;
+    }
+    gl_SampleMask[0] = covered;
+#else
+    bool covered = miss < 0.0;
+#ifdef OZ_SLICED
+    covered = covered && left > 0.0;
+#endif
+    if (!covered) {
+        discard;
+    }
+#endif
+    vec3 p = q + t * d;
+    vec3 rgb = shade((p - spine * capsule_axis.xyz) / capsule_centre.w, d);
+#ifdef OZ_SLICED
+    if (section) {
+        rgb = shade_section(capsule_centre.w - axis_distance(p));
+    }
+#endif
+    gl_FragDepth = depth_of(capsule_centre.z + p.z);
+    colour = vec4(rgb, 1.0);
+}
+#endif
