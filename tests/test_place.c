@@ -1,6 +1,7 @@
 /* Grains at the start: placed at random, in a lattice, alone and from a file. */
 #include "brute.h"
 
+#include "model/bed.h"
 #include "model/place.h"
 
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -342,6 +344,63 @@ static void test_lattice(void **state)
     oz_grains_free(&grains);
 }
 
+static void write_values(FILE *file, const double *values, int count)
+{
+    for (int k = 0; k < count; k++) {
+        fprintf(file, ",%.17g", values[k]);
+    }
+}
+
+static void write_bed(const OzGrains *grains, const char *path)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "%s\n", OZ_BED_HEADER);
+    for (int64_t i = 0; i < grains->count; i++) {
+        double axis[3];
+        oz_grains_axis(&grains->quaternion[4 * i], axis);
+        fprintf(file, "%lld", (long long)i);
+        write_values(file, &grains->position[3 * i], 3);
+        write_values(file, &grains->quaternion[4 * i], 4);
+        write_values(file, axis, 3);
+        write_values(file, &grains->velocity[3 * i], 3);
+        write_values(file, &grains->spin[3 * i], 3);
+        write_values(file, &grains->diameter[i], 1);
+        write_values(file, &grains->length[i], 1);
+        write_values(file, &grains->mass[i], 1);
+        fprintf(file, "\n");
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A bed from a file keeps its bits; random grains listed before it are placed around it. */
+static void test_bed_from_a_file(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/orzo_test_bed_XXXXXX";
+    close(mkstemp(path));
+    OzPopulation rods = random_rods(50);
+    OzScene scene = make_scene(&rods, 1, paper_walls, 2);
+    OzGrains bed, both;
+    assert_int_equal(oz_place_grains(&bed, &scene), OZ_OK);
+    write_bed(&bed, path);
+    OzPopulation populations[2] = {random_rods(100),
+                                   {.kind = OZ_GRAINS_FILE, .count = -1, .path = path}};
+    scene = make_scene(populations, 2, paper_walls, 2);
+    scene.seed = 8;
+    assert_int_equal(oz_place_grains(&both, &scene), OZ_OK);
+    assert_int_equal(both.count, 150);
+    assert_int_equal(both.population[100], 1);
+    assert_memory_equal(&both.position[300], bed.position, 150 * sizeof(double));
+    assert_memory_equal(&both.quaternion[400], bed.quaternion, 200 * sizeof(double));
+    assert_memory_equal(&both.mass[100], bed.mass, 50 * sizeof(double));
+    assert_no_overlaps(&both);
+    assert_inside_paper_walls(&both);
+    oz_grains_free(&bed);
+    oz_grains_free(&both);
+    unlink(path);
+}
+
 static void test_no_grains(void **state)
 {
     (void)state;
@@ -365,6 +424,7 @@ int main(void)
         cmocka_unit_test(test_what_cannot_fit_is_refused),
         cmocka_unit_test(test_long_rods_in_a_tube),
         cmocka_unit_test(test_lattice),
+        cmocka_unit_test(test_bed_from_a_file),
         cmocka_unit_test(test_no_grains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
