@@ -17,7 +17,8 @@ if [ -z "$ORZO_PROGRAM" ]; then
     build_orzo build Release
 fi
 say "running scenes/an6.yaml for $taps taps"
-"$program" run scenes/an6.yaml --set "time.taps=$taps" -o "$out" --overwrite ||
+"$program" run scenes/an6.yaml --set "time.taps=$taps" --set "snapshots.taps=[0, $taps]" \
+    -o "$out" --overwrite ||
     stop "the run failed; see above and $out/log.txt"
 
 say "done. Look at"
