@@ -178,15 +178,16 @@ OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
 }
 #endif
 
-/* Makes steps first ... last of this launch, or ends earlier: control->step says how far it came, and
+/* Makes the launch's steps from control->step to last, or ends earlier: control->step says how far it came, and
  * control->moved that the next step's places are moved already. */
 #if OZ_GROUP > 1
 __attribute__((reqd_work_group_size(OZ_GROUP, 1, 1)))
 #endif
-kernel void oz_advance(OZ_WORK_ARGUMENTS, int first, int last)
+kernel void oz_advance(OZ_WORK_ARGUMENTS, int last)
 {
     OZ_WORK_OPEN((int)get_group_id(0))
-    int item = OZ_WORK_ITEM, stride = OZ_WORK_STRIDE, step = first;
+    int item = OZ_WORK_ITEM, stride = OZ_WORK_STRIDE, step = w.control->step;
+    OZ_WORK_MEET();
     for (; step < last; step++) {
 #if defined(OZ_MOVES_BEFORE)
         if (!w.control->moved) {

@@ -1,5 +1,4 @@
 # Writes one C file that holds every kernel and shader as a byte array, and a table of their names.
-separate_arguments(FILES UNIX_COMMAND "${FILES}")
 set(text "#include \"base/embed.h\"\n\n")
 set(rows "")
 set(index 0)

@@ -1,0 +1,241 @@
+/* Packing grains into lanes and back. */
+#include "compute/pack.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void oz_pack_scalars(void *to, const double *from, size_t count, bool is_double)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (is_double) {
+            ((double *)to)[i] = from[i];
+        } else {
+            ((float *)to)[i] = (float)from[i];
+        }
+    }
+}
+
+static void put(void *words, size_t index, double value, bool is_double)
+{
+    oz_pack_scalars((char *)words + index * (is_double ? sizeof(double) : sizeof(float)), &value, 1,
+                    is_double);
+}
+
+/* A coordinate, in units: an integer's bits in single precision. */
+static void put_place(void *words, size_t index, double units, bool is_double)
+{
+    if (is_double) {
+        ((double *)words)[index] = units;
+    } else {
+        ((int32_t *)words)[index] = (int32_t)units;
+    }
+}
+
+static double get(const void *words, size_t index, bool is_double)
+{
+    return is_double ? ((const double *)words)[index] : (double)((const float *)words)[index];
+}
+
+static double get_place(const void *words, size_t index, bool is_double)
+{
+    return is_double ? ((const double *)words)[index] : (double)((const int32_t *)words)[index];
+}
+
+/* Where word `word` of a slot lies in an array of blocks of `words` words. */
+static size_t lane_index(const OzSwitches *s, int64_t slot, int words, int word)
+{
+    int64_t block = slot / s->lanes, lane = slot % s->lanes;
+    return (size_t)((block * words + word) * s->lanes + lane);
+}
+
+/* Angular momentum for a spin, both in the world frame. */
+static void momentum(const OzGrains *grains, int64_t i, const double axis[3], double out[3])
+{
+    const double *spin = &grains->spin[3 * i];
+    double along = spin[0] * axis[0] + spin[1] * axis[1] + spin[2] * axis[2];
+    for (int c = 0; c < 3; c++) {
+        double extra = (grains->inertia_axis[i] - grains->inertia[i]) * along * axis[c];
+        out[c] = grains->inertia[i] * spin[c] + extra;
+    }
+}
+
+static void put_state(void *state, const OzSwitches *s, const OzParameters *p,
+                      const OzGrains *grains, int64_t slot, int64_t i)
+{
+    bool wide = s->is_double;
+    const double *turn = &grains->quaternion[4 * i];
+    double axis[3], spin[3];
+    oz_grains_axis(turn, axis);
+    memcpy(spin, &grains->spin[3 * i], sizeof spin);
+    if (s->gyroscopic) {
+        momentum(grains, i, axis, spin);
+    }
+    for (int c = 0; c < 3; c++) {
+        double units = grains->position[3 * i + c] / p->length_unit;
+        double whole = wide ? units : rint(units);
+        bool present = slot == i;
+        put_place(state, lane_index(s, slot, OZ_STATE, OZ_S_PLACE + c), whole, wide);
+        put(state, lane_index(s, slot, OZ_STATE, OZ_S_REST + c), units - whole, wide);
+        put(state, lane_index(s, slot, OZ_STATE, OZ_S_VELOCITY + c),
+            present ? grains->velocity[3 * i + c] : 0, wide);
+        put(state, lane_index(s, slot, OZ_STATE, OZ_S_SPIN + c), present ? spin[c] : 0, wide);
+        put(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + c), turn[c + 1], wide);
+    }
+    put(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + 3), turn[0], wide);
+}
+
+static void put_shape(void *shape, const OzSwitches *s, const OzGrains *grains, int64_t slot,
+                      int64_t i)
+{
+    double words[OZ_SHAPE];
+    words[OZ_B_RADIUS] = grains->diameter[i] / 2;
+    words[OZ_B_HALF_LENGTH] = grains->length[i] / 2;
+    words[OZ_B_MASS] = grains->mass[i];
+    words[OZ_B_INVERSE_INERTIA] = 1 / grains->inertia[i];
+    words[OZ_B_INVERSE_AXIS] = 1 / grains->inertia_axis[i];
+    for (int k = 0; k < OZ_SHAPE; k++) {
+        put(shape, lane_index(s, slot, OZ_SHAPE, k), words[k], s->is_double);
+    }
+}
+
+static void put_record(void *record, const OzSwitches *s, const OzParameters *p,
+                       const OzGrains *grains, int64_t slot, int64_t i)
+{
+    bool wide = s->is_double;
+    size_t base = (size_t)slot * OZ_RECORD;
+    double axis[3];
+    oz_grains_axis(&grains->quaternion[4 * i], axis);
+    for (size_t c = 0; c < 3; c++) {
+        double units = grains->position[3 * (size_t)i + c] / p->length_unit;
+        put_place(record, base + OZ_R_PLACE + c, wide ? units : rint(units), wide);
+        put(record, base + OZ_R_SHAFT + c, grains->length[i] / 2 * axis[c], wide);
+        put(record, base + OZ_R_VELOCITY + c, grains->velocity[3 * (size_t)i + c], wide);
+        put(record, base + OZ_R_RATE + c, grains->spin[3 * (size_t)i + c], wide);
+    }
+    put(record, base + OZ_R_RADIUS, grains->diameter[i] / 2, wide);
+    put(record, base + OZ_R_MASS, grains->mass[i], wide);
+}
+
+/* The record of no grain: as far away as differences can bear. */
+static void put_far_record(void *record, const OzSwitches *s, int64_t slot)
+{
+    size_t base = (size_t)slot * OZ_RECORD;
+    put_place(record, base + OZ_R_PLACE, s->is_double ? 1e9 : 0x1p30 - 1, s->is_double);
+    put(record, base + OZ_R_MASS, 1, s->is_double);
+}
+
+OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *parameters,
+                       const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    const OzSwitches *s = &arrays->switches;
+    const OzSizes *z = &arrays->sizes;
+    size_t state_bytes = oz_arrays_bytes(OZ_FIELD_state, s, z);
+    size_t shape_bytes = oz_arrays_bytes(OZ_FIELD_shape, s, z);
+    size_t record_bytes = oz_arrays_bytes(OZ_FIELD_record, s, z);
+    void *state = NULL, *shape = NULL, *record = NULL;
+    int *id = NULL;
+    OZ_TRY(oz_memory_new(&state, state_bytes, 1, "grain state"));
+    OZ_TRY(oz_memory_new(&shape, shape_bytes, 1, "grain shapes"));
+    OZ_TRY(oz_memory_new(&record, record_bytes, 1, "grain records"));
+    OZ_TRY(OZ_NEW(&id, z->slots));
+    for (int slot = 0; slot < z->slots; slot++) {
+        int64_t i = slot < z->count ? slot : 0;
+        id[slot] = slot;
+        put_state(state, s, parameters, grains, slot, i);
+        put_record(record, s, parameters, grains, slot, i);
+        if (shape_bytes > 0) {
+            put_shape(shape, s, grains, slot, i);
+        }
+    }
+    put_far_record(record, s, z->slots);
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_state, member, state, state_bytes));
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_shape, member, shape, shape_bytes));
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_record, member, record, record_bytes));
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_id, member, id, sizeof(int) * (size_t)z->slots));
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_slot_of, member, id, sizeof(int) * (size_t)z->slots));
+done:
+    free(state);
+    free(shape);
+    free(record);
+    free(id);
+    return status;
+}
+
+OzStatus oz_pack_parameters(OzArrays *arrays, int member, const OzParameters *parameters)
+{
+    double narrow[sizeof(OzParameters) / sizeof(double)];
+    size_t count = sizeof(OzParameters) / sizeof(double);
+    oz_pack_scalars(narrow, (const double *)(const void *)parameters, count,
+                    arrays->switches.is_double);
+    return oz_arrays_write(arrays, OZ_FIELD_parameters, member, narrow,
+                           oz_arrays_bytes(OZ_FIELD_parameters, &arrays->switches, &arrays->sizes));
+}
+
+/* Spin for an angular momentum. */
+static void spin_of(const OzGrains *grains, int64_t i, const double axis[3], double spin[3])
+{
+    double along = spin[0] * axis[0] + spin[1] * axis[1] + spin[2] * axis[2];
+    double extra = 1 / grains->inertia_axis[i] - 1 / grains->inertia[i];
+    for (int c = 0; c < 3; c++) {
+        spin[c] = spin[c] / grains->inertia[i] + extra * along * axis[c];
+    }
+}
+
+/* Single precision keeps a quaternion's length to 1e-7 only; files promise more. */
+static void make_unit(double quaternion[4])
+{
+    double sum = 0;
+    for (int c = 0; c < 4; c++) {
+        sum += quaternion[c] * quaternion[c];
+    }
+    for (int c = 0; c < 4; c++) {
+        quaternion[c] /= sqrt(sum);
+    }
+}
+
+static void get_state(const void *state, const OzSwitches *s, const OzParameters *p, int64_t slot,
+                      int64_t i, OzSnapshot *snapshot)
+{
+    bool wide = s->is_double;
+    for (int c = 0; c < 3; c++) {
+        double whole = get_place(state, lane_index(s, slot, OZ_STATE, OZ_S_PLACE + c), wide);
+        double rest = get(state, lane_index(s, slot, OZ_STATE, OZ_S_REST + c), wide);
+        snapshot->position[3 * i + c] = (whole + rest) * p->length_unit;
+        snapshot->velocity[3 * i + c] =
+            get(state, lane_index(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide);
+        snapshot->spin[3 * i + c] = get(state, lane_index(s, slot, OZ_STATE, OZ_S_SPIN + c), wide);
+        snapshot->quaternion[4 * i + c + 1] =
+            get(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + c), wide);
+    }
+    snapshot->quaternion[4 * i] = get(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + 3), wide);
+    make_unit(&snapshot->quaternion[4 * i]);
+    oz_grains_axis(&snapshot->quaternion[4 * i], &snapshot->axis[3 * i]);
+    if (s->gyroscopic) {
+        spin_of(snapshot->grains, i, &snapshot->axis[3 * i], &snapshot->spin[3 * i]);
+    }
+}
+
+OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *parameters,
+                       OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    const OzSwitches *s = &arrays->switches;
+    const OzSizes *z = &arrays->sizes;
+    size_t bytes = oz_arrays_bytes(OZ_FIELD_state, s, z);
+    void *state = NULL;
+    int *id = NULL;
+    OZ_TRY(oz_memory_new(&state, bytes, 1, "grain state"));
+    OZ_TRY(OZ_NEW(&id, z->slots));
+    OZ_TRY(oz_arrays_read(arrays, OZ_FIELD_state, member, state, bytes));
+    OZ_TRY(oz_arrays_read(arrays, OZ_FIELD_id, member, id, sizeof(int) * (size_t)z->slots));
+    for (int slot = 0; slot < z->count; slot++) {
+        get_state(state, s, parameters, slot, id[slot], snapshot);
+    }
+done:
+    free(state);
+    free(id);
+    return status;
+}

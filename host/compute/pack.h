@@ -1,0 +1,23 @@
+/* Grains between the host's arrays by id and the device's words by slot and lane. */
+#ifndef OZ_COMPUTE_PACK_H
+#define OZ_COMPUTE_PACK_H
+
+#include "compute/arrays.h"
+#include "observe/snapshot.h"
+
+/* Writes the start of a member: state, shapes, records, ids. Padding repeats the first grain, at rest; the
+ * record after the last one is far away and serves unused pairs. */
+OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *parameters,
+                       const OzGrains *grains);
+
+/* Writes the parameters in the device's precision. */
+OzStatus oz_pack_parameters(OzArrays *arrays, int member, const OzParameters *parameters);
+
+/* Reads a member's state into snapshot: position, quaternion, axis, velocity, spin. */
+OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *parameters,
+                       OzSnapshot *snapshot);
+
+/* Converts doubles to the device's scalars in place of `to`. */
+void oz_pack_scalars(void *to, const double *from, size_t count, bool is_double);
+
+#endif

@@ -1,0 +1,107 @@
+/* Settling. */
+#include "compute/settle.h"
+
+#include "base/log.h"
+#include "compute/capture.h"
+#include "compute/sim_private.h"
+
+/* Kinetic energy, translational and rotational, over N m g d of the member's grains. */
+static OzStatus energy_ratio(OzSim *sim, int member, double *ratio)
+{
+    OzStatus status = OZ_OK;
+    OzSnapshot now = {0};
+    const OzGrains *grains = sim->members[member].grains;
+    const double *g = sim->members[member].scene->gravity;
+    double energy = 0, scale = 0, gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    OZ_TRY(oz_snapshot_create(&now, sim->members[member].scene, grains));
+    OZ_TRY(oz_capture_snapshot(sim, member, &now, false));
+    for (int64_t i = 0; i < grains->count; i++) {
+        const double *v = &now.velocity[3 * i], *w = &now.spin[3 * i], *u = &now.axis[3 * i];
+        double along = w[0] * u[0] + w[1] * u[1] + w[2] * u[2];
+        double spin2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+        energy += 0.5 * grains->mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        energy += 0.5 * grains->inertia[i] * (spin2 - along * along);
+        energy += 0.5 * grains->inertia_axis[i] * along * along;
+        scale += grains->mass[i] * gravity * grains->diameter[i];
+    }
+    *ratio = scale > 0 ? energy / scale : 0;
+done:
+    oz_snapshot_free(&now);
+    return status;
+}
+
+static OzStatus set_drag(OzSim *sim, double drag)
+{
+    for (int m = 0; m < sim->member_count; m++) {
+        sim->parameters[m].drag = drag;
+    }
+    return oz_sim_write_parameters(sim);
+}
+
+/* Advances to a time, or until the energy is below the threshold (0: to the time). */
+static OzStatus run_until(OzSim *sim, double time, double threshold, OzSettleWatch watch,
+                          void *context)
+{
+    OzStatus status = OZ_OK;
+    double step = sim->members[0].scene->step, worst = 1e300;
+    int64_t last = (int64_t)ceil(time / step - 1e-9);
+    while (sim->step < last && worst >= threshold) {
+        OZ_TRY(oz_sim_launch(sim, last));
+        worst = 0;
+        for (int m = 0; m < sim->member_count; m++) {
+            double ratio = 0;
+            OZ_TRY(energy_ratio(sim, m, &ratio));
+            worst = ratio > worst ? ratio : worst;
+        }
+        if (watch && !watch(context, (double)sim->step * step, worst)) {
+            status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while settling");
+            goto done;
+        }
+    }
+    if (threshold > 0 && worst >= threshold) {
+        oz_log_line("settling: kinetic energy still %.3g N m g d after %.3g s (threshold %.3g)",
+                    worst, time, threshold);
+    }
+done:
+    return status;
+}
+
+/* Time 0: no steps made, nothing added up. */
+static OzStatus start_clock(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    sim->step = 0;
+    sim->walls_still = false;
+    sim->counts = (OzSimCounts){0};
+    for (int m = 0; m < sim->member_count; m++) {
+        double zero[OZ_LEDGER_WORDS * 1024] = {0};
+        size_t bytes =
+            oz_arrays_bytes(OZ_FIELD_ledger, &sim->arrays.switches, &sim->arrays.sizes);
+        OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_ledger, m, zero,
+                               bytes < sizeof zero ? bytes : sizeof zero));
+        sim->control[m].refreshes = 0;
+        sim->control[m].rebuilds = 0;
+    }
+done:
+    return status;
+}
+
+OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context)
+{
+    OzStatus status = OZ_OK;
+    const OzScene *scene = sim->members[0].scene;
+    *seconds = 0;
+    if (!scene->settle.present || sim->arrays.sizes.count == 0) {
+        return OZ_OK;
+    }
+    sim->walls_still = true;
+    OZ_TRY(set_drag(sim, scene->settle.drag));
+    OZ_TRY(run_until(sim, scene->settle.time_max, scene->settle.threshold, watch, context));
+    OZ_TRY(set_drag(sim, 0));
+    double reached = (double)sim->step * scene->step;
+    OZ_TRY(run_until(sim, reached + scene->settle.rest_time, 0, watch, context));
+    *seconds = (double)sim->step * scene->step;
+    OZ_TRY(start_clock(sim));
+done:
+    return status;
+}

@@ -1,0 +1,35 @@
+/* What the files of the simulation share among themselves. */
+#ifndef OZ_COMPUTE_SIM_PRIVATE_H
+#define OZ_COMPUTE_SIM_PRIVATE_H
+
+#include "compute/arrays.h"
+#include "compute/sim.h"
+
+struct OzSim {
+    const OzDevice *device; /* borrowed */
+    OzMember *members;
+    int member_count;
+    OzParameters *parameters; /* one a member, in double                          */
+    OzControl *control;       /* one a member, as last read or to be written next */
+    int wall_order[OZ_WALLS_MAX]; /* scene's wall of each kernel wall             */
+    cl_program program;
+    cl_kernel advance;
+    OzArrays arrays;
+    int64_t step;         /* made since time 0 (or since settling began) */
+    int64_t launch_first; /* step that the launch began with             */
+    int launch_steps;     /* of the next launch                          */
+    bool walls_still;     /* while settling                              */
+    bool primed;          /* velocity-verlet knows its first acceleration */
+    OzSimCounts counts;
+};
+
+/* One launch of exactly so many steps (at most sizes.motion_steps), no first force evaluation. */
+OzStatus oz_sim_steps(OzSim *sim, int steps);
+
+/* Uploads sim->parameters. */
+OzStatus oz_sim_write_parameters(OzSim *sim);
+
+/* The first force evaluation of integrators that need one. */
+OzStatus oz_sim_prime(OzSim *sim);
+
+#endif

@@ -1,0 +1,110 @@
+/* Choosing sizes. */
+#include "compute/sizes.h"
+
+/* Reach of the lists beyond contact, in mean diameters: measured on the tapped bed of Pournin et al. (design:
+ * a larger outer skin is rebuilt less often but holds more pairs; the inner one likewise). */
+static const double outer_skin = 0.8, inner_skin = 0.06;
+
+enum {
+    OUTER_PAIRS = 10, /* a grain, at first; lists grow when that is too few */
+    INNER_PAIRS = 4,
+    BACK_PAIRS = 16,
+    MOTION_STEPS = 8192 /* of one launch */
+};
+
+static int round_up(double count, int to)
+{
+    return (int)(ceil(count / to) * to);
+}
+
+static int power_of_two(double least)
+{
+    int power = 1;
+    while (power < least && power < 1 << 20) {
+        power *= 2;
+    }
+    return power;
+}
+
+static double mean_diameter(const OzGrains *grains)
+{
+    double sum = 0;
+    for (int64_t i = 0; i < grains->count; i++) {
+        sum += grains->diameter[i];
+    }
+    return grains->count > 0 ? sum / (double)grains->count : 1;
+}
+
+/* Extent of the start along each axis, m. */
+static void extents(double size[3], const OzGrains *grains)
+{
+    for (int c = 0; c < 3; c++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int64_t i = 0; i < grains->count; i++) {
+            low = fmin(low, grains->position[3 * i + c]);
+            high = fmax(high, grains->position[3 * i + c]);
+        }
+        size[c] = grains->count > 0 ? high - low : 0;
+    }
+}
+
+/* Cells of the hashed grid. Rods are looked for two cells away, which fits their reach closer than one. The
+ * grid wraps around, so its size is a matter of speed only, as long as no cell is met twice. */
+static void choose_cells(OzSizes *z, OzParameters *p, const OzGrains *grains, const OzSwitches *s)
+{
+    double reach = 2 * p->reach_max + p->skin_outer, size[3];
+    z->reach_cells = s->round ? 1 : 2;
+    double cell = fmax(reach, 1e-300) / z->reach_cells;
+    p->inverse_cell = 1 / cell;
+    extents(size, grains);
+    int least = 2 * z->reach_cells + 2, *cells[3] = {&z->cells_x, &z->cells_y, &z->cells_z};
+    double budget = fmax(64, 4.0 * (double)grains->count);
+    for (int c = 0; c < 3; c++) {
+        double wanted = fmin(size[c] / cell + 1, fmax(budget, least));
+        *cells[c] = power_of_two(fmax(wanted, least));
+    }
+    while ((double)z->cells_x * z->cells_y * z->cells_z > budget) {
+        int *largest = cells[0];
+        for (int c = 1; c < 3; c++) {
+            largest = *cells[c] > *largest ? cells[c] : largest;
+        }
+        if (*largest / 2 < least) {
+            break;
+        }
+        *largest /= 2;
+    }
+    z->cells = z->cells_x * z->cells_y * z->cells_z;
+}
+
+void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const OzGrains *grains,
+                     const OzSwitches *s, int members)
+{
+    double diameter = mean_diameter(grains);
+    *z = (OzSizes){0};
+    p->skin_outer = scene->skin > 0 ? scene->skin : outer_skin * diameter;
+    p->skin_inner = fmin(inner_skin * diameter, p->skin_outer / 2);
+    z->members = members;
+    z->count = (int)grains->count;
+    z->slots = round_up((double)z->count, s->lanes);
+    z->blocks = z->slots / s->lanes;
+    z->region_slots = round_up(fmax(1, ceil((double)z->slots / s->group)), s->lanes);
+    z->regions = (int)fmax(1, ceil((double)z->slots / z->region_slots));
+    double share = fmax(1, (double)z->slots / z->regions);
+    z->outer_capacity = round_up(OUTER_PAIRS * share + 16, s->lanes);
+    z->inner_capacity = round_up(INNER_PAIRS * share + 16, s->lanes);
+    z->back_capacity = BACK_PAIRS;
+    z->motion_steps = MOTION_STEPS;
+    choose_cells(z, p, grains, s);
+}
+
+static int larger_capacity(int now, int needed, int lanes)
+{
+    return needed > now ? round_up(1.25 * needed + lanes, lanes) : now;
+}
+
+void oz_sizes_grow(OzSizes *z, const OzControl *control, const OzSwitches *s)
+{
+    z->outer_capacity = larger_capacity(z->outer_capacity, control->outer_needed, s->lanes);
+    z->inner_capacity = larger_capacity(z->inner_capacity, control->inner_needed, s->lanes);
+    z->back_capacity = larger_capacity(z->back_capacity, control->back_needed, 1);
+}
