@@ -1,10 +1,8 @@
 /* Meshes of the container's walls. Knows no grains. */
 #include "draw/container.h"
 
-#include "base/memory.h"
-
 #include <math.h>
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -59,59 +57,10 @@ void oz_container_free(OzContainer *container)
         container->gl->DeleteBuffers(1, &container->buffer);
         container->gl->DeleteVertexArrays(1, &container->vertices);
     }
-    free(container->floors.corners);
-    free(container->behind.corners);
-    free(container->before.corners);
+    oz_mesh_free(&container->floors);
+    oz_mesh_free(&container->behind);
+    oz_mesh_free(&container->before);
     memset(container, 0, sizeof *container);
-}
-
-static void add_corner(OzMesh *mesh, const double view[3], const float rgba[4])
-{
-    if (mesh->status == OZ_OK && mesh->count == mesh->capacity) {
-        size_t wanted = mesh->capacity ? 2 * mesh->capacity : 2048;
-        mesh->status = oz_memory_grow((void **)&mesh->corners, mesh->capacity, wanted,
-                                      sizeof *mesh->corners, "container mesh");
-        mesh->capacity = mesh->status == OZ_OK ? wanted : mesh->capacity;
-    }
-    if (mesh->status == OZ_OK) {
-        OzCorner *corner = &mesh->corners[mesh->count++];
-        for (int i = 0; i < 3; i++) {
-            corner->place[i] = (GLfloat)view[i];
-        }
-        memcpy(corner->rgba, rgba, sizeof corner->rgba);
-    }
-}
-
-/* Corners in order around; the first pair has one colour, the second another. */
-static void add_quad(OzMesh *mesh, double view[4][3], const float near_rgba[4],
-                     const float far_rgba[4])
-{
-    static const int order[6] = {0, 1, 2, 0, 2, 3};
-    for (int i = 0; i < 6; i++) {
-        add_corner(mesh, view[order[i]], order[i] < 2 ? near_rgba : far_rgba);
-    }
-}
-
-/* A line of the given width in pixels, turned towards the eye. */
-static void add_line(OzMesh *mesh, const Scope *scope, const double from[3], const double to[3],
-                     double width, const float rgba[4])
-{
-    double ends[2][3], corners[4][3];
-    oz_camera_see(scope->camera, from, ends[0]);
-    oz_camera_see(scope->camera, to, ends[1]);
-    double along[2] = {ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]};
-    double length = hypot(along[0], along[1]);
-    if (!(length > 1e-9)) {
-        return;
-    }
-    double half = 0.5 * width / scope->camera->scale / length;
-    for (int i = 0; i < 4; i++) {
-        double side = i == 0 || i == 3 ? half : -half;
-        memcpy(corners[i], ends[i / 2], sizeof corners[i]);
-        corners[i][0] -= side * along[1];
-        corners[i][1] += side * along[0];
-    }
-    add_quad(mesh, corners, rgba, rgba);
 }
 
 static double line_width(const Scope *scope)
@@ -133,7 +82,7 @@ static void add_arc(OzMesh *mesh, const Scope *scope, double z, double from, dou
         double points[2][3];
         on_circle(scope, from + (to - from) * 2 * i / SEGMENTS, z, points[0]);
         on_circle(scope, from + (to - from) * 2 * (i + 1) / SEGMENTS, z, points[1]);
-        add_line(mesh, scope, points[0], points[1], line_width(scope), rgba);
+        oz_mesh_line(mesh, scope->camera, points[0], points[1], line_width(scope), rgba);
     }
 }
 
@@ -148,7 +97,7 @@ static void add_band(OzMesh *mesh, const Scope *scope, const double angles[2], d
     for (int k = 0; k < 4; k++) {
         oz_camera_see(scope->camera, world[k], view[k]);
     }
-    add_quad(mesh, view, rgba[0], rgba[1]);
+    oz_mesh_quad(mesh, view, rgba[0], rgba[1]);
 }
 
 /* Glass is seen best where one looks along it; a streak of light makes the front look round. */
@@ -208,7 +157,7 @@ static void add_piston(OzContainer *container, const Scope *scope, double z)
     for (int edge = 0; edge < 2; edge++) {
         double from[3] = {-scope->radius, 0, edge ? z : low};
         double to[3] = {scope->radius, 0, from[2]};
-        add_line(&container->before, scope, from, to, line_width(scope), EDGE);
+        oz_mesh_line(&container->before, scope->camera, from, to, line_width(scope), EDGE);
     }
 }
 
@@ -221,7 +170,7 @@ static void add_cylinder(OzContainer *container, const Scope *scope)
     add_arc(&container->behind, scope, high, 0, PI, EDGE);
     for (int side = -1; side <= 1; side += 2) {
         double foot[3] = {side * scope->radius, 0, low}, top[3] = {side * scope->radius, 0, high};
-        add_line(&container->before, scope, foot, top, line_width(scope), EDGE);
+        oz_mesh_line(&container->before, scope->camera, foot, top, line_width(scope), EDGE);
     }
     if (!cut) {
         add_glass(&container->before, scope, PI, true);
@@ -329,8 +278,8 @@ static void add_outline(OzMesh *mesh, const Scope *scope, const Polygon *polygon
                         const float rgba[4])
 {
     for (int i = 0; i < polygon->count; i++) {
-        add_line(mesh, scope, polygon->points[i], polygon->points[(i + 1) % polygon->count],
-                 line_width(scope), rgba);
+        oz_mesh_line(mesh, scope->camera, polygon->points[i],
+                     polygon->points[(i + 1) % polygon->count], line_width(scope), rgba);
     }
 }
 
@@ -342,7 +291,7 @@ static void add_filled(OzMesh *mesh, const Scope *scope, const Polygon *polygon,
         for (int k = 0; k < 3; k++) {
             double view[3];
             oz_camera_see(scope->camera, polygon->points[corners[k]], view);
-            add_corner(mesh, view, rgba);
+            oz_mesh_corner(mesh, view, rgba);
         }
     }
 }
@@ -395,8 +344,7 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
     OzMesh *meshes[3] = {&container->floors, &container->behind, &container->before};
     OzStatus status = OZ_OK;
     for (int i = 0; i < 3; i++) {
-        meshes[i]->count = 0;
-        meshes[i]->status = OZ_OK;
+        oz_mesh_clear(meshes[i]);
     }
     for (int w = 0; w < snapshot->scene->wall_count; w++) {
         if (snapshot->scene->walls[w].kind == OZ_WALL_PLANE) {
@@ -430,31 +378,30 @@ static void draw_mesh(const OzContainer *container, const OzMesh *mesh, const Oz
     gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)mesh->count);
 }
 
-void oz_container_draw_behind(const OzContainer *container, const OzCamera *camera, double width,
-                              double height)
+/* Glass and lines lie over what is there, in the order given, and leave its depth alone. */
+static void draw_over(const OzContainer *container, const OzMesh *mesh, const OzCamera *camera,
+                      double width, double height)
 {
     const OzGl *gl = container->gl;
-    draw_mesh(container, &container->floors, camera, width, height);
     gl->DepthMask(GL_FALSE);
     gl->Disable(GL_DEPTH_TEST);
     gl->Enable(GL_BLEND);
     gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    draw_mesh(container, &container->behind, camera, width, height);
+    draw_mesh(container, mesh, camera, width, height);
     gl->Disable(GL_BLEND);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthMask(GL_TRUE);
 }
 
+void oz_container_draw_behind(const OzContainer *container, const OzCamera *camera, double width,
+                              double height)
+{
+    draw_mesh(container, &container->floors, camera, width, height);
+    draw_over(container, &container->behind, camera, width, height);
+}
+
 void oz_container_draw_before(const OzContainer *container, const OzCamera *camera, double width,
                               double height)
 {
-    const OzGl *gl = container->gl;
-    gl->DepthMask(GL_FALSE);
-    gl->Disable(GL_DEPTH_TEST);
-    gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    draw_mesh(container, &container->before, camera, width, height);
-    gl->Disable(GL_BLEND);
-    gl->Enable(GL_DEPTH_TEST);
-    gl->DepthMask(GL_TRUE);
+    draw_over(container, &container->before, camera, width, height);
 }

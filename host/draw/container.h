@@ -5,20 +5,7 @@
 
 #include "draw/camera.h"
 #include "draw/gl.h"
-
-#include <stddef.h>
-
-/* A corner of a coloured triangle, in view coordinates. */
-typedef struct OzCorner {
-    GLfloat place[3], rgba[4];
-} OzCorner;
-
-/* Triangles, three corners each. status remembers that memory ran out. */
-typedef struct OzMesh {
-    OzCorner *corners;
-    size_t count, capacity;
-    OzStatus status;
-} OzMesh;
+#include "draw/mesh.h"
 
 typedef struct OzContainer {
     const OzGl *gl; /* borrowed */
