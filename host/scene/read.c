@@ -91,13 +91,14 @@ static bool is_false(const OzNode *node)
            strcmp(node->text, "false") == 0;
 }
 
-/* True when the node's keys are to be read; a fault when it is neither a group nor left empty. */
-static bool is_group(const Reader *reader, const OzNode *node)
+/* True when the node's keys are to be read; a fault when it is something else, unless it is an
+ * empty group where that is as good as an absent one. */
+static bool is_group(const Reader *reader, const OzNode *node, bool may_be_empty)
 {
     if (node->kind == OZ_NODE_MAP) {
         return true;
     }
-    if (!oz_tree_is_empty(node) && !node->refused) {
+    if (!node->refused && !(may_be_empty && oz_tree_is_empty(node))) {
         char path[LONGEST_PATH], is[128];
         oz_tree_path(node, false, path, sizeof path);
         oz_describe_node(node, is, sizeof is);
@@ -182,8 +183,9 @@ static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, c
     switch (key->type) {
     case OZ_KEY_SECTION:
         *(bool *)oz_value_at(key, place->base) = !is_false(node);
-        return is_false(node) || !is_group(reader, node) ? OZ_OK
-                                                         : read_map(reader, node, place, false);
+        return is_false(node) || !is_group(reader, node, true)
+                   ? OZ_OK
+                   : read_map(reader, node, place, false);
     case OZ_KEY_ITEMS:
         return read_items(reader, key, node);
     case OZ_KEY_EXTENDS:
@@ -212,7 +214,7 @@ static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, 
             OZ_TRY(read_key(reader, key, node, place));
         } else if (!oz_keys_is_group(path)) {
             report_unknown(reader, node, path);
-        } else if (is_group(reader, node)) {
+        } else if (is_group(reader, node, true)) {
             OZ_TRY(read_map(reader, node, place, false));
         }
     }
@@ -287,7 +289,7 @@ static OzStatus read_item(Reader *reader, const OzKey *list, const char *prefix,
                           void *item)
 {
     memcpy((char *)item + list->line_offset, &node->line, sizeof node->line);
-    if (!is_group(reader, node)) {
+    if (!is_group(reader, node, false)) {
         return OZ_OK;
     }
     Place place = {item, prefix, node, read_kind(prefix, node)};

@@ -116,11 +116,14 @@ static OzStatus parse_base(Loader *loader, OzNode **base, const OzNode *extends)
     OZ_TRY(oz_file_join(&loader->labels[1], loader->sources[0].folder, extends->text));
     source->name = loader->labels[1];
     OZ_TRY(folder_of(&source->folder, source->name));
-    if (oz_file_read(&text, &length, source->name) != OZ_OK) {
+    status = oz_file_read(&text, &length, source->name);
+    if (status == OZ_ERR_FILE) {
         oz_faults_add(&loader->faults, extends->source, extends->line, "%s; expected a scene file",
                       oz_status_text());
+        status = OZ_OK;
         goto done;
     }
+    OZ_TRY(status);
     OZ_TRY(parse_file(loader, base, text, length, source));
 done:
     free(text);

@@ -61,21 +61,28 @@ void oz_tree_detach(OzNode *child)
     child->parent = NULL;
 }
 
-OzNode *oz_tree_child(const OzNode *map, const char *key)
+/* The entry named by the first length letters of name. */
+static OzNode *find_entry(const OzNode *map, const char *name, size_t length)
 {
     for (int i = 0; map->kind == OZ_NODE_MAP && i < map->count; i++) {
-        if (strcmp(map->items[i]->key, key) == 0) {
+        const char *key = map->items[i]->key;
+        if (strncmp(key, name, length) == 0 && key[length] == '\0') {
             return map->items[i];
         }
     }
     return NULL;
 }
 
-static OzNode *list_item(const OzNode *list, const char *name)
+OzNode *oz_tree_child(const OzNode *map, const char *key)
+{
+    return find_entry(map, key, strlen(key));
+}
+
+static OzNode *find_item(const OzNode *list, const char *name, size_t length)
 {
     char *end = NULL;
     long index = strtol(name, &end, 10);
-    bool whole = name[0] >= '0' && name[0] <= '9' && *end == '\0';
+    bool whole = length > 0 && name[0] >= '0' && name[0] <= '9' && end == name + length;
     return whole && index < list->count ? list->items[index] : NULL;
 }
 
@@ -85,11 +92,8 @@ static OzNode *descend(OzNode *node, const char *path, const char **rest)
     *rest = path;
     while (**rest) {
         size_t length = strcspn(*rest, ".");
-        char *name = strndup(*rest, length);
-        OzNode *next = !name                        ? NULL
-                       : node->kind == OZ_NODE_LIST ? list_item(node, name)
-                                                    : oz_tree_child(node, name);
-        free(name);
+        OzNode *next = node->kind == OZ_NODE_LIST ? find_item(node, *rest, length)
+                                                  : find_entry(node, *rest, length);
         if (!next) {
             break;
         }
@@ -112,33 +116,22 @@ OzNode *oz_tree_nearest(OzNode *root, const char *path)
     return descend(root, path, &rest);
 }
 
-static void print_path(const OzNode *node, bool as_key, FILE *file)
-{
-    if (!node->parent) {
-        return;
-    }
-    print_path(node->parent, as_key, file);
-    if (node->parent->kind == OZ_NODE_LIST && as_key) {
-        fputs("[]", file);
-        return;
-    }
-    const char *dot = node->parent->parent ? "." : "";
-    if (node->parent->kind == OZ_NODE_LIST) {
-        fprintf(file, "%s%d", dot, node->index);
-    } else {
-        fprintf(file, "%s%s", dot, node->key);
-    }
-}
-
 void oz_tree_path(const OzNode *node, bool as_key, char *path, size_t size)
 {
     path[0] = '\0';
-    FILE *file = fmemopen(path, size, "w");
-    if (file) {
-        print_path(node, as_key, file);
-        fclose(file);
+    if (!node->parent) {
+        return;
     }
-    path[size - 1] = '\0';
+    oz_tree_path(node->parent, as_key, path, size);
+    const char *dot = node->parent->parent ? "." : "";
+    size_t used = strlen(path);
+    if (node->parent->kind == OZ_NODE_MAP) {
+        snprintf(path + used, size - used, "%s%s", dot, node->key);
+    } else if (as_key) {
+        snprintf(path + used, size - used, "[]");
+    } else {
+        snprintf(path + used, size - used, "%s%d", dot, node->index);
+    }
 }
 
 bool oz_tree_is_empty(const OzNode *node)
