@@ -1,0 +1,25 @@
+/* Which grains are near each other while they move: a pair list that reaches a skin beyond contact,
+ * made anew only when a grain has used up its half of the skin, and that keeps each pair's
+ * tangential spring when it is. On the host, for the reference simulation. */
+#ifndef OZ_COMPUTE_NEAR_H
+#define OZ_COMPUTE_NEAR_H
+
+#include "compute/physics.h"
+#include "compute/sort_axis.h"
+
+/* Zeroed is valid: nothing listed yet. Owns its arrays. */
+typedef struct OzNear {
+    double skin;             /* m                                                       */
+    OzPairList pairs;        /* sorted by a, then b                                     */
+    OzVec3 *spring;          /* of each pair, m; zero for a pair that was not listed    */
+    double *position, *axis; /* 3 x count each, when the list was made          */
+} OzNear;
+
+/* Makes the list hold for grains at position with axes (3 x count each). *renewed tells whether
+ * pairs are other ones than before. The caller frees with oz_near_free. */
+OzStatus oz_near_renew(OzNear *near, bool *renewed, const OzGrains *grains, const double *position,
+                       const double *axis);
+
+void oz_near_free(OzNear *near);
+
+#endif

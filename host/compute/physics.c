@@ -1,0 +1,20 @@
+/* Deriving what the host's physics needs from a scene. */
+#include "compute/dialect.h"
+
+static const double shares[] = {
+    [OZ_INTEGRATOR_EULER] = OZ_EULER_SHARE,
+    [OZ_INTEGRATOR_SYMPLECTIC_EULER] = OZ_SYMPLECTIC_EULER_SHARE,
+    [OZ_INTEGRATOR_VELOCITY_VERLET] = OZ_VELOCITY_VERLET_SHARE,
+};
+
+OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGrains *grains)
+{
+    OzScene in_double = *scene;
+    OzDevice none = {.float_lanes = 1, .double_lanes = 1, .group = 1};
+    in_double.precision = OZ_PRECISION_DOUBLE;
+    physics->switches = oz_switches_derive(&in_double, grains, &none);
+    physics->wall_count = scene->wall_count;
+    physics->ends = physics->switches.round ? 1 : 2;
+    physics->share = shares[scene->integrator];
+    return oz_constants_fill(&physics->parameters, physics->wall_order, &in_double, grains);
+}
