@@ -17,7 +17,8 @@ OZ_INLINE OzVec3 oz_contact_hooke_limit(OzVec3 tangential, real limit, OzVec3 da
     real cut = slips ? limit / sqrt(oz_larger(size2, REAL(OZ_TINY * OZ_TINY))) : REAL(1.0);
     tangential = oz_scale(tangential, cut);
     if (OZ_HISTORY & !OZ_SLIP_SCALE) {
-        real compliance = REAL(1.0) / oz_larger(stiffness, REAL(OZ_TINY));
+        /* a contact without a spring, in a scene where others have one, carries nothing */
+        real compliance = stiffness > REAL(0.0) ? REAL(1.0) / stiffness : REAL(0.0);
         OzVec3 carried = oz_scale(oz_minus(tangential, dashpot), compliance);
         *stretch = oz_choose(slips, carried, *stretch);
     }
