@@ -1,7 +1,90 @@
-/* The program: hands its arguments to the command line and its exit status back. */
-#include "base/status.h"
+/* The program: one sub-command, its exit status. */
+#include "base/log.h"
+#include "cli.h"
+#include "compute/device.h"
+#include "draw/movie.h"
+#include "draw/renderer.h"
+#include "observe/series.h"
+#include "run.h"
+#include "scene/keys.h"
+#include "study/inspect.h"
+#include "study/redraw.h"
 
-int main(void)
+#include <stdio.h>
+#include <string.h>
+
+static OzStatus run_command(const OzOptions *options)
 {
-    return oz_status_exit_code(OZ_OK);
+    return oz_run_scene(options);
+}
+
+static OzStatus check_command(const OzOptions *options)
+{
+    return oz_inspect_scene(options, stdout);
+}
+
+static OzStatus draw_command(const OzOptions *options)
+{
+    return oz_redraw_folder(options);
+}
+
+static OzStatus keys_command(const OzOptions *options)
+{
+    if (!options->columns) {
+        oz_keys_print(stdout);
+        return OZ_OK;
+    }
+    for (const OzColumn *column = oz_series_columns(); column->name; column++) {
+        printf("%-20s %-8s %s\n", column->name, column->unit, column->meaning);
+    }
+    return OZ_OK;
+}
+
+static OzStatus devices_command(const OzOptions *options)
+{
+    const char *encoder = NULL;
+    (void)options;
+    oz_renderer_describe(stdout); /* forks: before OpenCL starts its threads */
+    if (oz_movie_encoder(&encoder) == OZ_OK) {
+        printf("encoder: %s\n", encoder);
+    } else {
+        printf("encoder: none: %s\n", oz_status_text());
+    }
+    return oz_device_list(stdout);
+}
+
+static const struct {
+    const char *name;
+    OzStatus (*run)(const OzOptions *options);
+} commands[] = {
+    {"run", run_command},   {"check", check_command},     {"draw", draw_command},
+    {"keys", keys_command}, {"devices", devices_command},
+};
+
+int main(int argc, char **argv)
+{
+    OzOptions options;
+    if (argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+        oz_cli_help(NULL);
+        return 0;
+    }
+    if (argc > 1 && strcmp(argv[1], "--version") == 0) {
+        printf("orzo %s\n", ORZO_VERSION);
+        return 0;
+    }
+    OzStatus status = oz_cli_parse(&options, argc, argv);
+    if (status != OZ_OK) {
+        oz_log_line("%s", oz_status_text());
+        return oz_status_exit_code(status);
+    }
+    if (options.help) {
+        oz_cli_help(options.command);
+        return 0;
+    }
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        if (strcmp(commands[i].name, options.command) == 0) {
+            return oz_status_exit_code(commands[i].run(&options));
+        }
+    }
+    return oz_status_exit_code(OZ_ERR_INPUT);
 }

@@ -1,0 +1,243 @@
+/* Reading the command line. */
+#include "cli.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What options a command takes, as letters of option_rows. */
+static const struct {
+    const char *name, *arguments, *takes, *help;
+    int least_paths, most_paths;
+} command_rows[] = {
+    {"run", "SCENE", "oOsdtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1},
+    {"check", "SCENE", "sdtpS", "validate; what follows from the scene, what is stable, what is left out",
+     1, 1},
+    {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o", 1,
+     1},
+    {"keys", "", "c", "every scene key: type, unit, range, default, meaning", 0, 0},
+    {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
+};
+
+/* One option: its letter in command_rows, its names, its value and help. */
+static const struct {
+    char letter;
+    const char *name, *value, *help;
+} option_rows[] = {
+    {'o', "-o", "DIR", "folder to write (default runs/<scene name>)"},
+    {'O', "--overwrite", NULL, "replace a finished run there"},
+    {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
+    {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},
+    {'t', "--threads", "N", "threads of a CPU device"},
+    {'p', "--precision", "float|double", "the same as --set precision=..."},
+    {'g', "--gl", "egl|osmesa", "how to draw off-screen"},
+    {'u', "--until", "T", "stop at time T, s"},
+    {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later"},
+    {'f', "--force", NULL, "run even at a step at which a contact is unstable"},
+    {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder"},
+    {'c', "--columns", NULL, "the columns of series.csv instead"},
+};
+
+enum {
+    COMMANDS = sizeof command_rows / sizeof command_rows[0],
+    OPTIONS = sizeof option_rows / sizeof option_rows[0]
+};
+
+static int find_command(const char *name)
+{
+    for (int c = 0; c < COMMANDS; c++) {
+        if (strcmp(command_rows[c].name, name) == 0) {
+            return c;
+        }
+    }
+    return -1;
+}
+
+static int find_option(const char *name)
+{
+    for (int o = 0; o < OPTIONS; o++) {
+        if (strcmp(option_rows[o].name, name) == 0) {
+            return o;
+        }
+    }
+    return -1;
+}
+
+static void print_command(int c)
+{
+    printf("orzo %s %s\n    %s\n", command_rows[c].name, command_rows[c].arguments,
+           command_rows[c].help);
+    for (int o = 0; o < OPTIONS; o++) {
+        if (strchr(command_rows[c].takes, option_rows[o].letter)) {
+            printf("    %-13s %-12s %s\n", option_rows[o].name,
+                   option_rows[o].value ? option_rows[o].value : "", option_rows[o].help);
+        }
+    }
+}
+
+void oz_cli_help(const char *command)
+{
+    int only = command ? find_command(command) : -1;
+    if (only < 0) {
+        printf("orzo: granular matter computed with OpenCL, shown as a movie, with its error stated\n\n");
+    }
+    for (int c = 0; c < COMMANDS; c++) {
+        if (only < 0 || c == only) {
+            print_command(c);
+        }
+    }
+    if (only < 0) {
+        printf("orzo --help | --version\n");
+    }
+}
+
+static OzStatus wrong(const char *argument, const char *expected)
+{
+    return oz_status_fail(OZ_ERR_INPUT, "orzo: '%s' is wrong; expected %s", argument, expected);
+}
+
+static OzStatus parse_gl(OzOptions *options, const char *value)
+{
+    if (strcmp(value, "egl") == 0) {
+        options->gl = OZ_GL_EGL;
+    } else if (strcmp(value, "osmesa") == 0) {
+        options->gl = OZ_GL_OSMESA;
+    } else {
+        return wrong(value, "--gl egl or --gl osmesa");
+    }
+    return OZ_OK;
+}
+
+static OzStatus parse_threads(OzOptions *options, const char *value)
+{
+    char *end = NULL;
+    long number = strtol(value, &end, 10);
+    if (*value == '\0' || *end || number < 1 || number > 4096) {
+        return wrong(value, "--threads with a number from 1 to 4096");
+    }
+    options->threads = (int)number;
+    return OZ_OK;
+}
+
+static OzStatus parse_until(OzOptions *options, const char *value)
+{
+    char *end = NULL;
+    options->until = strtod(value, &end);
+    if (*value == '\0' || *end || !isfinite(options->until) || options->until < 0) {
+        return wrong(value, "--until with a time in s, 0 or later");
+    }
+    return OZ_OK;
+}
+
+static OzStatus add_setting(OzOptions *options, const char *value)
+{
+    if (options->setting_count == OZ_CLI_SETTINGS_MAX) {
+        return wrong(value, "at most 128 settings");
+    }
+    if (!strchr(value, '=')) {
+        return wrong(value, "--set key=value");
+    }
+    options->settings[options->setting_count++] = (char *)(size_t)value;
+    return OZ_OK;
+}
+
+/* --precision is a setting by another name. */
+static OzStatus parse_precision(OzOptions *options, const char *value)
+{
+    if (strcmp(value, "float") == 0) {
+        return add_setting(options, "precision=float");
+    }
+    if (strcmp(value, "double") == 0) {
+        return add_setting(options, "precision=double");
+    }
+    return wrong(value, "--precision float or --precision double");
+}
+
+static OzStatus take_option(OzOptions *options, char letter, const char *value)
+{
+    switch (letter) {
+    case 'o':
+        options->out = value;
+        return OZ_OK;
+    case 's':
+        return add_setting(options, value);
+    case 'd':
+        options->device = value;
+        return OZ_OK;
+    case 't':
+        return parse_threads(options, value);
+    case 'p':
+        return parse_precision(options, value);
+    case 'g':
+        return parse_gl(options, value);
+    case 'u':
+        return parse_until(options, value);
+    case 'S':
+        options->source_dir = value;
+        return OZ_OK;
+    default:
+        options->overwrite |= letter == 'O';
+        options->no_video |= letter == 'n';
+        options->force |= letter == 'f';
+        options->columns |= letter == 'c';
+        return OZ_OK;
+    }
+}
+
+static OzStatus take_argument(OzOptions *options, int command, int argc, char **argv, int *i)
+{
+    const char *argument = argv[*i];
+    if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
+        options->help = true;
+        return OZ_OK;
+    }
+    if (argument[0] != '-' || argument[1] == '\0') {
+        if (options->path_count == OZ_CLI_PATHS_MAX) {
+            return wrong(argument, "fewer arguments");
+        }
+        options->paths[options->path_count++] = argument;
+        return OZ_OK;
+    }
+    int o = find_option(argument);
+    if (o < 0 || !strchr(command_rows[command].takes, option_rows[o].letter)) {
+        char expected[96];
+        snprintf(expected, sizeof expected, "an option of `orzo %s` (see orzo %s --help)",
+                 options->command, options->command);
+        return wrong(argument, expected);
+    }
+    if (option_rows[o].value && *i + 1 >= argc) {
+        return wrong(argument, option_rows[o].value);
+    }
+    return take_option(options, option_rows[o].letter,
+                       option_rows[o].value ? argv[++*i] : NULL);
+}
+
+OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
+{
+    OzStatus status = OZ_OK;
+    memset(options, 0, sizeof *options);
+    options->until = -1;
+    if (argc < 2) {
+        return oz_status_fail(OZ_ERR_INPUT, "orzo: no command; expected one of run, check, draw, "
+                                            "keys, devices (see orzo --help)");
+    }
+    options->command = argv[1];
+    int command = find_command(argv[1]);
+    if (command < 0) {
+        return wrong(argv[1], "run, check, draw, keys or devices (see orzo --help)");
+    }
+    for (int i = 2; i < argc; i++) {
+        OZ_TRY(take_argument(options, command, argc, argv, &i));
+    }
+    if (!options->help && (options->path_count < command_rows[command].least_paths ||
+                           options->path_count > command_rows[command].most_paths)) {
+        char expected[64];
+        snprintf(expected, sizeof expected, "orzo %s %s", argv[1],
+                 command_rows[command].arguments);
+        const char *last = options->path_count ? options->paths[options->path_count - 1] : argv[1];
+        status = wrong(last, expected);
+    }
+done:
+    return status;
+}

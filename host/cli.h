@@ -1,0 +1,34 @@
+/* The command line: sub-commands and options as values. */
+#ifndef OZ_CLI_H
+#define OZ_CLI_H
+
+#include "base/status.h"
+#include "draw/renderer.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { OZ_CLI_SETTINGS_MAX = 128, OZ_CLI_PATHS_MAX = 64 };
+
+typedef struct OzOptions {
+    const char *command;
+    const char *paths[OZ_CLI_PATHS_MAX]; /* scenes, or the folder of `draw` */
+    int path_count;
+    const char *out;                      /* -o                               */
+    char *settings[OZ_CLI_SETTINGS_MAX];  /* --set, in order; not owned        */
+    int setting_count;
+    const char *device;                   /* --device                         */
+    int threads;                          /* --threads; 0: the driver's choice */
+    OzGlBackend gl;                       /* --gl                             */
+    double until;                         /* --until, s; negative: not given   */
+    bool overwrite, no_video, force, columns, help;
+    const char *source_dir;               /* --source-dir                     */
+} OzOptions;
+
+/* Reads argv. Fails with OZ_ERR_INPUT, naming the argument and what was expected. */
+OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv);
+
+/* The text of --help: of one command, or of all when it is NULL. */
+void oz_cli_help(const char *command);
+
+#endif

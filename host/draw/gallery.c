@@ -1,0 +1,143 @@
+/* Movie and snapshots of a run. */
+#include "draw/gallery.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "draw/movie.h"
+#include "observe/frames.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+struct OzGallery {
+    const OzGallerySettings *settings;
+    const OzScene *scene;
+    OzRenderer *renderer;
+    OzLook look;
+    OzImage image;
+    OzMovie *movie;
+    double drawing, encoding;
+};
+
+OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *settings,
+                           const OzScene *scene)
+{
+    OzStatus status = OZ_NEW(gallery, 1);
+    if (status == OZ_OK) {
+        (*gallery)->settings = settings;
+        (*gallery)->scene = scene;
+    }
+    return status;
+}
+
+static OzStatus open_renderer(OzGallery *gallery, const OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_renderer_create(&gallery->renderer, gallery->settings->backend,
+                              gallery->settings->source_dir));
+    oz_log_line("drawing with %s", oz_renderer_name(gallery->renderer));
+    gallery->look = oz_renderer_look(gallery->scene, snapshot);
+    OZ_TRY(oz_image_create(&gallery->image, gallery->look.width, gallery->look.height));
+done:
+    return status;
+}
+
+static OzStatus open_movie(OzGallery *gallery)
+{
+    OzStatus status = OZ_OK;
+    char *path = NULL, seed[32];
+    const char *title = gallery->scene->title ? gallery->scene->title : gallery->scene->name;
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)gallery->scene->seed);
+    const char *metadata[] = {"title",
+                              title,
+                              "comment",
+                              "made by orzo " ORZO_VERSION,
+                              "orzo_version",
+                              ORZO_VERSION,
+                              "device",
+                              gallery->settings->device,
+                              "renderer",
+                              oz_renderer_name(gallery->renderer),
+                              "seed",
+                              seed,
+                              NULL};
+    OZ_TRY(oz_file_join(&path, gallery->settings->folder, "movie.mp4"));
+    OZ_TRY(oz_movie_create(&gallery->movie, path, gallery->look.width, gallery->look.height,
+                           gallery->scene->movie.fps, metadata));
+done:
+    free(path);
+    return status;
+}
+
+static OzStatus add_to_movie(OzGallery *gallery)
+{
+    OzStatus status = OZ_OK;
+    double start = oz_clock_now();
+    if (!gallery->movie) {
+        OZ_TRY(open_movie(gallery));
+    }
+    OZ_TRY(oz_movie_add(gallery->movie, &gallery->image));
+done:
+    gallery->encoding += oz_clock_now() - start;
+    return status;
+}
+
+static OzStatus write_picture(OzGallery *gallery, const OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    char *folder = NULL, *path = NULL, name[64];
+    double period = gallery->scene->period;
+    if (period > 0) {
+        snprintf(name, sizeof name, "tap_%05.0f.png", round(snapshot->time / period));
+    } else {
+        snprintf(name, sizeof name, "time_%.6f.png", snapshot->time);
+    }
+    OZ_TRY(oz_file_join(&folder, gallery->settings->folder, "snapshots"));
+    OZ_TRY(oz_file_make_folder(folder));
+    OZ_TRY(oz_file_join(&path, folder, name));
+    OZ_TRY(oz_image_write_png(&gallery->image, path));
+done:
+    free(folder);
+    free(path);
+    return status;
+}
+
+OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose)
+{
+    OzStatus status = OZ_OK;
+    double start = oz_clock_now();
+    if (!gallery->renderer) {
+        OZ_TRY(open_renderer(gallery, snapshot));
+    }
+    OZ_TRY(oz_renderer_draw(gallery->renderer, snapshot, &gallery->look, &gallery->image));
+    gallery->drawing += oz_clock_now() - start;
+    if (purpose & OZ_FRAME_MOVIE) {
+        OZ_TRY(add_to_movie(gallery));
+    }
+    if (purpose & OZ_FRAME_SNAPSHOT) {
+        OZ_TRY(write_picture(gallery, snapshot));
+    }
+done:
+    return status;
+}
+
+void oz_gallery_times(const OzGallery *gallery, double *drawing, double *encoding)
+{
+    *drawing = gallery->drawing;
+    *encoding = gallery->encoding;
+}
+
+OzStatus oz_gallery_finish(OzGallery *gallery)
+{
+    if (!gallery) {
+        return OZ_OK;
+    }
+    OzStatus status = oz_movie_finish(gallery->movie);
+    oz_renderer_free(gallery->renderer);
+    oz_image_free(&gallery->image);
+    free(gallery);
+    return status;
+}

@@ -1,0 +1,32 @@
+/* The pictures of a run: movie frames and snapshots, from the snapshots that are handed in. GL and libav are
+ * opened by the first picture that needs them and never otherwise. */
+#ifndef OZ_DRAW_GALLERY_H
+#define OZ_DRAW_GALLERY_H
+
+#include "draw/renderer.h"
+
+typedef struct OzGallery OzGallery;
+
+typedef struct OzGallerySettings {
+    const char *folder;     /* movie.mp4 and snapshots/ go here; borrowed        */
+    const char *source_dir; /* as in oz_embed_read; borrowed, may be NULL        */
+    OzGlBackend backend;
+    const char *device;     /* for the movie's metadata: who computed; borrowed   */
+} OzGallerySettings;
+
+/* settings and scene are borrowed and must outlive the gallery. */
+OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *settings,
+                           const OzScene *scene);
+
+/* Draws a snapshot and hands it to the movie and (or) writes it as snapshots/tap_00300.png, or
+ * snapshots/time_1.250000.png without a moving wall; purpose: OZ_FRAME_ bits of observe/frames.h. The first
+ * one fixes the framing. */
+OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose);
+
+/* Seconds spent in drawing and in encoding so far. */
+void oz_gallery_times(const OzGallery *gallery, double *drawing, double *encoding);
+
+/* Finishes the movie and frees; NULL is fine. */
+OzStatus oz_gallery_finish(OzGallery *gallery);
+
+#endif

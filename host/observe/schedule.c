@@ -1,0 +1,87 @@
+/* Events of a run. */
+#include "observe/schedule.h"
+
+#include <math.h>
+
+/* Simulated seconds between frames of the movie. A `length` spreads the frames evenly over the run; once they
+ * lie more than a period of the floor apart they are put a whole number of periods apart, so that the floor
+ * stands still in a long run and moves in a short one. */
+static double frame_interval(const OzScene *scene, double duration)
+{
+    const OzMovieSettings *movie = &scene->movie;
+    if (!movie->present) {
+        return 0;
+    }
+    if (movie->speed > 0) {
+        return movie->speed / movie->fps;
+    }
+    double interval = duration / fmax(1, round(movie->length * movie->fps) - 1);
+    if (scene->period > 0 && interval > scene->period) {
+        interval = round(interval / scene->period) * scene->period;
+    }
+    return fmax(interval, scene->step);
+}
+
+OzSchedule oz_schedule_create(const OzScene *scene, double until)
+{
+    OzSchedule s = {.scene = scene};
+    double duration = until >= 0 && until < scene->duration ? until : scene->duration;
+    s.last_step = llround(duration / scene->step);
+    s.row = scene->observe.interval;
+    s.sample = scene->period > 0 ? scene->period / (double)scene->observe.samples_per_tap : 0;
+    s.frame = frame_interval(scene, duration);
+    return s;
+}
+
+static int64_t step_of(const OzSchedule *s, double interval, int64_t index)
+{
+    return interval > 0 ? llround((double)index * interval / s->scene->step) : INT64_MAX;
+}
+
+static int64_t earlier(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Counts the events of one kind that are due by a step; true when there were any. */
+static bool pass(const OzSchedule *s, double interval, int64_t *count, int64_t step)
+{
+    bool any = false;
+    while (step_of(s, interval, *count) <= step) {
+        ++*count;
+        any = true;
+    }
+    return any;
+}
+
+static int64_t snapshot_step(const OzSchedule *s)
+{
+    const OzSnapshotSettings *shots = &s->scene->snapshots;
+    return s->snapshots < shots->count
+               ? llround(shots->times[s->snapshots] / s->scene->step)
+               : INT64_MAX;
+}
+
+bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
+{
+    int64_t next = earlier(step_of(s, s->row, s->rows), step_of(s, s->sample, s->samples));
+    next = earlier(next, step_of(s, s->frame, s->frames));
+    next = earlier(next, snapshot_step(s));
+    if (next > s->last_step) {
+        next = s->last_step;
+    }
+    bool again = *due != 0 && *step >= s->last_step;
+    if (again) {
+        return false;
+    }
+    *step = next;
+    *due = next == s->last_step ? OZ_DUE_ROW : 0;
+    *due |= pass(s, s->row, &s->rows, next) ? OZ_DUE_ROW : 0;
+    *due |= pass(s, s->sample, &s->samples, next) ? OZ_DUE_SAMPLE : 0;
+    *due |= pass(s, s->frame, &s->frames, next) ? OZ_DUE_MOVIE : 0;
+    while (snapshot_step(s) <= next) {
+        *due |= OZ_DUE_SNAPSHOT;
+        s->snapshots++;
+    }
+    return true;
+}
