@@ -23,22 +23,22 @@ uniform vec4 background;
 
 out vec4 result;
 
-/* Depth at a place of the picture; where there is nothing, the depth given, which darkens nothing. */
-float depth_at(ivec2 place, float otherwise)
+float depth_at(ivec2 place)
 {
-    float own = texelFetch(depths, clamp(place, ivec2(0), textureSize(depths) - 1), 0).r;
-    return own < 1.0 ? own : otherwise;
+    return texelFetch(depths, clamp(place, ivec2(0), textureSize(depths) - 1), 0).r;
 }
 
 /* How much stands in front of this depth nearby, 0 to 1. Opposite neighbours are taken together, so that
- * a slanting surface does not darken itself. */
+ * neither a slanting nor a bulging surface darkens itself; a pair that reaches past everything into the
+ * background (depth 1) says nothing. */
 float crowding(ivec2 place, float depth)
 {
     float sum = 0.0;
     int count = depth > 0.0 ? PAIRS : 0; /* a loop is left early where an if is not */
     for (int i = 0; i < count; i++) {
         ivec2 tap = ivec2(taps[i]);
-        float nearer = 2.0 * depth - depth_at(place + tap, depth) - depth_at(place - tap, depth);
+        float one = depth_at(place + tap), other = depth_at(place - tap);
+        float nearer = max(one, other) < 1.0 ? 2.0 * depth - one - other : 0.0;
         sum += clamp(nearer * mood.x, 0.0, 1.0);
     }
     return sum / float(PAIRS);

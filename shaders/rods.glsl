@@ -103,18 +103,17 @@ vec3 shade(vec3 n, vec3 d)
     return mix(capsule_rgb, vec3(1.0), 0.05) * light * mix(0.42, 1.10, rim) + 0.22 * shine * shine;
 }
 
-/* Flat, with a dark outline a seventh of the radius wide, at least a pixel. */
-vec3 shade_section(float inside)
+/* Flat, with a dark outline a seventh of the radius wide, at least a pixel. p lies on the section; its
+ * distance from the outline, within the plane, is that from the surface over the slope there. */
+vec3 shade_section(vec3 p)
 {
+    float spine = clamp(dot(p, capsule_axis.xyz), -capsule_axis.w, capsule_axis.w);
+    vec3 away = p - spine * capsule_axis.xyz;
+    float reach = max(length(away), 1e-9), lean = dot(away, plane.xyz) / reach;
+    float inside = (capsule_centre.w - reach) / sqrt(max(1.0 - lean * lean, 1e-6));
     float width = max(0.14 * capsule_centre.w, pixel);
     float fill = clamp((inside - width) / pixel + 0.5, 0.0, 1.0);
     return mix(0.40 * capsule_rgb, mix(capsule_rgb, vec3(1.0), 0.08), fill);
-}
-
-float axis_distance(vec3 p)
-{
-    return length(p - clamp(dot(p, capsule_axis.xyz), -capsule_axis.w, capsule_axis.w)
-        * capsule_axis.xyz);
 }
 
 void main()
@@ -159,7 +158,7 @@ void main()
     vec3 rgb = shade((p - spine * capsule_axis.xyz) / capsule_centre.w, d);
 #ifdef OZ_SLICED
     if (section) {
-        rgb = shade_section(capsule_centre.w - axis_distance(p));
+        rgb = shade_section(p);
     }
 #endif
     gl_FragDepth = depth_of(capsule_centre.z + p.z);

@@ -53,7 +53,7 @@ static void fit(OzCamera *camera, const OzLook *look, double width, double heigh
 static void divide(OzCamera *camera, const OzLook *look, double left, double right, double middle_y)
 {
     double share = (right - left) / look->view_count;
-    double pitch = fmin(share, 1.7 * camera->content_width);
+    double pitch = fmin(share, fmax(1.7 * camera->content_width, 9 * camera->font));
     double middle = 0.5 * (left + right);
     camera->panel_count = look->view_count;
     for (int i = 0; i < look->view_count; i++) {
@@ -71,8 +71,9 @@ static void place(OzCamera *camera, const OzLook *look, double heading)
 {
     double font = camera->font;
     double margin = font > 0 ? 0.8 * font : 0.02 * fmin(look->width, look->height);
-    double right = look->width - margin - 6 * font;
-    double left = margin + (look->width > 1.3 * look->height ? 6 * font : 0);
+    double column = (look->colour == OZ_COLOUR_TYPE ? 9 : 6) * font;
+    double right = look->width - margin - column;
+    double left = margin + (look->width > 1.3 * look->height ? column : 0);
     double top = margin + heading * font, bottom = look->height - margin - 1.3 * font;
     double gaps = look->view_count > 1 ? 1.12 : 1.0;
     fit(camera, look, (right - left) / look->view_count / gaps, bottom - top);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -13,6 +14,7 @@ enum {
 };
 
 static const float FLOOR[4] = {0.855f, 0.865f, 0.885f, 1.0f};
+static const float PANE[4] = {0.80f, 0.84f, 0.88f, 0.35f};
 static const float EDGE[4] = {0.42f, 0.46f, 0.53f, 0.85f};
 static const float FAINT[4] = {0.42f, 0.46f, 0.53f, 0.40f};
 
@@ -33,7 +35,7 @@ typedef struct Polygon {
 OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char *source_dir)
 {
     OzStatus status = OZ_OK;
-    const char *colour = (const char *)NULL + offsetof(OzCorner, rgba);
+    const void *colour = (const void *)(uintptr_t)offsetof(OzCorner, rgba);
     memset(container, 0, sizeof *container);
     container->gl = gl;
     OZ_TRY(oz_gl_program(gl, &container->program, source_dir, "mesh", ""));
@@ -296,8 +298,8 @@ static void add_filled(OzMesh *mesh, const Scope *scope, const Polygon *polygon,
     }
 }
 
-/* A plane whose free side faces the eye is a floor or a back wall; others would hide the grains and
- * are outlines. */
+/* A plane whose free side faces the eye is a floor, or a back wall of glass; others would hide the
+ * grains and are outlines. */
 static void add_plane(OzContainer *container, const Scope *scope, int row)
 {
     const OzWall *wall = &scope->snapshot->scene->walls[row];
@@ -315,7 +317,9 @@ static void add_plane(OzContainer *container, const Scope *scope, int row)
     }
     oz_camera_turn(scope->camera, wall->normal, normal);
     if (normal[2] > 0) {
-        add_filled(&container->floors, scope, &polygon, FLOOR);
+        bool floor = wall->normal[2] > 0.3;
+        add_filled(floor ? &container->floors : &container->behind, scope, &polygon,
+                   floor ? FLOOR : PANE);
         add_outline(&container->behind, scope, &polygon, FAINT);
         if (scope->radius > 0 && wall->normal[2] > 0.999) {
             add_piston(container, scope, point[2]);

@@ -215,7 +215,7 @@ static OzStatus create_osmesa(OzContext *context)
                           3,
                           0};
     OZ_TRY(open_osmesa());
-    context->pixels = calloc(OSMESA_SIDE * OSMESA_SIDE, 4);
+    context->pixels = calloc(OSMESA_SIDE, 4 * OSMESA_SIDE);
     if (!context->pixels) {
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for an OSMesa surface");
     }

@@ -97,7 +97,7 @@ static void widen(Room *room, const OzScene *scene)
 {
     double height = room->high[2] - room->low[2];
     double wide = fmax(room->high[0] - room->low[0], room->high[1] - room->low[1]);
-    double margin = 0.15 * fmax(wide, 0.5 * height);
+    double margin = fmax(0.15 * wide, 0.5 * (0.4 * height - wide));
     for (int k = 0; k < 2; k++) {
         room->low[k] -= margin;
         room->high[k] += margin;
@@ -150,6 +150,7 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
     Room room = grain_room(snapshot);
     double radius = cylinder_radius(scene);
     take_settings(&look, &scene->movie);
+    close_by_planes(&room, scene); /* first to know the size, then to keep the walls' sides */
     widen(&room, scene);
     close_by_planes(&room, scene);
     look.height_low = room.low[2];
