@@ -22,7 +22,7 @@ static const struct {
     int floor;
 } rooms[] = {
     {"base", 0},    {"scene", 1}, {"model", 2}, {"observe", 3}, {"draw", 4},
-    {"compute", 4}, {"run", 5},   {"study", 6}, {"cli", 7},     {"main", 8},
+    {"compute", 4}, {"cli", 5},   {"run", 6},   {"study", 7},   {"main", 8},
 };
 
 /* An outside header's beginning, and the only place whose files may include it. */
