@@ -30,7 +30,7 @@ typedef struct OzContactForce {
     OzVec3 stretch;    /* m, tangential spring at this time level                           */
     OzVec3 stretched;  /* m, the same before sliding cut it back                            */
     real dashpot;      /* N, normal force of the dashpot                                    */
-    OzVec3 dashpot_tangential; /* N                                                         */
+    OzVec3 dashpot_tangential; /* N, none while sliding                                     */
 } OzContactForce;
 
 /* The stored spring turned with the normal as the pair turns (Pournin et al. 2005 take the normal as

@@ -8,8 +8,10 @@
 
 #include "kernels/contact.h"
 
-/* Cuts the tangential force to the Coulomb limit and the spring to what the sliding contact carries. */
-OZ_INLINE OzVec3 oz_contact_hooke_limit(OzVec3 tangential, real limit, OzVec3 dashpot, real stiffness,
+/* Cuts the tangential force to the Coulomb limit and the spring to what the sliding contact carries.
+ * *dashpot is none then: what sliding takes is friction's, or the ledger would count a dashpot that the
+ * limit never let act, and friction as negative. */
+OZ_INLINE OzVec3 oz_contact_hooke_limit(OzVec3 tangential, real limit, OzVec3 *dashpot, real stiffness,
                                         OzVec3 *stretch)
 {
     real size2 = oz_dot(tangential, tangential);
@@ -19,9 +21,10 @@ OZ_INLINE OzVec3 oz_contact_hooke_limit(OzVec3 tangential, real limit, OzVec3 da
     if (OZ_HISTORY & !OZ_SLIP_SCALE) {
         /* a contact without a spring, in a scene where others have one, carries nothing */
         real compliance = stiffness > REAL(0.0) ? REAL(1.0) / stiffness : REAL(0.0);
-        OzVec3 carried = oz_scale(oz_minus(tangential, dashpot), compliance);
+        OzVec3 carried = oz_scale(oz_minus(tangential, *dashpot), compliance);
         *stretch = oz_choose(slips, carried, *stretch);
     }
+    *dashpot = oz_choose(slips, oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), *dashpot);
     return tangential;
 }
 
@@ -57,7 +60,7 @@ OZ_INLINE OzContactForce oz_contact_hooke(OzContact c, OzLawConstants law, OzVec
         }
         out.stretch = out.stretched;
         tangential = oz_contact_hooke_limit(tangential, law.friction * oz_magnitude(normal_force),
-                                            out.dashpot_tangential, stiffness, &out.stretch);
+                                            &out.dashpot_tangential, stiffness, &out.stretch);
         if (OZ_HISTORY) {
             OzVec3 next = oz_along(out.stretch, REAL((1 - share) * dt), sliding);
             *history = oz_where(c.touching, next);
