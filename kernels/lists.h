@@ -92,15 +92,16 @@ OZ_INLINE void oz_lists_spot(const OzWork *w, int slot, spot_kind spot[3])
     spot[2] = record[2];
 }
 
+/* By shape, not by the length of the shaft's vector: that one's rounding turns with the grain, and pairs of
+ * equal reach would change their order. */
 OZ_INLINE scalar oz_lists_reach(const OzWork *w, int slot)
 {
     if (OZ_EQUAL) {
         return w->parameters->reach_max;
     }
-    global const scalar *record = w->record + (size_t)slot * OZ_RECORD;
-    global const scalar *shaft = record + OZ_R_SHAFT;
-    return record[OZ_R_RADIUS] +
-           sqrt(shaft[0] * shaft[0] + shaft[1] * shaft[1] + shaft[2] * shaft[2]);
+    global const scalar *words = (global const scalar *)w->shape;
+    words += (size_t)(slot / OZ_LANES) * OZ_SHAPE * OZ_LANES + slot % OZ_LANES;
+    return words[OZ_B_RADIUS * OZ_LANES] + words[OZ_B_HALF_LENGTH * OZ_LANES];
 }
 
 OZ_INLINE void oz_lists_clear(OzWork *w, int item, int stride)
