@@ -145,6 +145,13 @@ OZ_INLINE OzWallDistance oz_grains_wall_distance(const OzWork *w, OzBody body, O
     return at;
 }
 
+/* The step at whose beginning walls stand where the forces of this step meet them. */
+#if defined(OZ_MOVES_BEFORE)
+#define OZ_GRAINS_WALL_STEP(step) ((step) + 1)
+#else
+#define OZ_GRAINS_WALL_STEP(step) (step)
+#endif
+
 /* One end of the block's grains at one wall; adds to load. */
 OZ_INLINE void oz_grains_wall(OzWork *w, int block, int wall, int end_index, OzBody body,
                               OzShape shape, OzGrain grain, int step, OzLoad *load)
@@ -153,7 +160,8 @@ OZ_INLINE void oz_grains_wall(OzWork *w, int block, int wall, int end_index, OzB
     real offset = REAL(0.0), speed = REAL(0.0);
     if (OZ_MOVING) {
         global const scalar *motion =
-            w->motion + 2 * ((size_t)step * (OZ_PLANES + OZ_CYLINDERS) + wall);
+            w->motion +
+            2 * ((size_t)OZ_GRAINS_WALL_STEP(step) * (OZ_PLANES + OZ_CYLINDERS) + wall);
         offset = REAL(motion[0]);
         speed = REAL(motion[1]);
     }

@@ -58,7 +58,7 @@ OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
 
 #if OZ_PLANES + OZ_CYLINDERS > 0
 
-/* Velocity of a wall along z at the start of a step, and at its end. */
+/* Velocity of a wall along z at the start of a step. */
 OZ_INLINE scalar oz_ledger_wall_speed(const OzWork *w, int wall, int step)
 {
     return OZ_MOVING ? w->motion[2 * ((size_t)step * (OZ_PLANES + OZ_CYLINDERS) + wall) + 1] : 0;
@@ -79,7 +79,7 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
             global const real *words =
                 w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
             int wall = index / (OZ_ROUND ? 1 : 2);
-            scalar old_speed = oz_ledger_wall_speed(w, wall, step);
+            scalar old_speed = oz_ledger_wall_speed(w, wall, OZ_GRAINS_WALL_STEP(step));
             scalar new_speed = oz_ledger_wall_speed(w, wall, step + 1);
             OzVec3 after = oz_rods_velocity_at(grain, oz_work_load3(words + 12));
             after.z -= REAL(new_speed);

@@ -178,8 +178,8 @@ OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
 }
 #endif
 
-/* Makes the launch's steps from control->step to last, or ends earlier: control->step says how far it came, and
- * control->moved that the next step's places are moved already. */
+/* Makes the launch's steps from control->step to last and leaves lists that hold, or ends earlier:
+ * control->step says how far it came, and control->moved that the next step's places are moved already. */
 #if OZ_GROUP > 1
 __attribute__((reqd_work_group_size(OZ_GROUP, 1, 1)))
 #endif
@@ -188,9 +188,9 @@ kernel void oz_advance(OZ_WORK_ARGUMENTS, int last)
     OZ_WORK_OPEN((int)get_group_id(0))
     int item = OZ_WORK_ITEM, stride = OZ_WORK_STRIDE, step = w.control->step;
     OZ_WORK_MEET();
-    for (; step < last; step++) {
+    for (;; step++) {
 #if defined(OZ_MOVES_BEFORE)
-        if (!w.control->moved) {
+        if (step < last && !w.control->moved) {
             move_before(&w, item, stride, step);
             w.control->moved = 1;
         }
@@ -198,10 +198,7 @@ kernel void oz_advance(OZ_WORK_ARGUMENTS, int last)
         int stale = w.control->stale_step != OZ_NEVER || w.control->truth != OZ_TRUTH_INNER;
         int stopped = w.control->stop_bits;
         OZ_WORK_MEET();
-        if (stopped) {
-            break;
-        }
-        if (stale && !renew(&w, item, stride)) {
+        if (stopped || (stale && !renew(&w, item, stride)) || step >= last) {
             break;
         }
         forces_and_motion(&w, item, stride, step);

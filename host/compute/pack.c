@@ -33,7 +33,7 @@ static void put_place(void *words, size_t index, double units, bool is_double)
     }
 }
 
-static double get(const void *words, size_t index, bool is_double)
+double oz_pack_scalar(const void *words, size_t index, bool is_double)
 {
     return is_double ? ((const double *)words)[index] : (double)((const float *)words)[index];
 }
@@ -43,8 +43,7 @@ static double get_place(const void *words, size_t index, bool is_double)
     return is_double ? ((const double *)words)[index] : (double)((const int32_t *)words)[index];
 }
 
-/* Where word `word` of a slot lies in an array of blocks of `words` words. */
-static size_t lane_index(const OzSwitches *s, int64_t slot, int words, int word)
+size_t oz_pack_lane(const OzSwitches *s, int64_t slot, int words, int word)
 {
     int64_t block = slot / s->lanes, lane = slot % s->lanes;
     return (size_t)((block * words + word) * s->lanes + lane);
@@ -76,14 +75,14 @@ static void put_state(void *state, const OzSwitches *s, const OzParameters *p,
         double units = grains->position[3 * i + c] / p->length_unit;
         double whole = wide ? units : rint(units);
         bool present = slot == i;
-        put_place(state, lane_index(s, slot, OZ_STATE, OZ_S_PLACE + c), whole, wide);
-        put(state, lane_index(s, slot, OZ_STATE, OZ_S_REST + c), units - whole, wide);
-        put(state, lane_index(s, slot, OZ_STATE, OZ_S_VELOCITY + c),
+        put_place(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_PLACE + c), whole, wide);
+        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_REST + c), units - whole, wide);
+        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c),
             present ? grains->velocity[3 * i + c] : 0, wide);
-        put(state, lane_index(s, slot, OZ_STATE, OZ_S_SPIN + c), present ? spin[c] : 0, wide);
-        put(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + c), turn[c + 1], wide);
+        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), present ? spin[c] : 0, wide);
+        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), turn[c + 1], wide);
     }
-    put(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + 3), turn[0], wide);
+    put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + 3), turn[0], wide);
 }
 
 static void put_shape(void *shape, const OzSwitches *s, const OzGrains *grains, int64_t slot,
@@ -96,7 +95,7 @@ static void put_shape(void *shape, const OzSwitches *s, const OzGrains *grains, 
     words[OZ_B_INVERSE_INERTIA] = 1 / grains->inertia[i];
     words[OZ_B_INVERSE_AXIS] = 1 / grains->inertia_axis[i];
     for (int k = 0; k < OZ_SHAPE; k++) {
-        put(shape, lane_index(s, slot, OZ_SHAPE, k), words[k], s->is_double);
+        put(shape, oz_pack_lane(s, slot, OZ_SHAPE, k), words[k], s->is_double);
     }
 }
 
@@ -201,16 +200,16 @@ static void get_state(const void *state, const OzSwitches *s, const OzParameters
 {
     bool wide = s->is_double;
     for (int c = 0; c < 3; c++) {
-        double whole = get_place(state, lane_index(s, slot, OZ_STATE, OZ_S_PLACE + c), wide);
-        double rest = get(state, lane_index(s, slot, OZ_STATE, OZ_S_REST + c), wide);
+        double whole = get_place(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_PLACE + c), wide);
+        double rest = oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_REST + c), wide);
         snapshot->position[3 * i + c] = (whole + rest) * p->length_unit;
         snapshot->velocity[3 * i + c] =
-            get(state, lane_index(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide);
-        snapshot->spin[3 * i + c] = get(state, lane_index(s, slot, OZ_STATE, OZ_S_SPIN + c), wide);
+            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide);
+        snapshot->spin[3 * i + c] = oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), wide);
         snapshot->quaternion[4 * i + c + 1] =
-            get(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + c), wide);
+            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), wide);
     }
-    snapshot->quaternion[4 * i] = get(state, lane_index(s, slot, OZ_STATE, OZ_S_TURN + 3), wide);
+    snapshot->quaternion[4 * i] = oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + 3), wide);
     make_unit(&snapshot->quaternion[4 * i]);
     oz_grains_axis(&snapshot->quaternion[4 * i], &snapshot->axis[3 * i]);
     if (s->gyroscopic) {

@@ -20,4 +20,10 @@ OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *p
 /* Converts doubles to the device's scalars in place of `to`. */
 void oz_pack_scalars(void *to, const double *from, size_t count, bool is_double);
 
+/* One of the device's scalars. */
+double oz_pack_scalar(const void *words, size_t index, bool is_double);
+
+/* Where word `word` of a slot lies, in scalars, in an array of blocks of `words` words. */
+size_t oz_pack_lane(const OzSwitches *switches, int64_t slot, int words, int word);
+
 #endif

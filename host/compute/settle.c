@@ -2,8 +2,11 @@
 #include "compute/settle.h"
 
 #include "base/log.h"
+#include "base/memory.h"
 #include "compute/capture.h"
 #include "compute/sim_private.h"
+
+#include <stdlib.h>
 
 /* Kinetic energy, translational and rotational, over N m g d of the member's grains. */
 static OzStatus energy_ratio(OzSim *sim, int member, double *ratio)
@@ -66,24 +69,36 @@ done:
     return status;
 }
 
+/* Nothing added up yet; what springs hold was not given to them since time 0. */
+static OzStatus start_ledger(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    size_t bytes = oz_arrays_bytes(OZ_FIELD_ledger, &sim->arrays.switches, &sim->arrays.sizes);
+    void *zero = NULL;
+    if (bytes == 0) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_memory_new(&zero, bytes, 1, "ledger"));
+    for (int m = 0; m < sim->member_count; m++) {
+        OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_ledger, m, zero, bytes));
+    }
+    OZ_TRY(oz_capture_start(sim));
+done:
+    free(zero);
+    return status;
+}
+
 /* Time 0: no steps made, nothing added up. */
 static OzStatus start_clock(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     sim->step = 0;
     sim->walls_still = false;
     sim->counts = (OzSimCounts){0};
     for (int m = 0; m < sim->member_count; m++) {
-        double zero[OZ_LEDGER_WORDS * 1024] = {0};
-        size_t bytes =
-            oz_arrays_bytes(OZ_FIELD_ledger, &sim->arrays.switches, &sim->arrays.sizes);
-        OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_ledger, m, zero,
-                               bytes < sizeof zero ? bytes : sizeof zero));
         sim->control[m].refreshes = 0;
         sim->control[m].rebuilds = 0;
     }
-done:
-    return status;
+    return start_ledger(sim);
 }
 
 OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context)

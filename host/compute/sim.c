@@ -132,8 +132,10 @@ static OzStatus build(OzSim *sim, const OzSwitches *switches, const char *source
     OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     char options[1024];
-    if (switches->is_double && !sim->device->has_double) {
-        return oz_status_fail(OZ_ERR_DEVICE, "%s computes in float only: use precision: float",
+    if ((switches->is_double || switches->ledger) && !sim->device->has_double) {
+        return oz_status_fail(OZ_ERR_DEVICE,
+                              "%s computes in float only: use precision: float without "
+                              "observe.ledger",
                               sim->device->name);
     }
     oz_switches_options(switches, options, sizeof options);
@@ -160,11 +162,13 @@ OzStatus oz_sim_create(OzSim **out, const OzDevice *device, const OzMember *memb
     OZ_TRY(OZ_NEW(&sim->members, member_count));
     OZ_TRY(OZ_NEW(&sim->parameters, member_count));
     OZ_TRY(OZ_NEW(&sim->control, member_count));
+    OZ_TRY(OZ_NEW(&sim->spring_start, member_count));
     memcpy(sim->members, members, (size_t)member_count * sizeof *members);
     OZ_TRY(choose_layout(sim, &switches, &sizes));
     OZ_TRY(build(sim, &switches, source_dir));
     OZ_TRY(oz_arrays_create(&sim->arrays, device, &switches, &sizes));
     OZ_TRY(upload_start(sim));
+    OZ_TRY(oz_sim_steps(sim, 0));
     *out = sim;
     sim = NULL;
 done:
@@ -187,6 +191,7 @@ void oz_sim_free(OzSim *sim)
     free(sim->members);
     free(sim->parameters);
     free(sim->control);
+    free(sim->spring_start);
     free(sim);
 }
 
@@ -202,7 +207,7 @@ static OzStatus write_motion(OzSim *sim, int member, int64_t first, int steps)
     OZ_TRY(OZ_NEW(&motion, count));
     OZ_TRY(oz_memory_new(&narrow, count, sizeof(double), "wall motion"));
     for (int k = 0; k < (sim->walls_still ? 0 : steps + 1); k++) {
-        double time = (double)(first + k) * scene->step;
+        double time = (double)(sim->parameters[member].dt > 0 ? first + k : first) * scene->step;
         for (int w = 0; w < walls; w++) {
             double *words = motion + 2 * ((size_t)k * (size_t)walls + (size_t)w);
             oz_constants_motion(&scene->walls[sim->wall_order[w]].motion, time, &words[0],
@@ -278,7 +283,14 @@ static OzStatus guard_spoke(const OzSim *sim, int member)
                           (double)step * scene->step, control->stop_grain, text);
 }
 
-/* Repeats the launch until every member has made its steps or one has stopped. */
+/* Whether a member has made its steps and its lists hold, or a guard spoke. */
+static bool is_through(const OzControl *control, int steps)
+{
+    bool lists_hold = control->truth == OZ_TRUTH_INNER && control->stale_step == OZ_NEVER;
+    return control->stop_bits || (control->step >= steps && lists_hold);
+}
+
+/* Repeats the launch until every member is through. */
 static OzStatus finish_launch(OzSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
@@ -291,7 +303,7 @@ static OzStatus finish_launch(OzSim *sim, int steps)
         more = false;
         for (int m = 0; m < sim->member_count; m++) {
             full |= sim->control[m].full != 0;
-            more |= sim->control[m].step < steps && !sim->control[m].stop_bits;
+            more |= !is_through(&sim->control[m], steps);
         }
         if (full) {
             OZ_TRY(grow_lists(sim));

@@ -11,6 +11,7 @@ struct OzSim {
     int member_count;
     OzParameters *parameters; /* one a member, in double                          */
     OzControl *control;       /* one a member, as last read or to be written next */
+    double *spring_start;     /* one a member: J in tangential springs at time 0  */
     int wall_order[OZ_WALLS_MAX]; /* scene's wall of each kernel wall             */
     cl_program program;
     cl_kernel advance;
@@ -23,7 +24,8 @@ struct OzSim {
     OzSimCounts counts;
 };
 
-/* One launch of exactly so many steps (at most sizes.motion_steps), no first force evaluation. */
+/* One launch of exactly so many steps (at most sizes.motion_steps; 0 makes the lists), no first force
+ * evaluation. The lists hold afterwards unless a guard spoke. */
 OzStatus oz_sim_steps(OzSim *sim, int steps);
 
 /* Uploads sim->parameters. */
