@@ -10,8 +10,11 @@ typedef OZ_PASTE(OZ_REAL_NAME, 4) scalar4;
 
 #if OZ_LANES == 1
 
-#define OZ_LANES_LOAD(array) ((array)[0])
-#define OZ_LANES_IOTA 0
+typedef int index;
+#define OZ_LANES_LOAD(array)         ((array)[0])
+#define OZ_LANES_STORE(value, array) ((array)[0] = (value))
+#define OZ_LANES_IOTA                0
+#define oz_lanes_mask_of(m)          (m)
 
 OZ_INLINE void oz_lanes_store_mask(mask m, int *hits)
 {
@@ -39,7 +42,22 @@ OZ_INLINE void oz_lanes_store4(global scalar *base, int stride, int word, const 
 
 #else
 
-#define OZ_LANES_LOAD(array) OZ_PASTE(vload, OZ_LANES)(0, (array))
+typedef OZ_PASTE(int, OZ_LANES) index; /* one integer a lane */
+#define OZ_LANES_LOAD(array)         OZ_PASTE(vload, OZ_LANES)(0, (array))
+#define OZ_LANES_STORE(value, array) OZ_PASTE(vstore, OZ_LANES)((value), 0, (array))
+#if OZ_LANES == 16
+#define OZ_LANES_IOTA ((index)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#elif OZ_LANES == 8
+#define OZ_LANES_IOTA ((index)(0, 1, 2, 3, 4, 5, 6, 7))
+#else
+#define OZ_LANES_IOTA ((index)(0, 1, 2, 3))
+#endif
+/* A comparison of integers as a mask of reals. */
+#if defined(OZ_DOUBLE)
+#define oz_lanes_mask_of(m) OZ_PASTE(convert_long, OZ_LANES)(m)
+#else
+#define oz_lanes_mask_of(m) (m)
+#endif
 
 /* 1 where the mask holds, else 0. */
 OZ_INLINE void oz_lanes_store_mask(mask m, int *hits)
@@ -114,5 +132,26 @@ OZ_INLINE void oz_lanes_store4(global scalar *base, int stride, int word, real *
 }
 
 #endif
+
+/* Writes the values of the lanes that hit to `to`, closed up, and gives their number. Up to OZ_LANES places
+ * are written, whatever the number. Where the device has an instruction for it, that is used: the loop
+ * takes most of a list's rebuild otherwise. */
+OZ_INLINE int oz_lanes_compact(int *to, index values, mask hits)
+{
+#if OZ_LANES == 16 && !defined(OZ_DOUBLE) && defined(__AVX512F__) && defined(__AVX512DQ__)
+    ushort bits = __builtin_ia32_cvtd2mask512(hits);
+    vstore16(__builtin_ia32_compresssi512_mask(values, values, bits), 0, to);
+    return popcount(bits);
+#else
+    int value[OZ_LANES], hit[OZ_LANES], count = 0;
+    OZ_LANES_STORE(values, value);
+    oz_lanes_store_mask(hits, hit);
+    for (int l = 0; l < OZ_LANES; l++) {
+        to[count] = value[l];
+        count += hit[l];
+    }
+    return count;
+#endif
+}
 
 #endif

@@ -30,6 +30,20 @@ OZ_INLINE void oz_lists_harvest(OzWork *w, int region)
 #endif
 }
 
+/* Empties the outer list's springs once the inner list has them: one whose pair has left the inner list was
+ * let go, and must not be found again when the pair comes back. */
+OZ_INLINE void oz_lists_forget(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    int blocks = (w->outer_count[region] + OZ_LANES - 1) / OZ_LANES;
+    global real *words = (global real *)w->outer_history;
+    words += 3 * (size_t)(region * w->z.outer_capacity / OZ_LANES);
+    for (int k = 0; k < 3 * blocks; k++) {
+        words[k] = REAL(0.0);
+    }
+#endif
+}
+
 /* Springs of the outer list to the saved list, keyed by ids. */
 OZ_INLINE void oz_lists_save(OzWork *w, int region)
 {
@@ -145,6 +159,7 @@ OZ_INLINE void oz_lists_fill(OzWork *w, int region)
         w->sorted_y[to] = spot[1];
         w->sorted_z[to] = spot[2];
         w->sorted_slot[to] = i;
+        w->sorted_id[to] = w->id[i];
         if (!OZ_EQUAL) {
             w->sorted_reach[to] = oz_lists_reach(w, i);
         }
@@ -157,19 +172,20 @@ enum { OZ_CANDIDATES = 256 };
 
 typedef struct OzSearch {
     int slot, id;        /* of the grain                                  */
-    spot_kind spot[3];
-    scalar reach;
+    spot_kind spot[3];   /* its place                                     */
+    OzGrain grain;       /* its geometry, the same in every lane          */
+    scalar reach;        /* m, half-length + radius                       */
+    scalar far;          /* m, centre distance of the farthest partner    */
     int out;             /* where its next pair goes in the outer list    */
     int limit;           /* end of the region's outer list                */
     int wanted;          /* pairs found in this region, stored or not     */
     int count;           /* candidates                                    */
-    int candidate[OZ_CANDIDATES + OZ_LANES];
+    int candidate[OZ_CANDIDATES + 2 * OZ_LANES];
 } OzSearch;
 
-/* The squared gap distance between the shafts of the grains in a and b, and the sum of the radii. */
-OZ_INLINE real oz_lists_distance2(const OzWork *w, const int *a, const int *b, real *radii)
+/* The squared distance between the shafts of two grains a lane, and the sum of their radii. */
+OZ_INLINE real oz_lists_distance2(const OzWork *w, OzGrain one, OzGrain other, real *radii)
 {
-    OzGrain one = oz_work_geometry(w, a), other = oz_work_geometry(w, b);
     OzVec3 apart = oz_place_minus(one.place, other.place, w->parameters->length_unit);
     *radii = one.radius + other.radius;
     if (OZ_ROUND) {
@@ -183,23 +199,21 @@ OZ_INLINE real oz_lists_distance2(const OzWork *w, const int *a, const int *b, r
 /* Tests the collected candidates and stores the pairs. */
 OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
 {
-    int own[OZ_LANES], hit[OZ_LANES];
     for (int l = 0; l < OZ_LANES; l++) {
-        own[l] = s->slot;
         s->candidate[s->count + l] = s->slot;
     }
     for (int first = 0; first < s->count; first += OZ_LANES) {
-        real radii, distance2 = oz_lists_distance2(w, own, s->candidate + first, &radii);
-        real reach = radii + REAL(w->parameters->skin_outer);
-        oz_lanes_store_mask(distance2 < reach * reach, hit);
-        for (int l = 0; l < OZ_LANES && first + l < s->count; l++) {
-            if (hit[l]) {
-                s->wanted++;
-                if (s->out < s->limit) {
-                    w->outer_a[s->out] = s->slot;
-                    w->outer_b[s->out++] = s->candidate[first + l];
-                }
-            }
+        int picked[OZ_LANES];
+        OzGrain other = oz_work_geometry(w, s->candidate + first);
+        real radii, distance2 = oz_lists_distance2(w, s->grain, other, &radii);
+        real near = radii + REAL(w->parameters->skin_outer);
+        mask hits = (distance2 < near * near) &
+                    oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
+        int count = oz_lanes_compact(picked, OZ_LANES_LOAD(s->candidate + first), hits);
+        s->wanted += count;
+        for (int l = 0; l < count && s->out < s->limit; l++) {
+            w->outer_a[s->out] = s->slot;
+            w->outer_b[s->out++] = picked[l];
         }
     }
     s->count = 0;
@@ -209,32 +223,27 @@ OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
 OZ_INLINE void oz_lists_sweep(OzWork *w, OzSearch *s, int first, int last)
 {
     scalar unit = w->parameters->length_unit;
-    scalar reach = s->reach + w->parameters->skin_outer;
     for (int k = first; k < last; k += OZ_LANES) {
-        int hit[OZ_LANES];
         OzPlace apart;
         apart.x = OZ_LANES_LOAD(w->sorted_x + k) - s->spot[0];
         apart.y = OZ_LANES_LOAD(w->sorted_y + k) - s->spot[1];
         apart.z = OZ_LANES_LOAD(w->sorted_z + k) - s->spot[2];
         OzVec3 d = oz_vec3(oz_place_to_real(apart.x) * unit, oz_place_to_real(apart.y) * unit,
                            oz_place_to_real(apart.z) * unit);
-        real far = OZ_EQUAL ? REAL(2 * s->reach + w->parameters->skin_outer)
-                            : OZ_LANES_LOAD(w->sorted_reach + k) + REAL(reach);
-        oz_lanes_store_mask(oz_dot(d, d) < far * far, hit);
-        if (s->count > OZ_CANDIDATES - OZ_LANES) {
+        mask mine = oz_lanes_mask_of((OZ_LANES_LOAD(w->sorted_id + k) > s->id) &
+                                     (OZ_LANES_IOTA + k < last));
+        real far = REAL(s->far);
+        if (!OZ_EQUAL) {
+            real reach = OZ_LANES_LOAD(w->sorted_reach + k), own = REAL(s->reach);
+            mask here = oz_lanes_mask_of(OZ_LANES_IOTA + k < last);
+            mine = ((reach < own) & here) | ((reach == own) & mine);
+            far = reach + REAL(s->reach + w->parameters->skin_outer);
+        }
+        if (s->count > OZ_CANDIDATES) {
             oz_lists_flush(w, s);
         }
-        int here = min(last - k, OZ_LANES);
-        for (int l = 0; l < here; l++) {
-            int slot = w->sorted_slot[k + l], id = w->id[slot];
-            int first_is_mine = id > s->id;
-            if (!OZ_EQUAL) {
-                scalar other = w->sorted_reach[k + l];
-                first_is_mine = other < s->reach || (other == s->reach && first_is_mine);
-            }
-            s->candidate[s->count] = slot;
-            s->count += hit[l] & first_is_mine;
-        }
+        s->count += oz_lanes_compact(s->candidate + s->count, OZ_LANES_LOAD(w->sorted_slot + k),
+                                     (oz_dot(d, d) < far * far) & mine);
     }
 }
 
@@ -255,21 +264,44 @@ OZ_INLINE void oz_lists_sort(OzWork *w, int first, int last)
     }
 }
 
+/* Distance of a coordinate from the cells at `offset` of its own, m: 0 within. frac: where in its cell. */
+OZ_INLINE scalar oz_lists_off(int offset, scalar frac, scalar cell)
+{
+    scalar off = offset > 0 ? offset - frac : offset < 0 ? frac - (offset + 1) : 0;
+    return off * cell;
+}
+
+/* One row of cells along x, `off2` (m^2) away across it: only as long as the sphere of reach is wide there. */
+OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar x, scalar off2)
+{
+    scalar inverse = w->parameters->inverse_cell;
+    scalar width = sqrt(s->far * s->far - off2);
+    int low = (int)floor((x - width) * inverse), high = (int)floor((x + width) * inverse);
+    int start = low & (w->z.cells_x - 1), cells = min(high - low + 1, w->z.cells_x);
+    int stop = min(start + cells, w->z.cells_x), wrapped = start + cells - stop;
+    oz_lists_sweep(w, s, w->cell_first[row + start], w->cell_first[row + stop]);
+    if (wrapped > 0) {
+        oz_lists_sweep(w, s, w->cell_first[row], w->cell_first[row + wrapped]);
+    }
+}
+
 OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
 {
 #if OZ_ALL_PAIRS
     oz_lists_sweep(w, s, 0, w->z.count);
 #else
-    int reach = w->z.reach_cells, width = 2 * reach + 1, mask_x = w->z.cells_x - 1;
-    int x = oz_lists_cell(w, s->spot[0]), y = oz_lists_cell(w, s->spot[1]);
-    int z = oz_lists_cell(w, s->spot[2]), start = (x - reach) & mask_x;
-    int stop = min(start + width, w->z.cells_x), wrapped = start + width - stop;
+    global const OzParameters *p = w->parameters;
+    int reach = w->z.reach_cells;
+    scalar unit = p->length_unit, cell = 1 / p->inverse_cell;
+    scalar x = (scalar)s->spot[0] * unit, y = (scalar)s->spot[1] * unit * p->inverse_cell;
+    scalar z = (scalar)s->spot[2] * unit * p->inverse_cell;
+    int at_y = (int)floor(y), at_z = (int)floor(z);
     for (int dz = -reach; dz <= reach; dz++) {
+        scalar off_z = oz_lists_off(dz, z - at_z, cell);
         for (int dy = -reach; dy <= reach; dy++) {
-            int row = oz_lists_cell_index(w, 0, y + dy, z + dz);
-            oz_lists_sweep(w, s, w->cell_first[row + start], w->cell_first[row + stop]);
-            if (wrapped > 0) {
-                oz_lists_sweep(w, s, w->cell_first[row], w->cell_first[row + wrapped]);
+            scalar off_y = oz_lists_off(dy, y - at_y, cell), off2 = off_z * off_z + off_y * off_y;
+            if (off2 < s->far * s->far) {
+                oz_lists_row(w, s, oz_lists_cell_index(w, 0, at_y + dy, at_z + dz), x, off2);
             }
         }
     }
@@ -288,7 +320,13 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
         s.slot = i;
         s.id = w->id[i];
         s.reach = oz_lists_reach(w, i);
+        s.far = s.reach + w->parameters->reach_max + w->parameters->skin_outer;
         s.count = 0;
+        int own[OZ_LANES];
+        for (int l = 0; l < OZ_LANES; l++) {
+            own[l] = i;
+        }
+        s.grain = oz_work_geometry(w, own);
         oz_lists_spot(w, i, s.spot);
         int first = s.out;
         oz_lists_around(w, &s);
@@ -298,15 +336,15 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
         w->outer_number[i] = s.out - first;
     }
     w->outer_count[region] = s.out - begin;
+    for (int o = s.out; o < s.limit && (o - begin) % OZ_LANES != 0; o++) {
+        w->outer_a[o] = 0; /* read with the last block, never taken */
+        w->outer_b[o] = 0;
+    }
     if (s.wanted > w->z.outer_capacity) {
         oz_lists_full(w);
         atomic_max(&w->control->outer_needed, s.wanted);
     }
-#if OZ_HISTORY
-    for (int k = 3 * begin; k < 3 * s.out; k++) {
-        w->outer_history[k] = 0;
-    }
-#endif
+    oz_lists_forget(w, region);
 }
 
 /* Takes the present places as a list's reference. */
@@ -398,22 +436,20 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
     int begin = region * w->z.inner_capacity, count = 0;
     real skin = REAL(w->parameters->skin_inner);
     for (int first = outer; first < outer_end; first += OZ_LANES) {
-        int a[OZ_LANES], b[OZ_LANES], hit[OZ_LANES];
+        int a[OZ_LANES], b[OZ_LANES], picked[OZ_LANES];
         for (int l = 0; l < OZ_LANES; l++) {
-            int real_pair = first + l < outer_end;
-            a[l] = real_pair ? w->outer_a[first + l] : 0;
-            b[l] = real_pair ? w->outer_b[first + l] : w->z.slots;
+            a[l] = w->outer_a[first + l];
+            b[l] = w->outer_b[first + l];
         }
-        real radii, distance2 = oz_lists_distance2(w, a, b, &radii);
-        oz_lanes_store_mask(distance2 < (radii + skin) * (radii + skin), hit);
-        for (int l = 0; l < OZ_LANES; l++) {
-            if (hit[l]) {
-                if (count < w->z.inner_capacity) {
-                    oz_lists_take(w, first + l, begin + count);
-                }
-                count++;
-            }
+        real radii, distance2 =
+            oz_lists_distance2(w, oz_work_geometry(w, a), oz_work_geometry(w, b), &radii);
+        mask hits = (distance2 < (radii + skin) * (radii + skin)) &
+                    oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
+        int hit_count = oz_lanes_compact(picked, OZ_LANES_IOTA + first, hits);
+        for (int l = 0; l < hit_count && count + l < w->z.inner_capacity; l++) {
+            oz_lists_take(w, picked[l], begin + count + l);
         }
+        count += hit_count;
     }
     if (count > w->z.inner_capacity) {
         oz_lists_full(w);

@@ -39,13 +39,20 @@ OZ_INLINE int refresh(OzWork *w, int item, int stride)
     OZ_WORK_MEET();
     int full = w->control->full;
     OZ_WORK_MEET();
-    if (item == 0 && !full) {
+    if (full) {
+        return 0;
+    }
+    EACH_REGION
+    {
+        oz_lists_forget(w, region);
+    }
+    if (item == 0) {
         w->control->truth = OZ_TRUTH_INNER;
         w->control->stale_step = OZ_NEVER;
         w->control->refreshes++;
     }
     OZ_WORK_MEET();
-    return !full;
+    return 1;
 }
 
 OZ_INLINE void set_truth(OzWork *w, int item, int truth)
