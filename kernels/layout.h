@@ -46,7 +46,6 @@ typedef struct OzSizes {
     int back_capacity;    /* pairs of the inner list in which a grain is the second             */
     int cells_x, cells_y, cells_z; /* powers of two; cell coordinates wrap around                */
     int cells;
-    int reach_cells;      /* cells to look at on either side                                    */
     int motion_steps;     /* steps of one launch for which walls' motion is given                */
     int members;          /* scenes side by side in this launch                                 */
 } OzSizes;

@@ -291,14 +291,13 @@ OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
     oz_lists_sweep(w, s, 0, w->z.count);
 #else
     global const OzParameters *p = w->parameters;
-    int reach = w->z.reach_cells;
     scalar unit = p->length_unit, cell = 1 / p->inverse_cell;
     scalar x = (scalar)s->spot[0] * unit, y = (scalar)s->spot[1] * unit * p->inverse_cell;
     scalar z = (scalar)s->spot[2] * unit * p->inverse_cell;
     int at_y = (int)floor(y), at_z = (int)floor(z);
-    for (int dz = -reach; dz <= reach; dz++) {
+    for (int dz = -1; dz <= 1; dz++) {
         scalar off_z = oz_lists_off(dz, z - at_z, cell);
-        for (int dy = -reach; dy <= reach; dy++) {
+        for (int dy = -1; dy <= 1; dy++) {
             scalar off_y = oz_lists_off(dy, y - at_y, cell), off2 = off_z * off_z + off_y * off_y;
             if (off2 < s->far * s->far) {
                 oz_lists_row(w, s, oz_lists_cell_index(w, 0, at_y + dy, at_z + dz), x, off2);

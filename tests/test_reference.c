@@ -4,7 +4,8 @@
 
 #include "base/random.h"
 #include "brute.h"
-#include "compute/sort_axis.h"
+#include "compute/near.h"
+#include "model/contact.h"
 
 #include <stdlib.h>
 
@@ -92,6 +93,55 @@ static void test_sort_axis_of_few(void **state)
         oz_grains_free(&grains);
     }
     oz_sort_axis_free(&list);
+}
+
+/* Three spheres in a row, 1 apart; the third comes near only later. */
+static void test_springs_outlive_the_list(void **state)
+{
+    (void)state;
+    OzNear near = {0};
+    OzGrains grains;
+    bool renewed;
+    double position[9] = {0, 0, 0, 0, 0, 1, 0, 0, 3}, axis[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+    must(oz_grains_create(&grains, 3));
+    grains.diameter[0] = grains.diameter[1] = grains.diameter[2] = 1;
+    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    assert_true(renewed && near.pairs.count == 1);
+    near.spring[0] = oz_vec3(1, 2, 3);
+    position[0] = 0.4 * near.skin;
+    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    assert_false(renewed);
+    position[8] = -1; /* now before the pair that touched, by ids */
+    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    assert_true(renewed && near.pairs.count == 2);
+    assert_true(near.pairs.pair[0].b == 1 && near.spring[0].y == 2);
+    assert_true(near.pairs.pair[1].b == 2 && near.spring[1].y == 0);
+    position[5] = 2; /* parted */
+    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    assert_true(renewed && near.pairs.count == 1 && near.spring[0].y == 0);
+    oz_near_free(&near);
+    oz_grains_free(&grains);
+}
+
+static void test_a_sphere_among_rods_touches_once(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, "model: rods\ntime: {step: 1e-5, duration: 1}\n"
+                   "contact: {contact_time: 1e-3, restitution: 0.5}\ngrains:\n"
+                   "  - {kind: single, diameter: 1e-3, aspect: 0, position: [0, 0, 0.499e-3]}\n"
+                   "  - {kind: single, diameter: 1e-3, aspect: 2, axis: [1, 0, 0],"
+                   " position: [5e-3, 0, 0.499e-3]}\n"
+                   "walls: [{kind: plane, point: [0, 0, 0], normal: [0, 0, 1]}]\n");
+    rig_start(&rig);
+    assert_int_equal(rig.now.contacts.wall_count, 3);
+    rig_advance(&rig, 1);
+    OzContactConstants c = oz_contact_constants(&rig.scene.contact);
+    /* one spring, and a dashpot that has nothing to damp yet: rounding alone */
+    double expected = (c.stiffness * 1e-6 - 9.81) * 1e-5;
+    assert_true(fabs(rig.now.velocity[2] / expected - 1) < 1e-9);
+    assert_true(fabs(rig.now.velocity[5] / (expected + c.stiffness * 1e-11) - 1) < 1e-9);
+    rig_close(&rig);
 }
 
 /* Rods and spheres falling on a shaken floor in a cylinder. */
@@ -246,6 +296,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sort_axis_lists_every_near_pair_in_order),
         cmocka_unit_test(test_sort_axis_of_few),
+        cmocka_unit_test(test_springs_outlive_the_list),
+        cmocka_unit_test(test_a_sphere_among_rods_touches_once),
         cmocka_unit_test(test_a_shaken_bed_misses_no_pair),
         cmocka_unit_test(test_ledger_closes),
         cmocka_unit_test(test_ledger_of_euler_closes_linearly_with_the_step),

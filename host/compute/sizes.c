@@ -3,7 +3,7 @@
 
 /* Reach of the lists beyond contact, in mean diameters: measured on the tapped bed of Pournin et al. (design:
  * a larger outer skin is rebuilt less often but holds more pairs; the inner one likewise). */
-static const double outer_skin = 0.8, inner_skin = 0.06;
+static const double outer_skin = 0.9, inner_skin = 0.1;
 
 enum {
     OUTER_PAIRS = 10, /* a grain, at first; lists grow when that is too few */
@@ -48,16 +48,16 @@ static void extents(double size[3], const OzGrains *grains)
     }
 }
 
-/* Cells of the hashed grid. Rods are looked for two cells away, which fits their reach closer than one. The
- * grid wraps around, so its size is a matter of speed only, as long as no cell is met twice. */
-static void choose_cells(OzSizes *z, OzParameters *p, const OzGrains *grains, const OzSwitches *s)
+/* Cells of the hashed grid, as wide as the longest reach: the neighbouring ones hold all partners (half as wide
+ * and two away measured slower, more rows of cells costing more than fewer candidates save). The grid wraps
+ * around, so its size is a matter of speed only, as long as no cell is met twice. */
+static void choose_cells(OzSizes *z, OzParameters *p, const OzGrains *grains)
 {
     double reach = 2 * p->reach_max + p->skin_outer, size[3];
-    z->reach_cells = s->round ? 1 : 2;
-    double cell = fmax(reach, 1e-300) / z->reach_cells;
+    double cell = fmax(reach, 1e-300);
     p->inverse_cell = 1 / cell;
     extents(size, grains);
-    int least = 2 * z->reach_cells + 2, *cells[3] = {&z->cells_x, &z->cells_y, &z->cells_z};
+    int least = 4, *cells[3] = {&z->cells_x, &z->cells_y, &z->cells_z};
     double budget = fmax(64, 4.0 * (double)grains->count);
     for (int c = 0; c < 3; c++) {
         double wanted = fmin(size[c] / cell + 1, fmax(budget, least));
@@ -94,7 +94,7 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
     z->inner_capacity = round_up(INNER_PAIRS * share + 16, s->lanes);
     z->back_capacity = BACK_PAIRS;
     z->motion_steps = MOTION_STEPS;
-    choose_cells(z, p, grains, s);
+    choose_cells(z, p, grains);
 }
 
 static int larger_capacity(int now, int needed, int lanes)
