@@ -78,7 +78,8 @@ OZ_INLINE void oz_grains_record(OzWork *w, int block, OzBody body, OzShape shape
     real a[4] = {oz_place_bits(body.place.x), oz_place_bits(body.place.y),
                  oz_place_bits(body.place.z), shape.radius};
     real b[4] = {shaft.x, shaft.y, shaft.z, shape.mass};
-    real c[4] = {velocity.x, velocity.y, velocity.z, REAL(0.0)};
+    real skin = w->reference_inner[(size_t)block * OZ_REFERENCE + OZ_REFERENCE_SKIN];
+    real c[4] = {velocity.x, velocity.y, velocity.z, skin};
     real d[4] = {rate.x, rate.y, rate.z, REAL(0.0)};
     global scalar *out = w->record + (size_t)block * OZ_LANES * OZ_RECORD;
     oz_lanes_store4(out, OZ_RECORD, OZ_R_PLACE, a);
@@ -292,13 +293,13 @@ OZ_INLINE real oz_grains_moved2(const OzWork *w, global const real *reference, O
     return oz_dot(dx, dx) + oz_dot(da, da) + REAL(2.0) * oz_magnitude(oz_dot(dx, da));
 }
 
-/* Raises the stale mark when a grain has used up its half of the inner skin. */
+/* Raises the stale mark when a grain has used up its skin. */
 OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape, int step)
 {
     OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
     global const real *reference = w->reference_inner + (size_t)block * OZ_REFERENCE;
-    scalar allowed = (scalar)0.5 * w->parameters->skin_inner;
-    if (OZ_ANY(oz_grains_moved2(w, reference, body, shaft) > REAL(allowed * allowed))) {
+    real allowed = reference[OZ_REFERENCE_SKIN];
+    if (OZ_ANY(oz_grains_moved2(w, reference, body, shaft) > allowed * allowed)) {
         w->control->stale_step = step;
     }
 }

@@ -25,8 +25,9 @@ typedef struct OzParameters {
     scalar drag;          /* 1/s, only while settling                                         */
     scalar gravity[3];    /* m/s^2                                                            */
     OzLawConstants law;            /* between grains                                                   */
-    scalar skin_inner;    /* m: pairs with a smaller gap are in the inner list                */
     scalar skin_outer;    /* m: pairs with a smaller gap are in the outer list                */
+    scalar skin_least, skin_most; /* m, of one grain: its skin grows with its speed           */
+    scalar skin_time;     /* s: for which a grain's skin shall last at its present speed      */
     scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
     scalar reach_max;     /* m, largest half-length + radius                                  */
     scalar radius, half_length, mass; /* of every grain of an equal population                */
@@ -87,6 +88,7 @@ enum {
     OZ_R_SHAFT = 4,
     OZ_R_MASS = 7,
     OZ_R_VELOCITY = 8,
+    OZ_R_SKIN = 11,
     OZ_R_RATE = 12,
     OZ_RECORD = 16
 };
@@ -109,7 +111,8 @@ enum {
 /* Words of a block's shapes, for populations that are not all equal. */
 enum { OZ_B_RADIUS, OZ_B_HALF_LENGTH, OZ_B_MASS, OZ_B_INVERSE_INERTIA, OZ_B_INVERSE_AXIS, OZ_SHAPE };
 
-/* Words of a block's reference: place and half-shaft when a list was made. */
-enum { OZ_REFERENCE = 6 };
+/* Words of a block's reference: place and half-shaft when a list was made, and (inner list) how far the grain
+ * may move before the list must be made again. */
+enum { OZ_REFERENCE_SKIN = 6, OZ_REFERENCE = 7 };
 
 #endif

@@ -1,6 +1,7 @@
 /* Neighbour lists. The outer list holds every pair whose gap was below skin_outer when it was made from the
- * hashed grid; the inner list, which the forces walk, those of them below skin_inner, and is made anew from
- * the outer one as long as no grain has used up its half of the difference. A list too small raises
+ * hashed grid; the inner list, which the forces walk, those of them whose gap is below the sum of both grains'
+ * skins. A grain's skin grows with its speed, so that slow and fast ones use theirs up at about the same time.
+ * The inner list is made anew from the outer one as long as that covers every grain's motion and skin. A list too small raises
  * control->full with the sizes needed and leaves the springs where control->truth says, so that the host
  * can enlarge it and repeat: no pair is ever dropped. A pair's first grain is the one with the longer reach
  * (half-length + radius), then the lower id. OpenCL C only. */
@@ -346,35 +347,61 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
     oz_lists_forget(w, region);
 }
 
-/* Takes the present places as a list's reference. */
-OZ_INLINE void oz_lists_refer(OzWork *w, int region, global real *reference)
+/* Notes where a block of grains is. */
+OZ_INLINE void oz_lists_note(global real *reference, OzBody body, OzVec3 shaft)
 {
-    int begin = oz_work_region_begin(w, region) / OZ_LANES;
-    int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
-    for (int block = begin; block < end; block++) {
-        OzBody body = oz_grains_load(w, block);
-        OzShape shape = oz_grains_shape(w, block);
-        global real *words = reference + (size_t)block * OZ_REFERENCE;
-        words[0] = oz_place_bits(body.place.x);
-        words[1] = oz_place_bits(body.place.y);
-        words[2] = oz_place_bits(body.place.z);
-        oz_work_store3(words + 3, oz_scale(oz_quaternion_axis(body.turn), shape.half_length));
-    }
+    reference[0] = oz_place_bits(body.place.x);
+    reference[1] = oz_place_bits(body.place.y);
+    reference[2] = oz_place_bits(body.place.z);
+    oz_work_store3(reference + 3, shaft);
 }
 
-/* Marks the outer list stale when a grain has used up its half of what it covers beyond the inner skin. */
-OZ_INLINE void oz_lists_check_outer(OzWork *w, int region)
+/* Takes the present places as the outer list's reference. */
+OZ_INLINE void oz_lists_refer(OzWork *w, int region)
 {
     int begin = oz_work_region_begin(w, region) / OZ_LANES;
     int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
-    scalar allowed = (scalar)0.5 * (w->parameters->skin_outer - w->parameters->skin_inner);
     for (int block = begin; block < end; block++) {
         OzBody body = oz_grains_load(w, block);
         OzShape shape = oz_grains_shape(w, block);
         OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
-        global const real *reference = w->reference_outer + (size_t)block * OZ_REFERENCE;
-        if (OZ_ANY(oz_grains_moved2(w, reference, body, shaft) > REAL(allowed * allowed))) {
+        oz_lists_note(w->reference_outer + (size_t)block * OZ_REFERENCE, body, shaft);
+    }
+}
+
+/* A grain's skin: what it moves in skin_time at its present speed, no less and no more than the bounds. */
+OZ_INLINE real oz_lists_skin(const OzWork *w, OzBody body, OzShape shape, OzVec3 axis)
+{
+    global const OzParameters *p = w->parameters;
+    OzVec3 rate = oz_body_rate(body.spin, axis, shape);
+    real speed = sqrt(oz_dot(body.velocity, body.velocity)) +
+                 shape.half_length * sqrt(oz_dot(rate, rate));
+    return oz_smaller(REAL(p->skin_most), REAL(p->skin_least) + speed * REAL(p->skin_time));
+}
+
+/* Takes the present places as the inner list's reference, gives each grain its skin, and marks the outer list
+ * stale where it does not cover a grain's motion since it was made and its skin. */
+OZ_INLINE void oz_lists_measure(OzWork *w, int region)
+{
+    int begin = oz_work_region_begin(w, region) / OZ_LANES;
+    int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+    real most = REAL((scalar)0.5 * w->parameters->skin_outer);
+    for (int block = begin; block < end; block++) {
+        OzBody body = oz_grains_load(w, block);
+        OzShape shape = oz_grains_shape(w, block);
+        OzVec3 axis = oz_quaternion_axis(body.turn), shaft = oz_scale(axis, shape.half_length);
+        real skin = oz_lists_skin(w, body, shape, axis);
+        real left = most - skin;
+        global const real *outer = w->reference_outer + (size_t)block * OZ_REFERENCE;
+        if (OZ_ANY(oz_grains_moved2(w, outer, body, shaft) > left * left)) {
             w->control->outer_stale = 1;
+        }
+        oz_lists_note(w->reference_inner + (size_t)block * OZ_REFERENCE, body, shaft);
+        w->reference_inner[(size_t)block * OZ_REFERENCE + OZ_REFERENCE_SKIN] = skin;
+        scalar lane[OZ_LANES];
+        OZ_LANES_STORE(skin, lane);
+        for (int l = 0; l < OZ_LANES; l++) {
+            w->record[(size_t)(block * OZ_LANES + l) * OZ_RECORD + OZ_R_SKIN] = lane[l];
         }
     }
 }
@@ -428,12 +455,19 @@ OZ_INLINE void oz_lists_reset(OzWork *w, int region)
     }
 }
 
+/* Skins of the grains in slots. */
+OZ_INLINE real oz_lists_skins(const OzWork *w, const int *slots)
+{
+    real words[4];
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_VELOCITY, words);
+    return words[OZ_R_SKIN - OZ_R_VELOCITY];
+}
+
 /* The region's inner list. */
 OZ_INLINE void oz_lists_select(OzWork *w, int region)
 {
     int outer = region * w->z.outer_capacity, outer_end = outer + w->outer_count[region];
     int begin = region * w->z.inner_capacity, count = 0;
-    real skin = REAL(w->parameters->skin_inner);
     for (int first = outer; first < outer_end; first += OZ_LANES) {
         int a[OZ_LANES], b[OZ_LANES], picked[OZ_LANES];
         for (int l = 0; l < OZ_LANES; l++) {
@@ -442,8 +476,8 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
         }
         real radii, distance2 =
             oz_lists_distance2(w, oz_work_geometry(w, a), oz_work_geometry(w, b), &radii);
-        mask hits = (distance2 < (radii + skin) * (radii + skin)) &
-                    oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
+        real near = radii + oz_lists_skins(w, a) + oz_lists_skins(w, b);
+        mask hits = (distance2 < near * near) & oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
         int hit_count = oz_lanes_compact(picked, OZ_LANES_IOTA + first, hits);
         for (int l = 0; l < hit_count && count + l < w->z.inner_capacity; l++) {
             oz_lists_take(w, picked[l], begin + count + l);

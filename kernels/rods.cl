@@ -34,7 +34,6 @@ OZ_INLINE int refresh(OzWork *w, int item, int stride)
     EACH_REGION
     {
         oz_lists_order(w, region);
-        oz_lists_refer(w, region, w->reference_inner);
     }
     OZ_WORK_MEET();
     int full = w->control->full;
@@ -107,7 +106,7 @@ OZ_INLINE int rebuild(OzWork *w, int item, int stride)
     }
     EACH_REGION
     {
-        oz_lists_refer(w, region, w->reference_outer);
+        oz_lists_refer(w, region);
     }
     OZ_WORK_MEET();
     if (item == 0) {
@@ -122,14 +121,18 @@ OZ_INLINE int rebuild(OzWork *w, int item, int stride)
 /* Makes the lists hold again. 0 when one is full (or made by the host) and the launch must end. */
 OZ_INLINE int renew(OzWork *w, int item, int stride)
 {
+    EACH_REGION
+    {
+        oz_lists_measure(w, region);
+    }
     if (w->control->truth == OZ_TRUTH_INNER) {
         EACH_REGION
         {
             oz_lists_harvest(w, region);
-            oz_lists_check_outer(w, region);
         }
         set_truth(w, item, OZ_TRUTH_OUTER);
     }
+    OZ_WORK_MEET();
     int outer_holds = w->control->truth == OZ_TRUTH_OUTER && !w->control->outer_stale;
     OZ_WORK_MEET();
 #if OZ_HOST_LISTS

@@ -1,9 +1,10 @@
 /* Choosing sizes. */
 #include "compute/sizes.h"
 
-/* Reach of the lists beyond contact, in mean diameters: measured on the tapped bed of Pournin et al. (design:
- * a larger outer skin is rebuilt less often but holds more pairs; the inner one likewise). */
-static const double outer_skin = 0.9, inner_skin = 0.1;
+/* Reach of the lists beyond contact, measured on the tapped bed of Pournin et al.: larger skins are used up
+ * less often but hold more pairs. Lengths in mean diameters. */
+static const double outer_skin = 0.9, least_skin = 0.008, most_skin = 0.15;
+static const double skin_steps = 12; /* steps for which a grain's skin shall last at its present speed */
 
 enum {
     OUTER_PAIRS = 10, /* a grain, at first; lists grow when that is too few */
@@ -82,7 +83,9 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
     double diameter = mean_diameter(grains);
     *z = (OzSizes){0};
     p->skin_outer = scene->skin > 0 ? scene->skin : outer_skin * diameter;
-    p->skin_inner = fmin(inner_skin * diameter, p->skin_outer / 2);
+    p->skin_most = fmin(most_skin * diameter, p->skin_outer / 4);
+    p->skin_least = fmin(least_skin * diameter, p->skin_most);
+    p->skin_time = skin_steps * scene->step;
     z->members = members;
     z->count = (int)grains->count;
     z->slots = round_up((double)z->count, s->lanes);
