@@ -17,6 +17,8 @@ static const struct {
     {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o", 1,
      1},
     {"keys", "", "c", "every scene key: type, unit, range, default, meaning", 0, 0},
+    {"bench", "[SCENE]...", "oQFzbysdtS", "speed on this machine: an6 and a ladder of beds, or scenes", 0,
+     OZ_CLI_PATHS_MAX},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
 };
 
@@ -25,7 +27,7 @@ static const struct {
     char letter;
     const char *name, *value, *help;
 } option_rows[] = {
-    {'o', "-o", "DIR", "folder to write (default runs/<scene name>)"},
+    {'o', "-o", "DIR", "folder to write (default runs/<scene name>; of bench: bench)"},
     {'O', "--overwrite", NULL, "replace a finished run there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
     {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},
@@ -36,6 +38,11 @@ static const struct {
     {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later"},
     {'f', "--force", NULL, "run even at a step at which a contact is unstable"},
     {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder"},
+    {'Q', "--quick", NULL, "a short ladder, in about a minute"},
+    {'F', "--features", NULL, "what each feature of an6 costs, too"},
+    {'z', "--sizes", "N,N,...", "the ladder's numbers of grains"},
+    {'b', "--budget", "S", "seconds that all timed pieces together shall take"},
+    {'y', "--yardstick", "PROGRAM", "the scalar yardstick (default: found beside orzo)"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -130,6 +137,16 @@ static OzStatus parse_until(OzOptions *options, const char *value)
     return OZ_OK;
 }
 
+static OzStatus parse_budget(OzOptions *options, const char *value)
+{
+    char *end = NULL;
+    options->budget = strtod(value, &end);
+    if (*value == '\0' || *end || !isfinite(options->budget) || options->budget <= 0) {
+        return wrong(value, "--budget with seconds above 0");
+    }
+    return OZ_OK;
+}
+
 static OzStatus add_setting(OzOptions *options, const char *value)
 {
     if (options->setting_count == OZ_CLI_SETTINGS_MAX) {
@@ -176,7 +193,17 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
     case 'S':
         options->source_dir = value;
         return OZ_OK;
+    case 'b':
+        return parse_budget(options, value);
+    case 'z':
+        options->sizes = value;
+        return OZ_OK;
+    case 'y':
+        options->yardstick = value;
+        return OZ_OK;
     default:
+        options->quick |= letter == 'Q';
+        options->features |= letter == 'F';
         options->overwrite |= letter == 'O';
         options->no_video |= letter == 'n';
         options->force |= letter == 'f';
@@ -220,12 +247,12 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     options->until = -1;
     if (argc < 2) {
         return oz_status_fail(OZ_ERR_INPUT, "orzo: no command; expected one of run, check, draw, "
-                                            "keys, devices (see orzo --help)");
+                                            "keys, bench, devices (see orzo --help)");
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
-        return wrong(argv[1], "run, check, draw, keys or devices (see orzo --help)");
+        return wrong(argv[1], "run, check, draw, keys, bench or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
         OZ_TRY(take_argument(options, command, argc, argv, &i));

@@ -23,6 +23,10 @@ typedef struct OzOptions {
     double until;                         /* --until, s; negative: not given   */
     bool overwrite, no_video, force, columns, help;
     const char *source_dir;               /* --source-dir                     */
+    bool features, quick;                 /* bench                            */
+    double budget;                        /* --budget, s; 0: not given        */
+    const char *sizes;                    /* --sizes, as written              */
+    const char *yardstick;                /* --yardstick                      */
 } OzOptions;
 
 /* Reads argv. Fails with OZ_ERR_INPUT, naming the argument and what was expected. */

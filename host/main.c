@@ -7,6 +7,7 @@
 #include "observe/series.h"
 #include "run.h"
 #include "scene/keys.h"
+#include "study/bench.h"
 #include "study/inspect.h"
 #include "study/redraw.h"
 
@@ -40,6 +41,11 @@ static OzStatus keys_command(const OzOptions *options)
     return OZ_OK;
 }
 
+static OzStatus bench_command(const OzOptions *options)
+{
+    return oz_bench_run(options);
+}
+
 static OzStatus devices_command(const OzOptions *options)
 {
     const char *encoder = NULL;
@@ -58,7 +64,7 @@ static const struct {
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
     {"run", run_command},   {"check", check_command},     {"draw", draw_command},
-    {"keys", keys_command}, {"devices", devices_command},
+    {"keys", keys_command}, {"bench", bench_command},     {"devices", devices_command},
 };
 
 int main(int argc, char **argv)

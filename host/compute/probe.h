@@ -1,0 +1,20 @@
+/* What a simulation holds at the moment, for benchmarks: pairs, contacts, memory. */
+#ifndef OZ_COMPUTE_PROBE_H
+#define OZ_COMPUTE_PROBE_H
+
+#include "compute/sim.h"
+
+/* Sums over all members. */
+typedef struct OzProbe {
+    int64_t grains;
+    int64_t pairs;    /* of the inner lists, which the forces walk          */
+    int64_t touching; /* pairs that touched in the last step                */
+    int64_t bytes;    /* of all device arrays                               */
+    int walls;
+    bool is_double, history, equal, round;
+} OzProbe;
+
+/* Reads lists and forces back: slow for large scenes. */
+OzStatus oz_probe_read(OzProbe *probe, const OzSim *sim);
+
+#endif

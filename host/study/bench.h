@@ -1,0 +1,13 @@
+/* `orzo bench`: how fast this machine runs beds of rods, and how far that is from what it could do.
+ */
+#ifndef OZ_STUDY_BENCH_H
+#define OZ_STUDY_BENCH_H
+
+#include "cli.h"
+
+/* Times an6 (or the scenes given) and a ladder of beds of the same height, on one and on all
+ * threads, in float and double; prints a table and leaves DIR/bench.csv and DIR/bench.png. A row
+ * that memory or time does not allow is left out with a line that says so. */
+OzStatus oz_bench_run(const OzOptions *options);
+
+#endif

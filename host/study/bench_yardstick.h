@@ -1,0 +1,19 @@
+/* The scalar yardstick (tests/yardstick.c): another program that steps the same bed on one core. */
+#ifndef OZ_STUDY_BENCH_YARDSTICK_H
+#define OZ_STUDY_BENCH_YARDSTICK_H
+
+#include "study/bench_row.h"
+
+#include <stdio.h>
+
+/* Runs the yardstick several times on the bed, written to folder; the row's time is the median. The
+ * program is options->yardstick, or `yardstick` beside orzo or in tests/ below it. *found is false
+ * without one. */
+OzStatus oz_bench_yardstick_measure(OzBenchRow *row, bool *found, const OzBenchBed *bed,
+                                    const OzOptions *options, const char *folder);
+
+/* How many times faster each single scene of as many grains is. */
+void oz_bench_yardstick_compare(const OzBenchRow *yardstick, const OzBenchRow *rows, int count,
+                                FILE *file);
+
+#endif
