@@ -5,4 +5,7 @@
 /* Seconds since an arbitrary start, monotonic. */
 double oz_clock_now(void);
 
+/* Processor seconds of all threads of this process: what other programs do to the wall clock does not show. */
+double oz_clock_processor(void);
+
 #endif

@@ -6,8 +6,10 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "study/bench_features.h"
 #include "study/bench_limits.h"
 #include "study/bench_plot.h"
+#include "study/bench_shares.h"
 #include "study/bench_table.h"
 #include "study/bench_yardstick.h"
 
@@ -43,7 +45,8 @@ typedef struct Bench {
     double seconds; /* of a row */
     char *folder;
     FILE *csv;
-    OzBenchTile tile; /* made when the first bed needs it */
+    OzBenchBed first; /* an6, or the first scene given, settled */
+    OzBenchTile tile; /* made when the first large bed needs it */
     OzBenchRow rows[ROWS_MAX];
     int row_count;
 } Bench;
@@ -117,7 +120,7 @@ static OzStatus open_bench(Bench *bench)
         goto done;
     }
     OZ_TRY(oz_bench_limits_device(&bench->device, bench->options));
-    oz_bench_limits_print(&bench->device, bench->options, stdout);
+    OZ_TRY(oz_bench_limits_print(&bench->device, bench->options, stdout));
     choose_settings(bench);
     share_budget(bench);
     oz_bench_table_begin(stdout, bench->csv);
@@ -148,8 +151,9 @@ static const OzBenchRow *last_row(const Bench *bench, Setting setting)
 {
     for (int r = bench->row_count - 1; r >= 0; r--) {
         const double *value = bench->rows[r].value;
-        if (value[OZ_BENCH_THREADS] == setting.threads &&
-            value[OZ_BENCH_BITS] == (setting.is_double ? 64 : 32) && value[OZ_BENCH_MEMBERS] == 1) {
+        bool same_threads = !bench->device.is_cpu || value[OZ_BENCH_THREADS] == setting.threads;
+        if (same_threads && value[OZ_BENCH_BITS] == (setting.is_double ? 64 : 32) &&
+            value[OZ_BENCH_MEMBERS] == 1) {
             return &bench->rows[r];
         }
     }
@@ -166,7 +170,7 @@ static bool affordable(const Bench *bench, Setting setting, double grains)
     double need = grains * last->value[OZ_BENCH_BYTES], room = (double)bench->device.memory;
     double host = grains * host_bytes + (bench->device.is_cpu ? need : 0);
     if (need > room || host > 0.9 * free_memory()) {
-        printf("%.0f grains, %s, left out: it needs %.1f GB\n", grains,
+        printf("%.0f grains, %s, left out: they need %.1f GB\n", grains,
                setting.is_double ? "double" : "float", 1e-9 * (need > room ? need : host));
         return false;
     }
@@ -234,25 +238,33 @@ static OzStatus run_side_by_side(Bench *bench, OzBenchBed *bed, const char *name
     return status;
 }
 
+/* Keeps the first scene. */
 static OzStatus run_scene(Bench *bench, const char *path)
 {
     OzStatus status = OZ_OK;
-    OzBenchBed bed = {0};
-    OZ_TRY(oz_bench_bed_load(&bed, bench->options, path));
-    OZ_TRY(oz_bench_bed_settle(&bed, bench->options, 0));
-    OZ_TRY(run_bed(bench, &bed, bed.scene.name, true));
-    OZ_TRY(run_side_by_side(bench, &bed, bed.scene.name));
-    if (!path) {
-        OzBenchRow row;
-        bool found = false;
-        OZ_TRY(oz_bench_yardstick_measure(&row, &found, &bed, bench->options, bench->folder));
-        if (found) {
-            keep_row(bench, &row);
-            oz_bench_yardstick_compare(&row, bench->rows, bench->row_count, stdout);
-        }
+    OzBenchBed later = {0};
+    OzBenchBed *bed = bench->first.scene.path ? &later : &bench->first;
+    OZ_TRY(oz_bench_bed_load(bed, bench->options, path));
+    OZ_TRY(oz_bench_bed_settle(bed, bench->options, 0));
+    OZ_TRY(run_bed(bench, bed, bed->scene.name, true));
+    OZ_TRY(run_side_by_side(bench, bed, bed->scene.name));
+done:
+    oz_bench_bed_free(&later);
+    return status;
+}
+
+/* The yardstick steps an6's bed. */
+static OzStatus run_yardstick(Bench *bench)
+{
+    OzStatus status = OZ_OK;
+    OzBenchRow row;
+    bool found = false;
+    OZ_TRY(oz_bench_yardstick_measure(&row, &found, &bench->first, bench->options, bench->folder));
+    if (found) {
+        keep_row(bench, &row);
+        oz_bench_yardstick_compare(&row, bench->rows, bench->row_count, stdout);
     }
 done:
-    oz_bench_bed_free(&bed);
     return status;
 }
 
@@ -261,13 +273,13 @@ static OzStatus make_bed(Bench *bench, OzBenchBed *bed, int64_t count)
 {
     OzStatus status = OZ_OK;
     double side = 0;
-    if (count <= OZ_BENCH_BED_TILE) {
+    if (count <= bench->first.grains.count) {
         OZ_TRY(oz_bench_bed_box(bed, &side, bench->options, count));
         OZ_TRY(oz_bench_bed_settle(bed, bench->options, OZ_BENCH_BED_TAPS));
         goto done;
     }
     if (!bench->tile.states) {
-        OZ_TRY(oz_bench_bed_tile(&bench->tile, bench->options));
+        OZ_TRY(oz_bench_bed_tile(&bench->tile, bench->options, bench->first.grains.count));
     }
     OZ_TRY(oz_bench_bed_pave(bed, &bench->tile, bench->options, count));
 done:
@@ -285,6 +297,20 @@ static OzStatus run_ladder(Bench *bench)
     }
 done:
     oz_bench_bed_free(&bed);
+    return status;
+}
+
+/* Where the time of an6, or of the first scene given, goes, and what its features cost. */
+static OzStatus take_apart(Bench *bench)
+{
+    OzStatus status = OZ_OK;
+    const OzOptions *options = bench->options;
+    OZ_TRY(oz_bench_bed_settle(&bench->first, options, OZ_BENCH_BED_TAPS));
+    OZ_TRY(oz_bench_shares_print(&bench->first, options, bench->folder, stdout));
+    if (options->features && options->path_count == 0) {
+        OZ_TRY(oz_bench_features_print(&bench->first, options, bench->folder, stdout));
+    }
+done:
     return status;
 }
 
@@ -309,9 +335,11 @@ static OzStatus run_all(Bench *bench)
     }
     if (options->path_count == 0) {
         OZ_TRY(run_scene(bench, NULL));
+        OZ_TRY(run_yardstick(bench));
         OZ_TRY(run_ladder(bench));
     }
     oz_bench_table_explain(stdout);
+    OZ_TRY(take_apart(bench));
     OZ_TRY(draw_plot(bench));
 done:
     return status;
@@ -323,6 +351,7 @@ static OzStatus close_bench(Bench *bench, OzStatus status)
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s/bench.csv", bench->folder);
     }
     oz_bench_bed_free_tile(&bench->tile);
+    oz_bench_bed_free(&bench->first);
     free(bench->folder);
     free(bench);
     if (status != OZ_OK) {
@@ -340,5 +369,6 @@ OzStatus oz_bench_run(const OzOptions *options)
         return status;
     }
     bench->options = options;
+    setvbuf(stdout, NULL, _IOLBF, 0); /* rows are seen as they come, in a pipe too */
     return close_bench(bench, run_all(bench));
 }

@@ -194,11 +194,21 @@ OzStatus oz_bench_bed_settle(OzBenchBed *bed, const OzOptions *options, int taps
     return status;
 }
 
-OzStatus oz_bench_bed_tile(OzBenchTile *tile, const OzOptions *options)
+void oz_bench_bed_take(OzBenchBed *bed, const OzBenchBed *from)
+{
+    size_t count = (size_t)from->grains.count;
+    memcpy(bed->grains.position, from->grains.position, 3 * count * sizeof(double));
+    memcpy(bed->grains.quaternion, from->grains.quaternion, 4 * count * sizeof(double));
+    memcpy(bed->grains.velocity, from->grains.velocity, 3 * count * sizeof(double));
+    memcpy(bed->grains.spin, from->grains.spin, 3 * count * sizeof(double));
+    bed->scene.settle.present = false;
+}
+
+OzStatus oz_bench_bed_tile(OzBenchTile *tile, const OzOptions *options, int64_t count)
 {
     OzStatus status = OZ_OK;
     *tile = (OzBenchTile){0};
-    OZ_TRY(oz_bench_bed_box(&tile->bed, &tile->side, options, OZ_BENCH_BED_TILE));
+    OZ_TRY(oz_bench_bed_box(&tile->bed, &tile->side, options, count));
     OZ_TRY(shake_bed(&tile->bed, options, OZ_BENCH_BED_TAPS, OZ_BENCH_BED_TAKES, &tile->states));
 done:
     if (status != OZ_OK) {

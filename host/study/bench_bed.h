@@ -13,7 +13,6 @@ typedef struct OzBenchBed {
 } OzBenchBed;
 
 enum {
-    OZ_BENCH_BED_TILE = 1000, /* grains of a tile: as many as an6 has */
     OZ_BENCH_BED_TAKES = 4, /* states of a tile, a tap apart, so that no two neighbours are alike */
     OZ_BENCH_BED_TAPS = 4 /* shaken before the first of them: the bed has forgotten its settling */
 };
@@ -39,8 +38,11 @@ void oz_bench_bed_free(OzBenchBed *bed);
 /* Settles the bed as its scene says and shakes it for some taps, in a process of its own. */
 OzStatus oz_bench_bed_settle(OzBenchBed *bed, const OzOptions *options, int taps);
 
-/* A settled and shaken tile. */
-OzStatus oz_bench_bed_tile(OzBenchTile *tile, const OzOptions *options);
+/* Gives bed the state of another of the same grains, which is settled. */
+void oz_bench_bed_take(OzBenchBed *bed, const OzBenchBed *from);
+
+/* A settled and shaken tile of so many grains. */
+OzStatus oz_bench_bed_tile(OzBenchTile *tile, const OzOptions *options, int64_t count);
 void oz_bench_bed_free_tile(OzBenchTile *tile);
 
 /* A box of tiles, turned by quarters and taken at moments drawn at random, as near to a square as

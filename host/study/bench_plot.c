@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The rows of one curve: equal in bed, number format, threads and scenes side by side. */
+/* The rows of one curve: equal in bed, number format and threads. */
 static bool same_curve(const OzBenchRow *a, const OzBenchRow *b)
 {
-    static const int keys[] = {OZ_BENCH_BITS, OZ_BENCH_THREADS, OZ_BENCH_MEMBERS};
+    static const int keys[] = {OZ_BENCH_BITS, OZ_BENCH_THREADS};
     for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
         double x = a->value[keys[k]], y = b->value[keys[k]];
         if (x != y && !(isnan(x) && isnan(y))) {
@@ -28,19 +28,6 @@ static bool begins_curve(const OzBenchRow *rows, int row)
         }
     }
     return isfinite(rows[row].value[OZ_BENCH_NS_GRAIN]);
-}
-
-static void name_curve(const OzBenchRow *row, FILE *gnuplot)
-{
-    const double *value = row->value;
-    fprintf(gnuplot, "%s", row->bed);
-    if (value[OZ_BENCH_MEMBERS] > 1) {
-        fprintf(gnuplot, " x %.0f", value[OZ_BENCH_MEMBERS]);
-    }
-    if (isfinite(value[OZ_BENCH_BITS])) {
-        fprintf(gnuplot, ", %s, %.0f thread%s", value[OZ_BENCH_BITS] > 32 ? "double" : "float",
-                value[OZ_BENCH_THREADS], value[OZ_BENCH_THREADS] > 1 ? "s" : "");
-    }
 }
 
 static void send_points(const OzBenchRow *rows, int count, int first, FILE *gnuplot)
@@ -83,14 +70,15 @@ static void send_plot(FILE *gnuplot, const OzBenchRow *rows, int count)
 {
     static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
                                           "#e69f00", "#000000", "#8c564b", "#7f7f7f", "#9467bd"};
+    char name[128];
     int curve = 0;
     for (int r = 0; r < count; r++) {
         if (begins_curve(rows, r)) {
-            fprintf(gnuplot, "%s'-' with linespoints lw 2 ps 1.4 lc rgb '%s' pt %d dt %d title '",
+            oz_bench_row_describe(&rows[r], name, sizeof name);
+            fprintf(gnuplot,
+                    "%s'-' with linespoints lw 2 ps 1.4 lc rgb '%s' pt %d dt %d title '%s'",
                     curve ? ", " : "plot ", colours[curve % 10], 4 + curve % 10,
-                    rows[r].value[OZ_BENCH_BITS] > 32 ? 2 : 1);
-            name_curve(&rows[r], gnuplot);
-            fprintf(gnuplot, "'");
+                    rows[r].value[OZ_BENCH_BITS] > 32 ? 2 : 1, name);
             curve++;
         }
     }

@@ -13,7 +13,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <sys/resource.h>
 
 enum {
     PIECES_LEAST = 5,
@@ -50,13 +49,19 @@ OzBenchRow oz_bench_row_empty(const char *name)
     return row;
 }
 
-/* Processor seconds of all threads of this process. */
-static double cpu_now(void)
+void oz_bench_row_describe(const OzBenchRow *row, char *text, size_t size)
 {
-    struct rusage used;
-    getrusage(RUSAGE_SELF, &used);
-    return (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-           1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    const double *value = row->value;
+    char threads[32] = "";
+    if (isfinite(value[OZ_BENCH_THREADS])) {
+        snprintf(threads, sizeof threads, ", %.0f thread%s", value[OZ_BENCH_THREADS],
+                 value[OZ_BENCH_THREADS] > 1 ? "s" : "");
+    }
+    snprintf(text, size, "%s%s%s", row->bed,
+             isnan(value[OZ_BENCH_BITS])  ? ""
+             : value[OZ_BENCH_BITS] == 64 ? ", double"
+                                          : ", float",
+             threads);
 }
 
 static int steps_of_tap(const OzScene *scene)
@@ -160,11 +165,11 @@ static OzStatus time_pieces(Bench *bench)
     bench->observing = 0;
     double end = oz_clock_now() + bench->job->seconds;
     for (int k = 0; k < PIECES_MOST && (k < PIECES_LEAST || oz_clock_now() < end); k++) {
-        double wall = oz_clock_now(), cpu = cpu_now();
+        double wall = oz_clock_now(), cpu = oz_clock_processor();
         OZ_TRY(make_piece(bench, bench->piece_steps));
         bench->pieces[k] = oz_clock_now() - wall;
         bench->wall += bench->pieces[k];
-        bench->cpu += cpu_now() - cpu;
+        bench->cpu += oz_clock_processor() - cpu;
         bench->piece_count = k + 1;
     }
 done:
@@ -255,7 +260,7 @@ static void note_setting(Bench *bench)
     value[OZ_BENCH_MEMBERS] = job->members;
     value[OZ_BENCH_BITS] = job->is_double ? 64 : 32;
     value[OZ_BENCH_LANES] = job->is_double ? bench->device.double_lanes : bench->device.float_lanes;
-    value[OZ_BENCH_THREADS] = bench->device.units;
+    value[OZ_BENCH_THREADS] = bench->device.is_cpu ? (double)bench->device.units : NAN;
 }
 
 static OzStatus measure(void *context)
@@ -276,5 +281,8 @@ OzStatus oz_bench_row_measure(OzBenchRow *row, const OzBenchJob *job)
 {
     Bench bench = {.job = job, .row = row};
     *row = oz_bench_row_empty(job->name);
+    if (job->members > 1) {
+        snprintf(row->bed, sizeof row->bed, "%.32s x %d", job->name, job->members);
+    }
     return oz_apart_run(measure, &bench, row, sizeof *row);
 }

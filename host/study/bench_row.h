@@ -11,12 +11,12 @@
  * rebuilt in each. */
 #define OZ_BENCH_COLUMNS(X)                                                                        \
     X(GRAINS, "grains", "grains", 0, "grains of one scene")                                        \
-    X(MEMBERS, "scenes", "scenes", 0, "equal scenes side by side")                                 \
+    X(MEMBERS, "scenes", NULL, 0, "equal scenes side by side")                                     \
     X(BITS, "bits", "bits", 0, "of a number: 32 float, 64 double")                                 \
     X(LANES, "lanes", NULL, 0, "of a vector")                                                      \
-    X(THREADS, "threads", "thr", 0, "of the device")                                               \
+    X(THREADS, "threads", "thr", 0, "of a CPU device")                                             \
     X(US_STEP, "us_per_step", "us/step", 2, "wall time of a step")                                 \
-    X(US_LEAST, "us_per_step_least", "least", 2, "the fastest piece's")                            \
+    X(US_LEAST, "us_per_step_least", NULL, 2, "the fastest piece's")                               \
     X(US_CPU, "cpu_us_per_step", "cpu us", 2, "processor time of a step, all threads together")    \
     X(NS_GRAIN, "ns_per_grain_step", "ns/grain", 2, "wall time of a step / all grains")            \
     X(REFRESH, "steps_per_refresh", "refresh", 1, "steps per renewal of the inner list")           \
@@ -26,10 +26,11 @@
     X(BYTES, "bytes_per_grain", "B/grain", 0, "of device arrays")                                  \
     X(GBYTES, "gb_per_s", "GB/s", 2, "counted bytes moved")                                        \
     X(GFLOPS, "gflop_per_s", "GFLOP/s", 2, "counted operations")                                   \
-    X(COPY, "copy_gb_per_s", "copy", 1, "of a copy that touches as many bytes as a step")          \
-    X(MULTIPLY_ADD, "fma_gflop_per_s", "fma", 1, "of multiply-adds in registers")                  \
-    X(SHARE, "percent_of_limit", "%limit", 1, "the larger of GB/s by copy and GFLOP/s by fma")     \
-    X(OBSERVE, "observe_us_per_step", "observe", 2, "of us_per_step: snapshots and series.csv")    \
+    X(COPY, "copy_gb_per_s", NULL, 1, "of a copy that touches as many bytes as a step")            \
+    X(MULTIPLY_ADD, "fma_gflop_per_s", NULL, 1, "of multiply-adds in registers")                   \
+    X(SHARE, "percent_of_limit", "%limit", 1,                                                      \
+      "of the time that a copy or multiply-adds need, the larger")                                 \
+    X(OBSERVE, "observe_us_per_step", NULL, 2, "of us_per_step: snapshots and series.csv")         \
     X(START, "start_s", "start s", 2, "from opening the device to the end of the first launch")    \
     X(TAPS, "taps", "taps", 2, "that were timed")                                                  \
     X(PIECES, "pieces", NULL, 0, "timed one by one")                                               \
@@ -43,7 +44,7 @@ enum {
 };
 
 typedef struct OzBenchRow {
-    char bed[48];                        /* "an6", "box", "yardstick" */
+    char bed[48];                        /* "an6", "an6 x 2", "box", "yardstick" */
     double value[OZ_BENCH_COLUMN_COUNT]; /* NAN: not measured         */
 } OzBenchRow;
 
@@ -59,6 +60,9 @@ typedef struct OzBenchJob {
 
 /* A row of which nothing is known but its name. */
 OzBenchRow oz_bench_row_empty(const char *name);
+
+/* "an6 x 2, float, 2 threads" */
+void oz_bench_row_describe(const OzBenchRow *row, char *text, size_t size);
 
 OzStatus oz_bench_row_measure(OzBenchRow *row, const OzBenchJob *job);
 

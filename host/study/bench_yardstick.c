@@ -121,12 +121,11 @@ void oz_bench_yardstick_compare(const OzBenchRow *yardstick, const OzBenchRow *r
 {
     for (int r = 0; r < count; r++) {
         const double *value = rows[r].value;
+        char name[128];
         if (isfinite(value[OZ_BENCH_BITS]) &&
             value[OZ_BENCH_GRAINS] == yardstick->value[OZ_BENCH_GRAINS]) {
-            fprintf(file, "%s, %s, %.0f thread%s, %.0f scene%s: %.2f times the yardstick's speed\n",
-                    rows[r].bed, value[OZ_BENCH_BITS] > 32 ? "double" : "float",
-                    value[OZ_BENCH_THREADS], value[OZ_BENCH_THREADS] == 1 ? "" : "s",
-                    value[OZ_BENCH_MEMBERS], value[OZ_BENCH_MEMBERS] == 1 ? "" : "s",
+            oz_bench_row_describe(&rows[r], name, sizeof name);
+            fprintf(file, "%s: %.2f times the yardstick's speed\n", name,
                     yardstick->value[OZ_BENCH_NS_GRAIN] / value[OZ_BENCH_NS_GRAIN]);
         }
     }

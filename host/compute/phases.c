@@ -1,0 +1,130 @@
+/* Timing the kernels of kernels/phases.cl. */
+#include "compute/phases.h"
+
+#include "base/clock.h"
+#include "compute/cl_try.h"
+#include "compute/program.h"
+#include "compute/sim_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { LAUNCHES = 5 }; /* timed, odd: the median is one of them */
+
+/* Seconds that a timed launch shall take: long against its overhead, short for the one who waits.
+ */
+static const double launch_seconds = 0.02;
+
+static double clock_of(const OzDevice *device)
+{
+    return device->is_cpu ? oz_clock_processor() : oz_clock_now();
+}
+
+static OzStatus time_launch(OzSim *sim, cl_kernel kernel, cl_uint index, int repeats,
+                            double *seconds)
+{
+    OzStatus status = OZ_OK;
+    const OzSwitches *s = &sim->arrays.switches;
+    size_t group = (size_t)s->group, items = group;
+    if (s->resort) {
+        items = ((size_t)sim->arrays.sizes.regions + group - 1) / group * group;
+    }
+    CL_TRY(clSetKernelArg(kernel, index, sizeof repeats, &repeats));
+    double start = clock_of(sim->device);
+    CL_TRY(
+        clEnqueueNDRangeKernel(sim->device->queue, kernel, 1, NULL, &items, &group, 0, NULL, NULL));
+    CL_TRY(clFinish(sim->device->queue));
+    *seconds = clock_of(sim->device) - start;
+done:
+    return status;
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Seconds of one repeat of a kernel. */
+static OzStatus time_kernel(OzSim *sim, cl_program program, const char *name, double *seconds)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    cl_uint index = 0;
+    double times[LAUNCHES], spent = 0;
+    int repeats = 1;
+    cl_kernel kernel = clCreateKernel(program, name, &code);
+    CL_TRY(code);
+    OZ_TRY(oz_arrays_bind(&sim->arrays, kernel, &index));
+    OZ_TRY(time_launch(sim, kernel, index, repeats, &spent)); /* compiles */
+    OZ_TRY(time_launch(sim, kernel, index, repeats, &spent));
+    while (spent < launch_seconds && repeats < 1 << 24) {
+        repeats *= 2;
+        OZ_TRY(time_launch(sim, kernel, index, repeats, &spent));
+    }
+    for (int k = 0; k < LAUNCHES; k++) {
+        OZ_TRY(time_launch(sim, kernel, index, repeats, &times[k]));
+    }
+    qsort(times, LAUNCHES, sizeof times[0], compare);
+    *seconds = times[LAUNCHES / 2] / repeats;
+done:
+    if (kernel) {
+        clReleaseKernel(kernel);
+    }
+    return status;
+}
+
+static OzStatus build(OzSim *sim, const OzSwitches *switches, const char *source_dir,
+                      cl_program *program)
+{
+    char options[1024];
+    oz_switches_options(switches, options, sizeof options);
+    return oz_program_build(program, sim->device, source_dir, "kernels/phases.cl", options);
+}
+
+static OzStatus set_step(OzSim *sim, double step)
+{
+    sim->parameters[0].dt = step;
+    return oz_sim_write_parameters(sim);
+}
+
+static OzStatus time_all(OzPhases *phases, OzSim *sim, cl_program whole, cl_program free_of_walls)
+{
+    OzStatus status = OZ_OK;
+    double walled = NAN, rebuilt = NAN;
+    OZ_TRY(time_kernel(sim, whole, "oz_repeat_pairs", &phases->pairs));
+    OZ_TRY(time_kernel(sim, whole, "oz_repeat_grains", &walled));
+    OZ_TRY(time_kernel(sim, free_of_walls, "oz_repeat_grains", &phases->grains));
+    phases->walls = walled - phases->grains;
+    if (!sim->arrays.switches.resort) {
+        OZ_TRY(time_kernel(sim, whole, "oz_repeat_refresh", &phases->refresh));
+        OZ_TRY(time_kernel(sim, whole, "oz_repeat_rebuild", &rebuilt));
+        phases->rebuild = rebuilt - phases->refresh;
+    }
+done:
+    return status;
+}
+
+OzStatus oz_phases_measure(OzPhases *phases, OzSim *sim, const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    cl_program whole = NULL, free_of_walls = NULL;
+    OzSwitches switches = sim->arrays.switches;
+    double step = sim->parameters[0].dt;
+    *phases = (OzPhases){NAN, NAN, NAN, NAN, NAN};
+    OZ_TRY(build(sim, &switches, source_dir, &whole));
+    switches.planes = switches.cylinders = switches.moving = 0;
+    OZ_TRY(build(sim, &switches, source_dir, &free_of_walls));
+    OZ_TRY(set_step(sim, 0));
+    status = time_all(phases, sim, whole, free_of_walls);
+    OzStatus restored = set_step(sim, step);
+    status = status == OZ_OK ? restored : status;
+done:
+    if (free_of_walls) {
+        clReleaseProgram(free_of_walls);
+    }
+    if (whole) {
+        clReleaseProgram(whole);
+    }
+    return status;
+}

@@ -1,0 +1,21 @@
+/* What the parts of a step cost, each timed by itself on a simulation that stands still. For `orzo
+ * bench`. */
+#ifndef OZ_COMPUTE_PHASES_H
+#define OZ_COMPUTE_PHASES_H
+
+#include "compute/sim.h"
+
+/* Seconds (of a CPU: processor time) of doing each once for all grains; NAN: not measured. */
+typedef struct OzPhases {
+    double pairs;   /* forces between grains                                             */
+    double grains;  /* gather, integration, record, guards; walls left out               */
+    double walls;   /* what that takes longer with the walls                             */
+    double refresh; /* the inner list anew; small scenes only                            */
+    double rebuild; /* what that takes longer with the outer list anew; small scenes only */
+} OzPhases;
+
+/* Repeats each part many times at the state as it is, with a step of no length: the state is the
+ * same afterwards but for rounding, and the simulation can go on. One member only. */
+OzStatus oz_phases_measure(OzPhases *phases, OzSim *sim, const char *source_dir);
+
+#endif

@@ -1,0 +1,290 @@
+/* Measuring shares. */
+#include "study/bench_shares.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "compute/capture.h"
+#include "compute/phases.h"
+#include "compute/sim.h"
+#include "draw/gallery.h"
+#include "observe/frames.h"
+#include "observe/schedule.h"
+#include "observe/series.h"
+#include "study/apart.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOMENTS = 4, /* of a tap at which the bed stands still */
+    TAPS = 6,    /* timed whole                            */
+    SAMPLES = 64,
+    ROWS = 16,
+    FRAMES = 12
+};
+
+/* THE list of parts, in the order of the table. */
+#define PARTS(X)                                                                                   \
+    X(PAIRS, "pairs", "kernel, repeated on a standing bed")                                        \
+    X(GRAINS, "gather and integrate", "kernel, repeated on a standing bed, without walls")         \
+    X(WALLS, "walls", "kernel, the same with walls, difference")                                   \
+    X(REFRESH, "inner list", "kernel, repeated on a standing bed")                                 \
+    X(REBUILD, "outer list", "kernel, the same with the outer list, difference")                   \
+    X(REST, "launches and the rest", "a whole step less the above")                                \
+    X(STEP, "whole step", "a tap in launches, median")                                             \
+    X(SAMPLE, "samples", "host, beside the step")                                                  \
+    X(ROW, "rows of series.csv", "host, beside the step")                                          \
+    X(DRAW, "drawing", "host, beside the step, wall time")                                         \
+    X(ENCODE, "encoding", "host, beside the step, wall time")
+
+enum {
+#define PART_ID(id, name, how) PART_##id,
+    PARTS(PART_ID)
+#undef PART_ID
+        PART_COUNT
+};
+
+static const struct {
+    const char *name, *how;
+} parts[] = {
+#define PART_ROW(id, name, how) {name, how},
+    PARTS(PART_ROW)
+#undef PART_ROW
+};
+
+typedef struct Share {
+    double seconds; /* of one call; NAN: not measured */
+    double calls_per_step;
+} Share;
+
+/* A scene being taken apart. Zeroed is valid. */
+typedef struct Shares {
+    OzBenchBed *bed;
+    const OzOptions *options;
+    const char *folder;
+    OzDevice device;
+    OzSim *sim;
+    OzSnapshot now;
+    OzSeries *series;
+    OzGallery *gallery;
+    Share *part; /* PART_COUNT, borrowed */
+} Shares;
+
+static OzStatus open_shares(Shares *s)
+{
+    OzStatus status = OZ_OK;
+    OzMember member = {&s->bed->scene, &s->bed->grains};
+    s->bed->scene.precision = OZ_PRECISION_FLOAT;
+    OZ_TRY(oz_device_open(&s->device, s->options->device,
+                          s->options->threads ? s->options->threads : 1));
+    OZ_TRY(oz_sim_create(&s->sim, &s->device, &member, 1, s->options->source_dir));
+    OZ_TRY(oz_snapshot_create(&s->now, &s->bed->scene, &s->bed->grains));
+    OZ_TRY(oz_series_create(&s->series, "/dev/null", &s->bed->scene, &s->bed->grains));
+done:
+    return status;
+}
+
+static int64_t steps_of_tap(const OzScene *scene)
+{
+    return scene->period > 0 ? llround(scene->period / scene->step) : 1000;
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double per_step(double events, double steps)
+{
+    return steps > 0 ? events / steps : 0;
+}
+
+/* A CPU's work is timed by the processor clock, which other programs disturb less. */
+static double clock_of(const OzDevice *device)
+{
+    return device->is_cpu ? oz_clock_processor() : oz_clock_now();
+}
+
+static OzStatus time_steps(Shares *s)
+{
+    OzStatus status = OZ_OK;
+    int64_t tap = steps_of_tap(&s->bed->scene);
+    double times[TAPS];
+    OZ_TRY(oz_sim_advance(s->sim, tap));
+    OzSimCounts before = oz_sim_counts(s->sim);
+    for (int k = 0; k < TAPS; k++) {
+        double start = clock_of(&s->device);
+        OZ_TRY(oz_sim_advance(s->sim, oz_sim_step(s->sim) + tap));
+        times[k] = clock_of(&s->device) - start;
+    }
+    OzSimCounts after = oz_sim_counts(s->sim);
+    qsort(times, TAPS, sizeof times[0], compare);
+    double steps = (double)(after.steps - before.steps);
+    s->part[PART_STEP] = (Share){times[TAPS / 2] / (double)tap, 1};
+    s->part[PART_REFRESH].calls_per_step =
+        per_step((double)(after.refreshes - before.refreshes), steps);
+    s->part[PART_REBUILD].calls_per_step =
+        per_step((double)(after.rebuilds - before.rebuilds), steps);
+    s->part[PART_PAIRS].calls_per_step = s->part[PART_GRAINS].calls_per_step = 1;
+    s->part[PART_WALLS].calls_per_step = s->part[PART_REST].calls_per_step = 1;
+done:
+    return status;
+}
+
+static OzStatus time_phases(Shares *s)
+{
+    OzStatus status = OZ_OK;
+    int64_t first = oz_sim_step(s->sim), tap = steps_of_tap(&s->bed->scene);
+    for (int k = 1; k <= MOMENTS; k++) {
+        OzPhases now;
+        OZ_TRY(oz_sim_advance(s->sim, first + tap * k / MOMENTS));
+        OZ_TRY(oz_phases_measure(&now, s->sim, s->options->source_dir));
+        s->part[PART_PAIRS].seconds += now.pairs / MOMENTS;
+        s->part[PART_GRAINS].seconds += now.grains / MOMENTS;
+        s->part[PART_WALLS].seconds += now.walls / MOMENTS;
+        s->part[PART_REFRESH].seconds += now.refresh / MOMENTS;
+        s->part[PART_REBUILD].seconds += now.rebuild / MOMENTS;
+    }
+    double rest = s->part[PART_STEP].seconds;
+    for (int p = 0; p < PART_REST; p++) {
+        double spent = s->part[p].seconds * s->part[p].calls_per_step;
+        rest -= isfinite(spent) ? spent : 0; /* lists of large scenes are part of the rest */
+    }
+    s->part[PART_REST].seconds = rest;
+done:
+    return status;
+}
+
+static double rate(double interval, double step)
+{
+    return interval > 0 ? step / interval : 0;
+}
+
+static OzStatus time_observing(Shares *s, const OzSchedule *schedule)
+{
+    OzStatus status = OZ_OK;
+    double start = clock_of(&s->device);
+    for (int k = 0; k < SAMPLES; k++) {
+        OZ_TRY(oz_capture_snapshot(s->sim, 0, &s->now, false));
+        oz_series_sample(s->series, &s->now);
+    }
+    double middle = clock_of(&s->device);
+    for (int k = 0; k < ROWS; k++) {
+        OZ_TRY(oz_capture_snapshot(s->sim, 0, &s->now, true));
+        OZ_TRY(oz_series_write(s->series, &s->now));
+    }
+    double step = s->bed->scene.step;
+    s->part[PART_SAMPLE] = (Share){(middle - start) / SAMPLES, rate(schedule->sample, step)};
+    s->part[PART_ROW] = (Share){(clock_of(&s->device) - middle) / ROWS, rate(schedule->row, step)};
+done:
+    return status;
+}
+
+/* Frames after the first, which opens GL and the encoder. */
+static OzStatus draw_frames(Shares *s, double frames_per_step)
+{
+    OzStatus status = OZ_OK;
+    double drawing[2] = {0}, encoding[2] = {0};
+    for (int k = 0; k <= FRAMES; k++) {
+        OZ_TRY(oz_gallery_add(s->gallery, &s->now, OZ_FRAME_MOVIE));
+        oz_gallery_times(s->gallery, &drawing[k > 0], &encoding[k > 0]);
+    }
+    s->part[PART_DRAW] = (Share){(drawing[1] - drawing[0]) / FRAMES, frames_per_step};
+    s->part[PART_ENCODE] = (Share){(encoding[1] - encoding[0]) / FRAMES, frames_per_step};
+done:
+    return status;
+}
+
+/* A machine without GL or an encoder still has the other shares. */
+static OzStatus time_pictures(Shares *s, const OzSchedule *schedule)
+{
+    OzStatus status = OZ_OK;
+    OzGallerySettings settings = {.folder = s->folder,
+                                  .source_dir = s->options->source_dir,
+                                  .backend = s->options->gl,
+                                  .device = s->device.name};
+    if (!s->bed->scene.movie.present) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_file_make_folder(s->folder));
+    OZ_TRY(oz_gallery_create(&s->gallery, &settings, &s->bed->scene));
+    if (draw_frames(s, rate(schedule->frame, s->bed->scene.step)) != OZ_OK) {
+        oz_log_line("drawing and encoding not measured: %s", oz_status_text());
+    }
+done:
+    return status;
+}
+
+static OzStatus measure(void *context)
+{
+    OzStatus status = OZ_OK;
+    Shares *s = context;
+    OZ_TRY(open_shares(s));
+    OzSchedule schedule = oz_schedule_create(&s->bed->scene, -1);
+    OZ_TRY(time_steps(s));
+    OZ_TRY(time_phases(s));
+    OZ_TRY(time_observing(s, &schedule));
+    OZ_TRY(time_pictures(s, &schedule));
+done:
+    oz_gallery_finish(s->gallery);
+    oz_series_free(s->series);
+    oz_snapshot_free(&s->now);
+    oz_sim_free(s->sim);
+    oz_device_close(&s->device);
+    return status;
+}
+
+static void print_part(int p, const Share *part, double step, FILE *text, FILE *csv)
+{
+    double us = 1e6 * part->seconds * part->calls_per_step;
+    fprintf(csv, "%s,%s,%.6g,%.6g,%.6g,%.6g\n", parts[p].name, parts[p].how, 1e6 * part->seconds,
+            part->calls_per_step, us, 1e-4 * us / step);
+    fprintf(text, "%-22s %12.2f %13.6f %11.3f %7.1f %%  %s\n", parts[p].name, 1e6 * part->seconds,
+            part->calls_per_step, us, 1e-4 * us / step, parts[p].how);
+}
+
+static OzStatus print_all(const Share part[PART_COUNT], const char *folder, FILE *text)
+{
+    OzStatus status = OZ_OK;
+    char *path = NULL;
+    FILE *csv = NULL;
+    OZ_TRY(oz_file_join(&path, folder, "shares.csv"));
+    csv = fopen(path, "w");
+    if (!csv) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+        goto done;
+    }
+    fprintf(csv, "part,how,us_per_call,calls_per_step,us_per_step,percent_of_step\n");
+    fprintf(text, "%-22s %12s %13s %11s %9s  %s\n", "part", "us a call", "calls a step",
+            "us a step", "of a step", "how measured");
+    for (int p = 0; p < PART_COUNT; p++) {
+        print_part(p, &part[p], part[PART_STEP].seconds, text, csv);
+    }
+done:
+    if (csv) {
+        fclose(csv);
+    }
+    free(path);
+    return status;
+}
+
+OzStatus oz_bench_shares_print(OzBenchBed *bed, const OzOptions *options, const char *folder,
+                               FILE *text)
+{
+    OzStatus status = OZ_OK;
+    Share part[PART_COUNT] = {{0}};
+    char *movie = NULL;
+    part[PART_DRAW].seconds = part[PART_ENCODE].seconds = NAN;
+    OZ_TRY(oz_file_join(&movie, folder, "shares"));
+    Shares s = {.bed = bed, .options = options, .folder = movie, .part = part};
+    OZ_TRY(oz_apart_run(measure, &s, part, sizeof part));
+    fprintf(text, "\nshares of %s, float (of a CPU: processor time)\n", bed->scene.name);
+    OZ_TRY(print_all(part, folder, text));
+done:
+    free(movie);
+    return status;
+}
