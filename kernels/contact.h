@@ -1,12 +1,13 @@
-/* What two touching bodies know of their contact, and how the tangential spring is carried along.
- * Vectors point from body a to body b; a wall is always body a. */
+/* What two touching bodies know of their contact, what a law answers, and how the tangential spring is
+ * carried along. Vectors point from body a to body b; a wall is always body a. */
 #ifndef OZ_KERNELS_CONTACT_H
 #define OZ_KERNELS_CONTACT_H
 
 #include "kernels/vec3.h"
 
-/* Constants of a contact law, per unit of effective mass, so that one set serves every pair of grains
- * (and one each wall). */
+/* Constants of a contact law. With `law: hooke` stiffnesses and dampings are per unit of effective mass, so
+ * that one set serves every pair of grains (and one each wall); the other laws' headers say what theirs
+ * are. */
 typedef struct OzLawConstants {
     scalar stiffness;            /* k_n / m*, 1/s^2                                        */
     scalar damping;              /* c_n / m*, 1/s                                          */
@@ -18,19 +19,30 @@ typedef struct OzLawConstants {
 typedef struct OzContact {
     OzVec3 normal;   /* unit vector                                                        */
     real overlap;    /* m, > 0 while touching                                              */
+    real rate;       /* m/s, d(overlap)/dt                                                 */
     OzVec3 velocity; /* m/s, of b relative to a at the contact                             */
     real mass;       /* kg, effective: 1/mass = 1/mass_a + 1/mass_b; of the grain at a wall */
+    real radius;     /* m, effective: 1/radius = 1/radius_a + 1/radius_b; hertz-mindlin only */
+    real lightness;  /* root of (mass that the contact feels, rotation included, / mass)   */
     mask touching;
 } OzContact;
 
-/* What a law gives. Only `force` enters the motion; the rest is for the energy ledger and costs nothing
+/* What a law answers to overlap and rate. */
+typedef struct OzResponse {
+    real spring, dashpot;      /* N, normal force of each, pushing                          */
+    real energy;               /* J, in the normal spring                                   */
+    real tangential_stiffness; /* N/m                                                       */
+    real tangential_damping;   /* kg/s                                                      */
+} OzResponse;
+
+/* What a contact does. Only `force` enters the motion; the rest is for the energy ledger and costs nothing
  * when that is off. */
 typedef struct OzContactForce {
-    OzVec3 force;      /* N, on b                                                           */
-    OzVec3 stretch;    /* m, tangential spring at this time level                           */
-    OzVec3 stretched;  /* m, the same before sliding cut it back                            */
-    real dashpot;      /* N, normal force of the dashpot                                    */
-    OzVec3 dashpot_tangential; /* N, none while sliding                                     */
+    OzVec3 force;              /* N, on b                                                   */
+    OzVec3 spring;             /* N, on b: the tangential spring's part                     */
+    OzVec3 dashpot;            /* N, on b: the dashpots' part; tangential none while sliding */
+    real energy;               /* J, in the normal spring                                   */
+    real tangential_stiffness; /* N/m                                                       */
 } OzContactForce;
 
 /* The stored spring turned with the normal as the pair turns (Pournin et al. 2005 take the normal as

@@ -57,6 +57,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(integer, saved_count, OZ_HISTORY ? z.regions : 0)                                            \
     X(ledger, ledger, OZ_LEDGER ? z.regions * OZ_LEDGER_WORDS : 0)                                 \
     X(real, pair_ledger, OZ_LEDGER ? z.regions * z.inner_capacity / OZ_LANES * OZ_CONTACT_LEDGER : 0) \
+    X(real, pair_couple, OZ_LEDGER & OZ_LINE ? z.regions * z.inner_capacity / OZ_LANES * 6 : 0)    \
     X(real, wall_ledger, OZ_LEDGER ? z.blocks * OZ_WALL_ENDS * OZ_CONTACT_LEDGER : 0)               \
     X(scalar, spare, OZ_RESORT ? z.slots * OZ_SPARE : 0)
 

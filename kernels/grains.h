@@ -80,7 +80,7 @@ OZ_INLINE void oz_grains_record(OzWork *w, int block, OzBody body, OzShape shape
     real b[4] = {shaft.x, shaft.y, shaft.z, shape.mass};
     real skin = w->reference_inner[(size_t)block * OZ_REFERENCE + OZ_REFERENCE_SKIN];
     real c[4] = {velocity.x, velocity.y, velocity.z, skin};
-    real d[4] = {rate.x, rate.y, rate.z, REAL(0.0)};
+    real d[4] = {rate.x, rate.y, rate.z, OZ_AT_CONTACT ? shape.inverse_inertia : REAL(0.0)};
     global scalar *out = w->record + (size_t)block * OZ_LANES * OZ_RECORD;
     oz_lanes_store4(out, OZ_RECORD, OZ_R_PLACE, a);
     oz_lanes_store4(out, OZ_RECORD, OZ_R_SHAFT, b);
@@ -227,6 +227,7 @@ OZ_INLINE void oz_grains_walls(OzWork *w, int block, OzBody body, OzShape shape,
     grain.rate = oz_body_rate(oz_integrate_seen_spin(body, shape, dt), u, shape);
     grain.radius = shape.radius;
     grain.mass = shape.mass;
+    grain.inverse_inertia = shape.inverse_inertia;
 #pragma unroll
     for (int wall = 0; wall < OZ_PLANES + OZ_CYLINDERS; wall++) {
 #pragma unroll

@@ -90,6 +90,7 @@ enum {
     OZ_R_VELOCITY = 8,
     OZ_R_SKIN = 11,
     OZ_R_RATE = 12,
+    OZ_R_YIELD = 15, /* inverse inertia across the shaft; with OZ_AT_CONTACT only */
     OZ_RECORD = 16
 };
 

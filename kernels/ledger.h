@@ -38,6 +38,15 @@ OZ_INLINE void oz_ledger_add(OzWork *w, int region, global const real *words, Oz
     sums[OZ_L_DISSIPATED] -= dt * oz_ledger_sum(oz_dot(oz_work_load3(words + 3), mean), counts);
 }
 
+/* Adds what dashpots took in that act elsewhere than at the mean of a pair's points (contact_line.h). */
+OZ_INLINE void oz_ledger_add_couple(OzWork *w, int region, int block, OzVec3 after, const int *counts)
+{
+    global const real *words = w->pair_couple + 6 * (size_t)block;
+    OzVec3 mean = oz_scale(oz_add(oz_work_load3(words + 3), after), REAL(0.5));
+    double power = oz_ledger_sum(oz_dot(oz_work_load3(words), mean), counts);
+    w->ledger[(size_t)region * OZ_LEDGER_WORDS + OZ_L_DISSIPATED] -= w->parameters->dt * power;
+}
+
 OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
 {
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region];
@@ -50,9 +59,13 @@ OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
         }
         global const real *words = w->pair_ledger + (size_t)(first / OZ_LANES) * OZ_CONTACT_LEDGER;
         OzGrain one = oz_work_grains(w, a), other = oz_work_grains(w, b);
-        OzVec3 after = oz_minus(oz_rods_velocity_at(other, oz_work_load3(words + 12)),
-                                oz_rods_velocity_at(one, oz_work_load3(words + 9)));
+        OzVec3 after = oz_minus(oz_grain_velocity_at(other, oz_work_load3(words + 12)),
+                                oz_grain_velocity_at(one, oz_work_load3(words + 9)));
         oz_ledger_add(w, region, words, after, counts);
+        if (OZ_LINE) {
+            OzVec3 turning = oz_minus(other.rate, one.rate);
+            oz_ledger_add_couple(w, region, first / OZ_LANES, turning, counts);
+        }
     }
 }
 
@@ -81,7 +94,7 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
             int wall = index / (OZ_ROUND ? 1 : 2);
             scalar old_speed = oz_ledger_wall_speed(w, wall, OZ_GRAINS_WALL_STEP(step));
             scalar new_speed = oz_ledger_wall_speed(w, wall, step + 1);
-            OzVec3 after = oz_rods_velocity_at(grain, oz_work_load3(words + 12));
+            OzVec3 after = oz_grain_velocity_at(grain, oz_work_load3(words + 12));
             after.z -= REAL(new_speed);
             oz_ledger_add(w, region, words, after, counts);
             double mean = 0.5 * ((double)old_speed + (double)new_speed);

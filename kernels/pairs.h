@@ -9,12 +9,8 @@
 OZ_INLINE void oz_pairs_note(global real *words, OzContact contact, OzContactForce parts,
                              OzVec3 third, OzVec3 arm)
 {
-    OzVec3 normal = oz_scale(contact.normal, parts.dashpot);
-    OzVec3 dashpot = oz_where(contact.touching, oz_add(normal, parts.dashpot_tangential));
-    OzVec3 tangential = oz_along(parts.force, -oz_dot(parts.force, contact.normal), contact.normal);
-    OzVec3 spring = oz_where(contact.touching, oz_minus(tangential, parts.dashpot_tangential));
-    oz_work_store3(words, spring);
-    oz_work_store3(words + 3, dashpot);
+    oz_work_store3(words, parts.spring);
+    oz_work_store3(words + 3, parts.dashpot);
     oz_work_store3(words + 6, contact.velocity);
     oz_work_store3(words + 9, third);
     oz_work_store3(words + 12, arm);
@@ -57,6 +53,10 @@ OZ_INLINE void oz_pairs_block(OzWork *w, int first, OzLawConstants law, int step
 #if OZ_LEDGER
     oz_pairs_note(w->pair_ledger + block * OZ_CONTACT_LEDGER, pair.contact, pair.parts, pair.arm_a,
                   pair.arm_b);
+    if (OZ_LINE) {
+        oz_work_store3(w->pair_couple + 6 * block, pair.couple);
+        oz_work_store3(w->pair_couple + 6 * block + 3, pair.turning);
+    }
 #endif
 }
 

@@ -1,22 +1,11 @@
 /* The rods model: contacts between two spherocylinders, and between a spherocylinder's end and a wall
- * (Pournin et al. 2005, sec. 3). Switches: OZ_ROUND 1: all grains are spheres; OZ_SURFACES 1: each force
- * acts on its own grain's surface (the paper; breaks angular momentum), 0: both in the middle of the
- * overlap. */
+ * (Pournin et al. 2005, sec. 3). Switches: OZ_ROUND 1: all grains are spheres; OZ_LINE 1: nearly parallel
+ * shafts touch as contact_line.h says, 0: at their closest points; those of grain.h. */
 #ifndef OZ_KERNELS_RODS_H
 #define OZ_KERNELS_RODS_H
 
-#include "kernels/closest.h"
-#include "kernels/contact_hooke.h"
+#include "kernels/contact_line.h"
 #include "kernels/walls.h"
-
-/* A grain as contacts see it. */
-typedef struct OzGrain {
-    OzPlace place;
-    OzVec3 half_shaft; /* m                 */
-    OzVec3 velocity;   /* m/s               */
-    OzVec3 rate;       /* rad/s, world frame */
-    real radius, mass; /* m, kg             */
-} OzGrain;
 
 /* What a pair of grains does to both. */
 typedef struct OzPairForce {
@@ -28,50 +17,73 @@ typedef struct OzPairForce {
     OzContact contact;         /* for the ledger                  */
     OzContactForce parts;
     OzVec3 arm_a, arm_b;       /* m, from each centre to where the force acts */
+    OzVec3 couple, turning;    /* with OZ_LINE, for the ledger: N m on b, of dashpots that act elsewhere than
+                                  at arm_b (exact with forces in the middle); rad/s, of b relative to a */
 } OzPairForce;
 
-/* Velocity of the material point at arm. */
-OZ_INLINE OzVec3 oz_rods_velocity_at(OzGrain grain, OzVec3 arm)
+/* The contact of a and b at their closest points; arms are filled in with the points where the forces act. */
+OZ_INLINE OzContact oz_rods_contact(OzGrain a, OzGrain b, OzVec3 apart, OzVec3 *arm_a, OzVec3 *arm_b,
+                                    mask *crossed)
 {
-    return oz_add(grain.velocity, oz_cross(grain.rate, arm));
+    OzClosest at = OZ_ROUND ? oz_closest_spheres() : oz_closest(apart, a.half_shaft, b.half_shaft);
+    return oz_grain_contact(a, b, apart, at, arm_a, arm_b, crossed);
 }
 
-/* The contact of a and b; arms are filled in with the points where the forces act. */
-OZ_INLINE OzContact oz_rods_contact(OzGrain a, OzGrain b, scalar length_unit, OzVec3 *arm_a,
-                                    OzVec3 *arm_b, mask *crossed)
+/* Replaces the contact at the closest points by the mean of the pair's points, and adds what they do. */
+OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants law,
+                            OzVec3 *history, scalar dt, scalar share)
 {
-    OzContact contact;
-    OzVec3 apart = oz_place_minus(a.place, b.place, length_unit);
-    OzClosest at = OZ_ROUND ? oz_closest_spheres() : oz_closest(apart, a.half_shaft, b.half_shaft);
-    OzVec3 from_a = oz_scale(a.half_shaft, at.s), from_b = oz_scale(b.half_shaft, at.t);
-    OzVec3 gap = oz_minus(from_b, oz_add(apart, from_a)); /* y2 - y1 */
-    real gap2 = oz_dot(gap, gap);
-    *crossed = gap2 <= OZ_TINY * OZ_TINY;
-    real inverse = REAL(1.0) / sqrt(oz_larger(gap2, REAL(OZ_TINY * OZ_TINY)));
-    OzVec3 up = oz_vec3(REAL(0.0), REAL(0.0), REAL(1.0));
-    contact.normal = oz_choose(*crossed, up, oz_scale(gap, inverse));
-    contact.overlap = a.radius + b.radius - gap2 * inverse;
-    contact.touching = contact.overlap > REAL(0.0);
-    real inside = OZ_SURFACES ? REAL(0.0) : REAL(0.5) * contact.overlap;
-    *arm_a = oz_along(from_a, a.radius - inside, contact.normal);
-    *arm_b = oz_along(from_b, inside - b.radius, contact.normal);
-    contact.velocity = oz_minus(oz_rods_velocity_at(b, *arm_b), oz_rods_velocity_at(a, *arm_a));
-    contact.mass = OZ_EQUAL ? REAL(0.5) * a.mass : a.mass * b.mass / (a.mass + b.mass);
-    return contact;
+    OzContact *c = &pair->contact;
+    OzLine sum = oz_line_sum(a, b, apart, law, *c, pair->arm_a, pair->arm_b);
+    OzVec3 dashpot;
+    OzResponse response = {sum.push, REAL(0.0), sum.energy, sum.tangential_stiffness,
+                           sum.tangential_damping};
+    c->touching = sum.overlap > REAL(0.0);
+    real inverse = REAL(1.0) / (c->touching ? sum.overlap : REAL(1.0));
+    real length = sqrt(oz_dot(sum.normal, sum.normal));
+    mask aimed = length > REAL(0.0); /* not so where normals cancel: crossed shafts */
+    real inverse_length = REAL(1.0) / (aimed ? length : REAL(1.0));
+    c->normal = oz_choose(aimed, oz_scale(sum.normal, inverse_length), c->normal);
+    c->overlap = c->touching ? sum.overlap : oz_smaller(c->overlap, REAL(0.0));
+    pair->arm_a = oz_choose(c->touching, oz_scale(sum.arm_a, inverse), pair->arm_a);
+    pair->arm_b = oz_choose(c->touching, oz_scale(sum.arm_b, inverse), pair->arm_b);
+    c->velocity =
+        oz_minus(oz_grain_velocity_at(b, pair->arm_b), oz_grain_velocity_at(a, pair->arm_a));
+    c->rate = -oz_dot(c->velocity, c->normal);
+    OzVec3 tangential =
+        oz_contact_friction(*c, response, sum.push, law.friction, history, dt, share, &dashpot);
+    tangential = oz_where(c->touching, tangential);
+    dashpot = oz_where(c->touching, dashpot);
+    pair->parts.force = oz_add(sum.force, tangential);
+    pair->parts.spring = oz_minus(tangential, dashpot);
+    pair->parts.dashpot = oz_add(sum.dashpot, dashpot);
+    pair->parts.energy = sum.energy;
+    pair->parts.tangential_stiffness = sum.tangential_stiffness;
+    pair->torque_a = oz_add(sum.torque_a, oz_cross(tangential, pair->arm_a));
+    pair->torque_b = oz_add(sum.torque_b, oz_cross(pair->arm_b, tangential));
+    OzVec3 couple_a = oz_minus(sum.dashpot_a, oz_cross(sum.dashpot, pair->arm_a));
+    OzVec3 couple_b = oz_minus(sum.dashpot_b, oz_cross(pair->arm_b, sum.dashpot));
+    pair->couple = oz_scale(oz_minus(couple_b, couple_a), REAL(0.5));
+    pair->turning = oz_minus(b.rate, a.rate);
 }
 
 OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, scalar length_unit, OzLawConstants law,
                                    OzVec3 *history, scalar dt, scalar share)
 {
     OzPairForce pair;
-    pair.contact = oz_rods_contact(a, b, length_unit, &pair.arm_a, &pair.arm_b, &pair.crossed);
-    pair.parts = oz_contact_hooke(pair.contact, law, history, dt, share);
+    OzVec3 apart = oz_place_minus(a.place, b.place, length_unit);
+    pair.contact = oz_rods_contact(a, b, apart, &pair.arm_a, &pair.arm_b, &pair.crossed);
+    pair.crossed = pair.crossed & pair.contact.touching;
+    if (OZ_LINE) {
+        oz_rods_line(&pair, a, b, apart, law, history, dt, share);
+    } else {
+        pair.parts = oz_contact_force(pair.contact, law, history, dt, share);
+        pair.torque_a = oz_cross(pair.parts.force, pair.arm_a);
+        pair.torque_b = oz_cross(pair.arm_b, pair.parts.force);
+    }
     pair.force = pair.parts.force;
-    pair.torque_a = oz_cross(pair.force, pair.arm_a);
-    pair.torque_b = oz_cross(pair.arm_b, pair.force);
     pair.overlap = pair.contact.touching ? pair.contact.overlap : REAL(0.0);
     pair.deep = pair.overlap > oz_smaller(a.radius, b.radius);
-    pair.crossed = pair.crossed & pair.contact.touching;
     return pair;
 }
 
@@ -87,9 +99,16 @@ OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance 
     contact->touching = (contact->overlap > REAL(0.0)) & present;
     real inside = OZ_SURFACES ? REAL(0.0) : REAL(0.5) * contact->overlap;
     *arm = oz_along(end, inside - grain.radius, wall.normal);
-    contact->velocity = oz_minus(oz_rods_velocity_at(grain, *arm), wall_velocity);
+    contact->velocity = oz_minus(oz_grain_velocity_at(grain, *arm), wall_velocity);
+    contact->rate = -oz_dot(contact->velocity, contact->normal);
     contact->mass = grain.mass;
-    return oz_contact_hooke(*contact, law, history, dt, share);
+    contact->radius = grain.radius;
+    contact->lightness = REAL(1.0);
+    if (OZ_AT_CONTACT) {
+        real yield = oz_grain_yield(grain, end, wall.normal);
+        contact->lightness = REAL(1.0) / sqrt(REAL(1.0) + contact->mass * yield);
+    }
+    return oz_contact_force(*contact, law, history, dt, share);
 }
 
 #endif

@@ -118,6 +118,7 @@ OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
     OzGrain grain;
     grain.place.x = oz_place_of_bits(a[0]);
     grain.place.y = oz_place_of_bits(a[1]);
+    grain.inverse_inertia = d[3];
     grain.place.z = oz_place_of_bits(a[2]);
     grain.half_shaft = oz_vec3(b[0], b[1], b[2]);
     grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];

@@ -54,9 +54,16 @@ static void assert_same_contact(const OzContactValues *a, const OzContactValues 
     SAME(tangential_damping);
     SAME(slip);
     SAME(attraction);
+    SAME(damping);
     SAME(parallel);
     SAME(contact_point);
     SAME(restitution_at);
+    SAME(restitution_calibration);
+    SAME(hertz_stiffness);
+    SAME(normal_damping_rate);
+    SAME(tangential_damping_rate);
+    SAME(youngs_modulus);
+    SAME(poisson_ratio);
 }
 
 static void assert_same_wall(const OzWall *a, const OzWall *b)
@@ -182,7 +189,7 @@ static void writes_settings_and_odd_values(void **state)
     OzScene scene = parse(
         SHAKEN
         "  - {kind: plane, normal: [1, 2, 3], motion: {frequency: 7, amplitude: 1e-3}}\n"
-        "  - {kind: cylinder, diameter: 1, contact: {tangential_stiffness: 1/3, slip: scale}}\n",
+        "  - {kind: cylinder, diameter: 1, contact: {tangential_stiffness: 1/3, restitution: 0.25}}\n",
         SETTINGS(
             "time.taps=30", "title=\"a \\\"b\\\" \\\\ #: \\x01\\u0085 Pösch\\ufeffel\\n\"",
             "grains=[{kind: single, diameter: 1/3, position: [0.1, -0.2, 0.3], axis: [3, 1, 2]},"

@@ -16,6 +16,7 @@
 #define OZ_CYLINDERS (s->cylinders)
 #define OZ_MOVING    (s->moving)
 #define OZ_LEDGER    (s->ledger)
+#define OZ_LINE      (s->line)
 #define OZ_RESORT    (s->resort)
 
 static size_t scalar_bytes(const OzSwitches *s)

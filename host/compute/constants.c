@@ -1,13 +1,13 @@
 /* Parameters from scenes. */
 #include "compute/constants.h"
 
-#include "model/contact.h"
+#include "model/calibrate.h"
 
 #include <string.h>
 
-OzLawConstants oz_constants_law(const OzContactValues *values)
+OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values)
 {
-    OzContactConstants constants = oz_contact_constants(values);
+    OzContactConstants constants = oz_calibrate_contact(scene, values);
     OzLawConstants law = {.stiffness = constants.stiffness,
                  .damping = constants.damping,
                  .tangential_stiffness = constants.tangential_stiffness,
@@ -66,7 +66,7 @@ static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *
                           scene->path, far, far / smallest);
 }
 
-static void fill_wall(OzWallParameters *to, const OzWall *from, double unit)
+static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *from, double unit)
 {
     for (int c = 0; c < 3; c++) {
         double units = from->point[c] / unit;
@@ -74,7 +74,7 @@ static void fill_wall(OzWallParameters *to, const OzWall *from, double unit)
         to->normal[c] = from->normal[c];
     }
     to->radius = from->diameter / 2;
-    to->law = oz_constants_law(&from->contact);
+    to->law = oz_constants_law(scene, &from->contact);
 }
 
 static int fill_walls(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene)
@@ -83,7 +83,8 @@ static int fill_walls(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], co
     for (int kind = OZ_WALL_PLANE; kind <= OZ_WALL_CYLINDER; kind++) {
         for (int w = 0; w < scene->wall_count && count < OZ_WALLS_MAX; w++) {
             if ((int)scene->walls[w].kind == kind) {
-                fill_wall(&parameters->wall[count], &scene->walls[w], parameters->length_unit);
+                fill_wall(&parameters->wall[count], scene, &scene->walls[w],
+                          parameters->length_unit);
                 wall_order[count++] = w;
             }
         }
@@ -126,7 +127,7 @@ OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX
     parameters->inverse_unit = 1 / parameters->length_unit;
     parameters->dt = scene->step;
     memcpy(parameters->gravity, scene->gravity, sizeof scene->gravity);
-    parameters->law = oz_constants_law(&scene->contact);
+    parameters->law = oz_constants_law(scene, &scene->contact);
     fill_walls(parameters, wall_order, scene);
     fill_shapes(parameters, grains);
 done:

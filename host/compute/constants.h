@@ -13,8 +13,9 @@
 OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
                            const OzScene *scene, const OzGrains *grains);
 
-/* The law of a contact, per unit of effective mass. */
-OzLawConstants oz_constants_law(const OzContactValues *values);
+/* The law of the scene's contacts of given values (of two grains: the scene's; of a wall: its own), calibrated
+ * where the scene asks for it. */
+OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values);
 
 /* Offset (m) and velocity (m/s) of a wall at a time. */
 void oz_constants_motion(const OzMotion *motion, double time, double *offset, double *velocity);

@@ -17,6 +17,10 @@ static _Thread_local OzSwitches dialect;
 #define OZ_ATTRACTION_CLAMP dialect.attraction_clamp
 #define OZ_SURFACES         dialect.surfaces
 #define OZ_GYROSCOPIC       dialect.gyroscopic
+#define OZ_LAW_ID           dialect.law
+#define OZ_LINE             dialect.line
+#define OZ_SMOOTH           dialect.smooth
+#define OZ_AT_CONTACT       dialect.at_contact
 #define OZ_INTEGRATOR_ID    (-1) /* none: the host compiles them all */
 
 #include "kernels/integrate.h"

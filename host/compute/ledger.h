@@ -17,6 +17,9 @@ typedef struct OzWork {
  * the step's end. */
 void oz_ledger_note(OzWork *work, OzContact contact, OzContactForce parts, OzVec3 after, double dt);
 
+/* Adds the work of a couple over a step of dt; turning and after: rad/s, as the velocities above. */
+void oz_ledger_note_couple(OzWork *work, OzVec3 couple, OzVec3 turning, OzVec3 after, double dt);
+
 /* Adds the work of a wall that moved along z with mean_speed while it pushed a grain with force. */
 void oz_ledger_push(OzWork *work, OzVec3 force, double mean_speed, double dt);
 

@@ -72,7 +72,8 @@ static OzGrain grain_with(const OzReference *r, int i, OzVec3 velocity, OzVec3 s
                      .velocity = velocity,
                      .rate = oz_body_rate(spin, u, r->shape[i]),
                      .radius = r->shape[i].radius,
-                     .mass = r->shape[i].mass};
+                     .mass = r->shape[i].mass,
+                     .inverse_inertia = r->shape[i].inverse_inertia};
     return grain;
 }
 
@@ -222,8 +223,11 @@ static void note_pairs(OzReference *r, double dt)
             OzGrain a = grain_now(r, r->near.pairs.pair[p].a),
                     b = grain_now(r, r->near.pairs.pair[p].b);
             OzVec3 after =
-                oz_minus(oz_rods_velocity_at(b, f->arm_b), oz_rods_velocity_at(a, f->arm_a));
+                oz_minus(oz_grain_velocity_at(b, f->arm_b), oz_grain_velocity_at(a, f->arm_a));
             oz_ledger_note(&r->work, f->contact, f->parts, after, dt);
+            if (OZ_LINE) {
+                oz_ledger_note_couple(&r->work, f->couple, f->turning, oz_minus(b.rate, a.rate), dt);
+            }
         }
     }
 }
@@ -236,7 +240,7 @@ static void note_wall(OzReference *r, int i, int wall, double dt)
     for (int end = 0; end < r->physics.ends; end++) {
         const WallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
         if (f->contact.touching) {
-            OzVec3 after = oz_rods_velocity_at(grain_now(r, i), f->arm);
+            OzVec3 after = oz_grain_velocity_at(grain_now(r, i), f->arm);
             after.z -= speed;
             oz_ledger_note(&r->work, f->contact, f->parts, after, dt);
             oz_ledger_push(&r->work, f->parts.force, 0.5 * (r->wall_speed[wall] + speed), dt);

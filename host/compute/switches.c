@@ -33,15 +33,21 @@ static int count_walls(const OzScene *scene, OzWallKind kind)
     return count;
 }
 
+static bool has_spring(const OzContactValues *values)
+{
+    return values->law == OZ_LAW_HERTZ_MINDLIN ||
+           (values->law == OZ_LAW_HOOKE && values->tangential_stiffness > 0);
+}
+
 /* Whether any contact of the scene has friction, and whether any of these has a spring. */
 static void derive_friction(OzSwitches *s, const OzScene *scene)
 {
     s->friction = scene->contact.friction > 0;
-    s->history = s->friction && scene->contact.tangential_stiffness > 0;
+    s->history = s->friction && has_spring(&scene->contact);
     for (int w = 0; w < scene->wall_count; w++) {
         const OzContactValues *values = &scene->walls[w].contact;
         s->friction |= values->friction > 0;
-        s->history |= values->friction > 0 && values->tangential_stiffness > 0;
+        s->history |= values->friction > 0 && has_spring(values);
         s->moving |= scene->walls[w].motion.present;
     }
 }
@@ -59,12 +65,17 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.slip_scale = s.history && scene->contact.slip == OZ_SLIP_SCALE;
     s.attraction_clamp = scene->contact.attraction == OZ_ATTRACTION_CLAMP;
     s.surfaces = scene->contact.contact_point == OZ_POINT_SURFACES;
+    s.law = (int)scene->contact.law;
+    s.line = scene->contact.parallel == OZ_PARALLEL_LINE && !s.round;
+    s.smooth = scene->contact.law == OZ_LAW_HOOKE && scene->contact.damping == OZ_DAMPING_SMOOTH;
+    s.at_contact = scene->contact.restitution_at == OZ_RESTITUTION_CONTACT && !s.round;
     s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
     s.planes = count_walls(scene, OZ_WALL_PLANE);
     s.cylinders = count_walls(scene, OZ_WALL_CYLINDER);
     s.ledger = scene->observe.ledger;
     s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
     s.host_lists = scene->broadphase == OZ_BROADPHASE_SORT_AXIS;
+    s.resort = grains->count > OZ_SWITCHES_SMALL_MOST;
     return s;
 }
 

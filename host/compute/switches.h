@@ -19,6 +19,10 @@
     X(SLIP_SCALE, slip_scale, NULL)                                                                \
     X(ATTRACTION_CLAMP, attraction_clamp, NULL)                                                    \
     X(SURFACES, surfaces, NULL)                                                                    \
+    X(LAW_ID, law, NULL)                                                                           \
+    X(LINE, line, "two-point contacts of parallel shafts")                                         \
+    X(SMOOTH, smooth, NULL)                                                                        \
+    X(AT_CONTACT, at_contact, NULL)                                                                \
     X(GYROSCOPIC, gyroscopic, "gyroscopic term")                                                   \
     X(PLANES, planes, "plane walls")                                                               \
     X(CYLINDERS, cylinders, "cylinder walls")                                                      \
@@ -27,6 +31,10 @@
     X(ALL_PAIRS, all_pairs, NULL)                                                                  \
     X(HOST_LISTS, host_lists, NULL)                                                                \
     X(RESORT, resort, "spatial re-sort of grains")
+
+/* Scenes with more grains are computed phase by phase, by many work-groups, and re-sorted in space; smaller ones
+ * by one work-group in launches of many steps. */
+enum { OZ_SWITCHES_SMALL_MOST = 6000 };
 
 typedef struct OzSwitches {
 #define OZ_SWITCHES_MEMBER(name, member, left_out) int member;

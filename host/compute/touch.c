@@ -19,46 +19,44 @@ static OzGrain grain_of(const OzSnapshot *snapshot, int64_t id)
                      .velocity = oz_dialect_load3(&snapshot->velocity[3 * id]),
                      .rate = oz_dialect_load3(&snapshot->spin[3 * id]),
                      .radius = snapshot->grains->diameter[id] / 2,
-                     .mass = snapshot->grains->mass[id]};
+                     .mass = snapshot->grains->mass[id],
+                     .inverse_inertia = 1 / snapshot->grains->inertia[id]};
     grain.half_shaft =
         oz_scale(oz_dialect_load3(&snapshot->axis[3 * id]), snapshot->grains->length[id] / 2);
     return grain;
 }
 
 /* Energy of a contact's tangential spring, J. */
-static double tangential_energy(const OzTouch *touch, OzContact contact, OzLawConstants law,
+static double tangential_energy(const OzTouch *touch, OzContact contact, OzContactForce parts,
                                 const double history[3])
 {
     if (!OZ_HISTORY || !history) {
         return 0;
     }
-    double rate = -oz_dot(contact.velocity, contact.normal);
-    OzVec3 sliding = oz_scale(oz_along(contact.velocity, rate, contact.normal), -1);
+    OzVec3 sliding = oz_scale(oz_along(contact.velocity, contact.rate, contact.normal), -1);
     OzVec3 stretch = oz_along(oz_contact_turn(oz_dialect_load3(history), contact.normal),
                               touch->physics.share * touch->physics.parameters.dt, sliding);
-    return 0.5 * contact.mass * law.tangential_stiffness * oz_dot(stretch, stretch);
+    return 0.5 * parts.tangential_stiffness * oz_dot(stretch, stretch);
 }
 
-static void add(OzTouch *touch, OzContact contact, OzLawConstants law, const double history[3])
+static void add(OzTouch *touch, OzContact contact, OzContactForce parts, const double history[3])
 {
-    double overlap = contact.overlap;
-    double tangential = tangential_energy(touch, contact, law, history);
-    touch->contacts.overlap_sum += overlap;
-    touch->contacts.overlap_max = oz_larger(touch->contacts.overlap_max, overlap);
+    double tangential = tangential_energy(touch, contact, parts, history);
+    touch->contacts.overlap_sum += contact.overlap;
+    touch->contacts.overlap_max = oz_larger(touch->contacts.overlap_max, contact.overlap);
     touch->tangential += tangential;
-    touch->elastic += tangential + 0.5 * contact.mass * law.stiffness * overlap * overlap;
+    touch->elastic += tangential + parts.energy;
 }
 
 void oz_touch_pair(OzTouch *touch, int64_t a, int64_t b, const double history[3])
 {
-    OzVec3 arm_a, arm_b;
-    mask crossed;
+    OzVec3 spring = {0};
     dialect = touch->physics.switches;
-    OzContact contact = oz_rods_contact(grain_of(touch->snapshot, a), grain_of(touch->snapshot, b),
-                                        1, &arm_a, &arm_b, &crossed);
-    if (contact.touching) {
+    OzPairForce pair = oz_rods_pair(grain_of(touch->snapshot, a), grain_of(touch->snapshot, b), 1,
+                                    touch->physics.parameters.law, &spring, 0, touch->physics.share);
+    if (pair.contact.touching) {
         touch->contacts.pair_count++;
-        add(touch, contact, touch->physics.parameters.law, history);
+        add(touch, pair.contact, pair.parts, history);
     }
 }
 
@@ -69,11 +67,12 @@ void oz_touch_wall(OzTouch *touch, int64_t grain, int wall, int end, const doubl
     OzVec3 spring = {0}, arm;
     OzContact contact;
     dialect = touch->physics.switches;
-    oz_dialect_touch_wall(&touch->physics, wall, end, grain_of(snapshot, grain),
+    OzContactForce parts =
+        oz_dialect_touch_wall(&touch->physics, wall, end, grain_of(snapshot, grain),
                           snapshot->wall_offset[scene_wall], snapshot->wall_velocity[scene_wall], 0,
                           &spring, &contact, &arm);
     if (contact.touching) {
         touch->contacts.wall_count++;
-        add(touch, contact, touch->physics.parameters.wall[wall].law, history);
+        add(touch, contact, parts, history);
     }
 }

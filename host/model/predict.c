@@ -1,6 +1,8 @@
 /* The discrete contact: eigenvalues, stability limits and restitution of each integrator. */
 #include "model/predict.h"
 
+#include "model/calibrate.h"
+
 #include "base/memory.h"
 
 #include <complex.h>
@@ -13,12 +15,14 @@ static const double pi = 3.14159265358979323846;
 typedef struct Hit {
     double overlap, rate, acceleration;
     double stiffness, damping; /* K = kappa dt^2, G = gamma dt */
-    bool clamp;
+    bool clamp, smooth;
 } Hit;
 
 static double hit_acceleration(const Hit *hit, double rate)
 {
-    double repulsion = hit->stiffness * hit->overlap + hit->damping * rate;
+    double swing2 = hit->stiffness * hit->overlap * hit->overlap;
+    double damping = hit->damping * (hit->smooth ? sqrt(swing2 / (swing2 + rate * rate)) : 1);
+    double repulsion = hit->stiffness * hit->overlap + damping * rate;
     if (hit->overlap <= 0 || (hit->clamp && repulsion < 0)) {
         return 0;
     }
@@ -179,7 +183,8 @@ OzPredictedHits oz_predict_hits(OzIntegrator integrator, double step,
     OzPredictedHits hits = {.mean = 0, .low = INFINITY, .high = -INFINITY};
     Hit hit = {.stiffness = constants->stiffness * step * step,
                .damping = constants->damping * step,
-               .clamp = attraction == OZ_ATTRACTION_CLAMP};
+               .clamp = attraction == OZ_ATTRACTION_CLAMP,
+               .smooth = constants->smooth};
     int64_t step_limit = hit_step_limit(constants->duration, step);
     for (int phase = 0; phase < OZ_PREDICT_PHASES; phase++) {
         double share = (phase + 0.5) / OZ_PREDICT_PHASES;
@@ -210,13 +215,13 @@ static OzPrediction predict_kind(const OzScene *scene, const OzContactValues *va
 {
     OzPrediction row = {.wall = wall, .values = *values, .closed_form = NAN};
     double step = scene->step;
-    OzContactConstants c = row.constants = oz_contact_constants(values);
+    OzContactConstants c = row.constants = oz_calibrate_contact(scene, values);
     row.steps = c.duration / step;
     row.hits = oz_predict_hits(scene->integrator, step, &c, values->attraction);
     OzEigenvalues eigenvalues =
         oz_predict_eigenvalues(scene->integrator, c.stiffness * step * step, c.damping * step);
     row.radius = eigenvalues.radius;
-    if (values->attraction == OZ_ATTRACTION_ALLOW && eigenvalues.theta > 0) {
+    if (values->attraction == OZ_ATTRACTION_ALLOW && !c.smooth && eigenvalues.theta > 0) {
         row.closed_form = pow(eigenvalues.rho, pi / eigenvalues.theta);
     }
     row.largest_step = oz_predict_largest_step(scene->integrator, c.stiffness, c.damping);

@@ -2,6 +2,8 @@
 #include "scene/check.h"
 
 #include "base/memory.h"
+#include "scene/keys.h"
+#include "scene/value.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -341,9 +343,73 @@ static void check_singles(Checker *checker)
     }
 }
 
+/* Keys of other laws than the scene's; a wall's row belongs to the laws of the row it inherits. */
+static void check_laws(Checker *checker)
+{
+    const OzScene *scene = checker->scene;
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        if (!key->laws || key->laws >> scene->contact.law & 1) {
+            continue;
+        }
+        for (int i = -1; i < scene->wall_count; i++) {
+            char path[96], wall[24] = "";
+            if (i >= 0) {
+                snprintf(wall, sizeof wall, "walls.%d.", i);
+            }
+            snprintf(path, sizeof path, "%s%s", wall, key->path);
+            if (is_written(checker, path)) {
+                fault(checker, path, "%s makes no sense with contact.law %s; expected another law",
+                      path, oz_keys_choice_name("contact.law", (int)scene->contact.law));
+            }
+        }
+    }
+}
+
+/* Choices are made once for all contacts, as one set of kernels serves them all. */
+static void check_wall_choices(Checker *checker)
+{
+    const char *prefix = "walls[].";
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        const char *name = key->path + strlen(prefix);
+        bool choice = strncmp(key->path, prefix, strlen(prefix)) == 0 && key->inherits &&
+                      key->type == OZ_KEY_CHOICE;
+        for (int i = 0; choice && i < checker->scene->wall_count; i++) {
+            int own = *(const int *)oz_value_at(key, &checker->scene->walls[i]);
+            int common = *(const int *)oz_value_at(oz_keys_find(key->inherits), checker->scene);
+            if (own != common) {
+                char path[96];
+                snprintf(path, sizeof path, "walls.%d.%s", i, name);
+                fault(checker, path, "%s is %s and %s %s; expected the same for all contacts", path,
+                      key->choices[own], key->inherits, key->choices[common]);
+            }
+        }
+    }
+}
+
+/* With `restitution_calibration: discrete` a hit lasts a whole number of steps. */
+static void fit_step(Checker *checker)
+{
+    OzScene *scene = checker->scene;
+    scene->written_step = scene->step;
+    if (scene->contact.restitution_calibration != OZ_CALIBRATION_DISCRETE) {
+        return;
+    }
+    if (scene->contact.law != OZ_LAW_HOOKE) {
+        fault(checker, "contact.restitution_calibration",
+              "contact.restitution_calibration is discrete; expected none with contact.law %s",
+              oz_keys_choice_name("contact.law", (int)scene->contact.law));
+    } else if (scene->step > 0 && scene->contact.contact_time > 0) {
+        double count = round(scene->contact.contact_time / scene->step);
+        scene->step = scene->contact.contact_time / fmax(count, 2);
+    }
+}
+
 OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
 {
     Checker checker = {scene, root, faults};
+    check_laws(&checker);
+    check_wall_choices(&checker);
+    fit_step(&checker);
     derive_walls(&checker);
     derive_times(&checker);
     derive_populations(&checker);

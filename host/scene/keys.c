@@ -21,14 +21,23 @@ static const char *const BROADPHASES[] = {[OZ_BROADPHASE_HASH] = "hash",
                                           [OZ_BROADPHASE_ALL_PAIRS] = "all_pairs",
                                           [OZ_BROADPHASE_SORT_AXIS] = "sort_axis",
                                           NULL};
-static const char *const LAWS[] = {[OZ_LAW_HOOKE] = "hooke", NULL};
+static const char *const LAWS[] = {[OZ_LAW_HOOKE] = "hooke",
+                                   [OZ_LAW_HERTZ] = "hertz",
+                                   [OZ_LAW_HERTZ_MINDLIN] = "hertz-mindlin",
+                                   NULL};
 static const char *const SLIPS[] = {[OZ_SLIP_CUT] = "cut", [OZ_SLIP_SCALE] = "scale", NULL};
 static const char *const ATTRACTIONS[] = {
     [OZ_ATTRACTION_ALLOW] = "allow", [OZ_ATTRACTION_CLAMP] = "clamp", NULL};
-static const char *const PARALLELS[] = {[OZ_PARALLEL_SINGLE] = "single", NULL};
+static const char *const DAMPINGS[] = {
+    [OZ_DAMPING_CONSTANT] = "constant", [OZ_DAMPING_SMOOTH] = "smooth", NULL};
+static const char *const PARALLELS[] = {
+    [OZ_PARALLEL_SINGLE] = "single", [OZ_PARALLEL_LINE] = "line", NULL};
 static const char *const CONTACT_POINTS[] = {
     [OZ_POINT_MIDPOINT] = "midpoint", [OZ_POINT_SURFACES] = "surfaces", NULL};
-static const char *const RESTITUTIONS_AT[] = {[OZ_RESTITUTION_CENTRE] = "centre", NULL};
+static const char *const RESTITUTIONS_AT[] = {
+    [OZ_RESTITUTION_CENTRE] = "centre", [OZ_RESTITUTION_CONTACT] = "contact", NULL};
+static const char *const CALIBRATIONS[] = {
+    [OZ_CALIBRATION_NONE] = "none", [OZ_CALIBRATION_DISCRETE] = "discrete", NULL};
 static const char *const WALL_KINDS[] = {
     [OZ_WALL_PLANE] = "plane", [OZ_WALL_CYLINDER] = "cylinder", NULL};
 static const char *const GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
@@ -50,7 +59,10 @@ enum {
     FROM_FILE = 1 << OZ_GRAINS_FILE,
     MADE = RANDOM | LATTICE | SINGLE,
     PLANE = 1 << OZ_WALL_PLANE,
-    CYLINDER = 1 << OZ_WALL_CYLINDER
+    CYLINDER = 1 << OZ_WALL_CYLINDER,
+    HOOKE = 1 << OZ_LAW_HOOKE,
+    HERTZ = 1 << OZ_LAW_HERTZ,
+    MINDLIN = 1 << OZ_LAW_HERTZ_MINDLIN
 };
 
 #define REFUSE  OZ_RELOAD_REFUSE
@@ -82,6 +94,9 @@ enum {
 
 /* Arguments with commas in them. */
 #define CONTACT_TIME  NUMBER(1e-12, 100, "s")
+#define MODULUS       NUMBER(1, 1e18, "Pa")
+#define POISSON       NUMBER(0, 0.5, "")
+#define DAMPING_RATE  NUMBER(0, 1e15, "1/s")
 #define FRACTION      NUMBER(0, 1, "")
 #define COEFFICIENT   NUMBER(0, 1e6, "")
 #define RATIO         NUMBER(0, 100, "")
@@ -117,23 +132,39 @@ static const OzKey KEYS[] = {
 
     CONTACT(law, REBUILD, CHOICE(LAWS), DEFAULT("hooke"), "normal force from overlap"),
     {"contact.contact_time", CONTACT_TIME, AT(contact.contact_time), .reload = APPLY, REQUIRED,
-     .help = "duration of a free binary hit of two centres"},
+     .laws = HOOKE, .help = "duration of a free binary hit of two centres"},
     {"contact.restitution", FRACTION, AT(contact.restitution), .reload = APPLY, REQUIRED,
-     .help = "speed after over speed before a central hit"},
+     .laws = HOOKE | MINDLIN, .help = "speed after over speed before a central hit"},
+    {"contact.youngs_modulus", MODULUS, AT(contact.youngs_modulus), .reload = APPLY, REQUIRED,
+     .laws = MINDLIN, .help = "of the grains' material"},
+    {"contact.poisson_ratio", POISSON, AT(contact.poisson_ratio), .reload = APPLY, REQUIRED,
+     .laws = MINDLIN, .help = "of the grains' material"},
+    {"contact.hertz_stiffness", NUMBER(1e-12, 1e30, "N/m^1.5"), AT(contact.hertz_stiffness),
+     .reload = APPLY, REQUIRED, .laws = HERTZ, .help = "force over overlap^1.5"},
+    {"contact.normal_damping_rate", DAMPING_RATE, AT(contact.normal_damping_rate), .reload = APPLY,
+     REQUIRED, .laws = HERTZ, .help = "damping force over effective mass and rate of overlap"},
+    {"contact.tangential_damping_rate", DAMPING_RATE, AT(contact.tangential_damping_rate),
+     .reload = APPLY, REQUIRED, .laws = HERTZ,
+     .help = "the same for sliding, below Coulomb's limit"},
     CONTACT(friction, APPLY, COEFFICIENT, DEFAULT("0.3"), "Coulomb's coefficient"),
-    CONTACT(tangential_stiffness, APPLY, RATIO, DEFAULT("2/7"), "tangential over normal stiffness"),
+    CONTACT(tangential_stiffness, APPLY, RATIO, DEFAULT("2/7"),
+            "tangential over normal stiffness (hertz-mindlin has Mindlin's)"),
     CONTACT(tangential_damping, APPLY, RATIO, .inherits = "contact.tangential_stiffness",
             "tangential over normal damping"),
     CONTACT(slip, REBUILD, CHOICE(SLIPS), DEFAULT("cut"),
             "a sliding contact cuts its tangential spring back, or only scales its force"),
     CONTACT(attraction, REBUILD, CHOICE(ATTRACTIONS), DEFAULT("allow"),
             "whether damping may pull at the end of a contact"),
+    CONTACT(damping, REBUILD, CHOICE(DAMPINGS), DEFAULT("constant"),
+            "whether damping acts at once or grows from nothing at first touch (hooke)"),
     CONTACT(parallel, REBUILD, CHOICE(PARALLELS), DEFAULT("single"),
-            "how nearly parallel shafts touch"),
+            "nearly parallel shafts touch at one point, or at both ends of their common span"),
     CONTACT(contact_point, REBUILD, CHOICE(CONTACT_POINTS), DEFAULT("midpoint"),
             "where forces act: the overlap's middle, or each grain's own surface"),
     CONTACT(restitution_at, REBUILD, CHOICE(RESTITUTIONS_AT), DEFAULT("centre"),
-            "which hits give the restitution asked for"),
+            "hits of two centres, or hits wherever they are, give the restitution asked for"),
+    CONTACT(restitution_calibration, REBUILD, CHOICE(CALIBRATIONS), DEFAULT("none"),
+            "discrete: makes up for the step's errors and fits the step to the contact time (hooke)"),
 
     {"grains", OF(ITEMS), AT(populations), .count_offset = offsetof(OzScene, population_count),
      .item_size = sizeof(OzPopulation), .line_offset = offsetof(OzPopulation, line), REQUIRED,
@@ -188,14 +219,21 @@ static const OzKey KEYS[] = {
     WALL_CONTACT(law, REBUILD, CHOICE(LAWS), "normal force from overlap"),
     WALL_CONTACT(contact_time, APPLY, CONTACT_TIME, "duration of a free hit"),
     WALL_CONTACT(restitution, APPLY, FRACTION, "speed after over speed before"),
+    WALL_CONTACT(youngs_modulus, APPLY, MODULUS, "of the wall's material"),
+    WALL_CONTACT(poisson_ratio, APPLY, POISSON, "of the wall's material"),
+    WALL_CONTACT(hertz_stiffness, APPLY, NUMBER(1e-12, 1e30, "N/m^1.5"), "force over overlap^1.5"),
+    WALL_CONTACT(normal_damping_rate, APPLY, DAMPING_RATE, "damping over mass and rate"),
+    WALL_CONTACT(tangential_damping_rate, APPLY, DAMPING_RATE, "the same for sliding"),
     WALL_CONTACT(friction, APPLY, COEFFICIENT, "Coulomb's coefficient"),
     WALL_CONTACT(tangential_stiffness, APPLY, RATIO, "tangential over normal stiffness"),
     WALL_CONTACT(tangential_damping, APPLY, RATIO, "tangential over normal damping"),
     WALL_CONTACT(slip, REBUILD, CHOICE(SLIPS), "what sliding does to the spring"),
     WALL_CONTACT(attraction, REBUILD, CHOICE(ATTRACTIONS), "whether damping may pull"),
+    WALL_CONTACT(damping, REBUILD, CHOICE(DAMPINGS), "how damping begins"),
     WALL_CONTACT(parallel, REBUILD, CHOICE(PARALLELS), "how nearly parallel shafts touch"),
     WALL_CONTACT(contact_point, REBUILD, CHOICE(CONTACT_POINTS), "where forces act"),
     WALL_CONTACT(restitution_at, REBUILD, CHOICE(RESTITUTIONS_AT), "which hits it holds for"),
+    WALL_CONTACT(restitution_calibration, REBUILD, CHOICE(CALIBRATIONS), "for the step's errors"),
 
     {"settle", OF(SECTION), AT(settle.present), .fallback_help = "no settling",
      .help = "rest before time 0"},

@@ -50,8 +50,9 @@ typedef struct OzKey {
     size_t offset, count_offset;   /* in OzScene or in the list's item                        */
     size_t item_size, line_offset; /* OZ_KEY_ITEMS: of one item, and of its int line        */
     int width;
-    bool required;        /* this or its rival; where the kind and the section ask   */
+    bool required;        /* this or its rival; where kind, law and section ask      */
     unsigned kinds;       /* bit i: belongs to items whose kind is i; 0: to all      */
+    unsigned laws;        /* bit i: belongs to the contact law i; 0: to all          */
     const char *rival;    /* the neighbouring key that says the same otherwise       */
     const char *inherits; /* the key whose value it takes when not written           */
     OzKeyWrite write;

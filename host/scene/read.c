@@ -1,5 +1,5 @@
 /* Walks a tree along the list of keys. Knows the shape of scenes (groups, lists of groups with a
- * kind, inherited values, rivals) and no key by name but `kind`. */
+ * kind, inherited values, rivals) and no key by name but `kind` and `contact.law`. */
 #include "scene/read.h"
 
 #include "base/memory.h"
@@ -257,7 +257,9 @@ static void check_required(const Reader *reader, const Place *place)
 {
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         if (!key->required || !belongs(key, place->prefix) || written(place, key) ||
-            (key->kinds && !(key->kinds & place->kind)) || !is_asked_for(key, place)) {
+            (key->kinds && !(key->kinds & place->kind)) ||
+            (key->laws && !(key->laws >> reader->scene->contact.law & 1)) ||
+            !is_asked_for(key, place)) {
             continue;
         }
         const char *dot = strrchr(key->path, '.');

@@ -24,12 +24,14 @@ typedef enum OzBroadphase {
     OZ_BROADPHASE_ALL_PAIRS, /* every pair, on the device: to test with       */
     OZ_BROADPHASE_SORT_AXIS  /* P's sort by highest point, on the host        */
 } OzBroadphase;
-typedef enum OzLaw { OZ_LAW_HOOKE } OzLaw;
+typedef enum OzLaw { OZ_LAW_HOOKE, OZ_LAW_HERTZ, OZ_LAW_HERTZ_MINDLIN } OzLaw;
 typedef enum OzSlip { OZ_SLIP_CUT, OZ_SLIP_SCALE } OzSlip;
 typedef enum OzAttraction { OZ_ATTRACTION_ALLOW, OZ_ATTRACTION_CLAMP } OzAttraction;
-typedef enum OzParallel { OZ_PARALLEL_SINGLE } OzParallel;
+typedef enum OzDamping { OZ_DAMPING_CONSTANT, OZ_DAMPING_SMOOTH } OzDamping;
+typedef enum OzParallel { OZ_PARALLEL_SINGLE, OZ_PARALLEL_LINE } OzParallel;
 typedef enum OzContactPoint { OZ_POINT_MIDPOINT, OZ_POINT_SURFACES } OzContactPoint;
-typedef enum OzRestitutionAt { OZ_RESTITUTION_CENTRE } OzRestitutionAt;
+typedef enum OzRestitutionAt { OZ_RESTITUTION_CENTRE, OZ_RESTITUTION_CONTACT } OzRestitutionAt;
+typedef enum OzCalibration { OZ_CALIBRATION_NONE, OZ_CALIBRATION_DISCRETE } OzCalibration;
 
 /* What two touching bodies do to each other. */
 typedef struct OzContactValues {
@@ -41,9 +43,16 @@ typedef struct OzContactValues {
     double tangential_damping;    /* c_t / c_n; defaults to tangential_stiffness              */
     OzSlip slip;
     OzAttraction attraction;
+    OzDamping damping;            /* hooke: how the dashpot begins                            */
     OzParallel parallel;
     OzContactPoint contact_point;
     OzRestitutionAt restitution_at;
+    OzCalibration restitution_calibration; /* hooke: whether the step's errors are made up for */
+    double hertz_stiffness;         /* N/m^(3/2), hertz                                       */
+    double normal_damping_rate;     /* 1/s, hertz                                             */
+    double tangential_damping_rate; /* 1/s, hertz                                             */
+    double youngs_modulus;          /* Pa, hertz-mindlin: of the grains, or of the wall       */
+    double poisson_ratio;           /* hertz-mindlin                                          */
 } OzContactValues;
 
 /* Sinusoidal motion along z: offset A sin(2 pi f t), 0 at time 0 and upwards first. */
@@ -143,6 +152,7 @@ typedef struct OzScene {
     uint64_t seed;
     double gravity[3]; /* m/s^2 */
     double step;       /* s     */
+    double written_step; /* s, before restitution_calibration fitted it to the contact time */
     double duration;   /* s; taps x period is put here */
     double taps;       /* as written; 0: duration was */
     double period;     /* s, of the first moving wall; 0 without one: `tap` is then empty */

@@ -154,7 +154,8 @@ static int kind_of(const OzKey *key, const void *base)
 static bool is_written(const Writer *writer, const OzKey *key, const void *base)
 {
     bool in_item = strstr(key->path, "[]") != NULL;
-    if (key->type == OZ_KEY_EXTENDS || (key->kinds && !(key->kinds >> kind_of(key, base) & 1))) {
+    if (key->type == OZ_KEY_EXTENDS || (key->kinds && !(key->kinds >> kind_of(key, base) & 1)) ||
+        (key->laws && !(key->laws >> writer->scene->contact.law & 1))) {
         return false;
     }
     if (key->type == OZ_KEY_SECTION) {

@@ -1,0 +1,114 @@
+/* Inverting the discrete maps of hits. */
+#include "model/calibrate.h"
+
+#include "model/predict.h"
+
+#include <complex.h>
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* K = kappa dt^2 and G = gamma dt of each integrator's map for the eigenvalues rho exp(+-i theta). */
+static void invert_euler(double rho, double theta, double *stiffness, double *damping)
+{
+    *stiffness = 1 - 2 * rho * cos(theta) + rho * rho;
+    *damping = 2 * (1 - rho * cos(theta));
+}
+
+static void invert_symplectic_euler(double rho, double theta, double *stiffness, double *damping)
+{
+    *stiffness = 1 - 2 * rho * cos(theta) + rho * rho;
+    *damping = 1 - rho * rho;
+}
+
+/* z (z-1)^2 + K z^2 + G (z-1)(3z-1)/2 = 0 for z and its conjugate: two real equations in K and G. */
+static void invert_velocity_verlet(double rho, double theta, double *stiffness, double *damping)
+{
+    double complex z = rho * cexp(I * theta);
+    double complex a = z * z, b = (z - 1) * (3 * z - 1) / 2, c = -z * (z - 1) * (z - 1);
+    double determinant = creal(a) * cimag(b) - creal(b) * cimag(a);
+    *stiffness = (creal(c) * cimag(b) - creal(b) * cimag(c)) / determinant;
+    *damping = (creal(a) * cimag(c) - creal(c) * cimag(a)) / determinant;
+}
+
+/* In the order of OzIntegrator. */
+static void (*const inverses[])(double rho, double theta, double *stiffness, double *damping) = {
+    [OZ_INTEGRATOR_EULER] = invert_euler,
+    [OZ_INTEGRATOR_SYMPLECTIC_EULER] = invert_symplectic_euler,
+    [OZ_INTEGRATOR_VELOCITY_VERLET] = invert_velocity_verlet,
+};
+
+/* What is turned until the mean restitution is right, and what follows from it. */
+typedef struct Search {
+    const OzScene *scene;
+    const OzContactValues *values;
+    OzContactConstants constants;
+    double count; /* steps of a hit */
+} Search;
+
+/* The eigenvalues of a hit that returns e in a whole number of steps. */
+static void set_by_eigenvalues(Search *search, double e)
+{
+    double step = search->scene->step, stiffness, damping;
+    inverses[search->scene->integrator](pow(e, 1 / search->count), pi / search->count, &stiffness,
+                                        &damping);
+    search->constants.stiffness = stiffness / (step * step);
+    search->constants.damping = damping / step;
+}
+
+static void set_damping(Search *search, double damping)
+{
+    search->constants.damping = damping;
+}
+
+static double error_of(Search *search, void (*set)(Search *search, double turned), double turned)
+{
+    set(search, turned);
+    OzPredictedHits hits =
+        oz_predict_hits(search->scene->integrator, search->scene->step, &search->constants,
+                        search->values->attraction);
+    return hits.mean - search->constants.restitution;
+}
+
+/* Secants; false when they do not close in. The mean over phases has kinks where a hit gets one step longer,
+ * far smaller than the error that is mended. */
+static bool solve(Search *search, void (*set)(Search *search, double turned), double first,
+                  double second)
+{
+    double a = first, b = second;
+    double error_a = error_of(search, set, a), error_b = error_of(search, set, b);
+    for (int i = 0; i < 40 && fabs(error_b) > 1e-13 && error_a != error_b; i++) {
+        double next = b - error_b * (b - a) / (error_b - error_a);
+        a = b;
+        error_a = error_b;
+        b = next;
+        error_b = error_of(search, set, b);
+    }
+    return fabs(error_b) < 1e-9;
+}
+
+OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactValues *values)
+{
+    OzContactConstants plain = oz_contact_constants_of(values, &scene->contact);
+    Search search = {scene, values, plain, fmax(2, round(values->contact_time / scene->step))};
+    bool linear = !plain.smooth && values->attraction == OZ_ATTRACTION_ALLOW;
+    bool found = true;
+    if (values->law != OZ_LAW_HOOKE ||
+        scene->contact.restitution_calibration != OZ_CALIBRATION_DISCRETE) {
+        return plain;
+    }
+    if (linear) {
+        set_by_eigenvalues(&search, plain.restitution);
+        if (scene->integrator == OZ_INTEGRATOR_VELOCITY_VERLET) {
+            found = solve(&search, set_by_eigenvalues, plain.restitution,
+                          0.999 * plain.restitution);
+        }
+        search.constants.duration = search.count * scene->step;
+    } else {
+        found = solve(&search, set_damping, plain.damping, 1.01 * plain.damping + 1e-3 / values->contact_time);
+    }
+    search.constants.tangential_stiffness =
+        values->tangential_stiffness * search.constants.stiffness;
+    search.constants.tangential_damping = values->tangential_damping * search.constants.damping;
+    return found ? search.constants : plain;
+}

@@ -1,0 +1,65 @@
+/* Grains as contacts see them, and the contact of two at given points of their shafts. Switches: OZ_EQUAL 1:
+ * all grains are alike; OZ_SURFACES 1: each force acts on its own grain's surface (Pournin et al. 2005;
+ * breaks angular momentum), 0: both in the middle of the overlap; OZ_AT_CONTACT and OZ_LAW_ID: whether
+ * lightness and radius of a contact are needed. */
+#ifndef OZ_KERNELS_GRAIN_H
+#define OZ_KERNELS_GRAIN_H
+
+#include "kernels/closest.h"
+#include "kernels/contact_law.h"
+
+typedef struct OzGrain {
+    OzPlace place;
+    OzVec3 half_shaft;    /* m                                                       */
+    OzVec3 velocity;      /* m/s                                                     */
+    OzVec3 rate;          /* rad/s, world frame                                      */
+    real radius, mass;    /* m, kg                                                   */
+    real inverse_inertia; /* 1/(kg m^2), across the shaft; with OZ_AT_CONTACT only    */
+} OzGrain;
+
+/* Velocity of the material point at arm. */
+OZ_INLINE OzVec3 oz_grain_velocity_at(OzGrain grain, OzVec3 arm)
+{
+    return oz_add(grain.velocity, oz_cross(grain.rate, arm));
+}
+
+/* What a push along normal at the shaft's point from_centre meets of the grain's rotation, 1/kg. The arm's
+ * part along the normal does not matter, so the turning axis is across the shaft, whatever the shape. */
+OZ_INLINE real oz_grain_yield(OzGrain grain, OzVec3 from_centre, OzVec3 normal)
+{
+    OzVec3 turning = oz_cross(from_centre, normal);
+    return grain.inverse_inertia * oz_dot(turning, turning);
+}
+
+/* The contact of a and b at points of their shafts; apart = x_a - x_b. Arms reach from each centre to where
+ * the forces act. *crossed: the shafts meet there, no normal exists and z is taken. */
+OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at, OzVec3 *arm_a,
+                                     OzVec3 *arm_b, mask *crossed)
+{
+    OzContact contact;
+    OzVec3 from_a = oz_scale(a.half_shaft, at.s), from_b = oz_scale(b.half_shaft, at.t);
+    OzVec3 gap = oz_minus(from_b, oz_add(apart, from_a)); /* y2 - y1 */
+    real gap2 = oz_dot(gap, gap);
+    *crossed = gap2 <= OZ_TINY * OZ_TINY;
+    real inverse = REAL(1.0) / sqrt(oz_larger(gap2, REAL(OZ_TINY * OZ_TINY)));
+    OzVec3 up = oz_vec3(REAL(0.0), REAL(0.0), REAL(1.0));
+    contact.normal = oz_choose(*crossed, up, oz_scale(gap, inverse));
+    contact.overlap = a.radius + b.radius - gap2 * inverse;
+    contact.touching = contact.overlap > REAL(0.0);
+    real inside = OZ_SURFACES ? REAL(0.0) : REAL(0.5) * contact.overlap;
+    *arm_a = oz_along(from_a, a.radius - inside, contact.normal);
+    *arm_b = oz_along(from_b, inside - b.radius, contact.normal);
+    contact.velocity = oz_minus(oz_grain_velocity_at(b, *arm_b), oz_grain_velocity_at(a, *arm_a));
+    contact.rate = -oz_dot(contact.velocity, contact.normal);
+    contact.mass = OZ_EQUAL ? REAL(0.5) * a.mass : a.mass * b.mass / (a.mass + b.mass);
+    contact.radius = OZ_LAW_ID == 2 ? a.radius * b.radius / (a.radius + b.radius) : REAL(0.0);
+    contact.lightness = REAL(1.0);
+    if (OZ_AT_CONTACT) {
+        real yield =
+            oz_grain_yield(a, from_a, contact.normal) + oz_grain_yield(b, from_b, contact.normal);
+        contact.lightness = REAL(1.0) / sqrt(REAL(1.0) + contact.mass * yield);
+    }
+    return contact;
+}
+
+#endif
