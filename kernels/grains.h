@@ -355,4 +355,20 @@ OZ_INLINE void oz_grains_block(OzWork *w, int block, int step)
 #endif
 }
 
+#if defined(OZ_MOVES_BEFORE)
+OZ_INLINE void oz_grains_before_region(OzWork *w, int region, int step)
+{
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+        oz_grains_before(w, block, step);
+    }
+}
+#endif
+
+OZ_INLINE void oz_grains_region(OzWork *w, int region, int step)
+{
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+        oz_grains_block(w, block, step);
+    }
+}
+
 #endif

@@ -149,17 +149,43 @@ OZ_INLINE void oz_lists_scan(OzWork *w)
     }
 }
 
-/* Grains in the order of cells. The order within a cell does not matter: lists are sorted by id. */
+/* Slots in the order of cells; within a cell, in any order. */
 OZ_INLINE void oz_lists_fill(OzWork *w, int region)
 {
     for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
         int to = OZ_WORK_COUNT(&w->cell_first[w->cell_of[i] + 1]);
+        w->sorted_slot[to] = i;
+    }
+}
+
+/* Sorts the slots of a cell by id, so that the order of grains does not depend on who was faster. */
+OZ_INLINE void oz_lists_arrange_cell(OzWork *w, int first, int last)
+{
+    for (int i = first + 1; i < last; i++) {
+        int kept = w->sorted_slot[i], key = w->id[kept], to = i;
+        while (to > first && w->id[w->sorted_slot[to - 1]] > key) {
+            w->sorted_slot[to] = w->sorted_slot[to - 1];
+            to--;
+        }
+        w->sorted_slot[to] = kept;
+    }
+}
+
+/* The region's share of cells: slots sorted, and what the search needs of the grains laid out beside. */
+OZ_INLINE void oz_lists_arrange(OzWork *w, int region)
+{
+    int begin = (int)((long)w->z.cells * region / w->z.regions);
+    int end = (int)((long)w->z.cells * (region + 1) / w->z.regions);
+    for (int cell = begin; cell < end; cell++) {
+        oz_lists_arrange_cell(w, w->cell_first[cell], w->cell_first[cell + 1]);
+    }
+    for (int to = w->cell_first[begin]; to < w->cell_first[end]; to++) {
+        int i = w->sorted_slot[to];
         spot_kind spot[3];
         oz_lists_spot(w, i, spot);
         w->sorted_x[to] = spot[0];
         w->sorted_y[to] = spot[1];
         w->sorted_z[to] = spot[2];
-        w->sorted_slot[to] = i;
         w->sorted_id[to] = w->id[i];
         if (!OZ_EQUAL) {
             w->sorted_reach[to] = oz_lists_reach(w, i);
@@ -359,8 +385,7 @@ OZ_INLINE void oz_lists_note(global real *reference, OzBody body, OzVec3 shaft)
 /* Takes the present places as the outer list's reference. */
 OZ_INLINE void oz_lists_refer(OzWork *w, int region)
 {
-    int begin = oz_work_region_begin(w, region) / OZ_LANES;
-    int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+    int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
     for (int block = begin; block < end; block++) {
         OzBody body = oz_grains_load(w, block);
         OzShape shape = oz_grains_shape(w, block);
@@ -383,8 +408,7 @@ OZ_INLINE real oz_lists_skin(const OzWork *w, OzBody body, OzShape shape, OzVec3
  * stale where it does not cover a grain's motion since it was made and its skin. */
 OZ_INLINE void oz_lists_measure(OzWork *w, int region)
 {
-    int begin = oz_work_region_begin(w, region) / OZ_LANES;
-    int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+    int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
     real most = REAL((scalar)0.5 * w->parameters->skin_outer);
     for (int block = begin; block < end; block++) {
         OzBody body = oz_grains_load(w, block);

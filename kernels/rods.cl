@@ -1,20 +1,10 @@
-/* The kernels of the rods model: thin shells around the headers. oz_advance makes many steps of a small
- * scene in one launch, one work-group a member; the others are the same work phase by phase, for large
- * scenes, where every work-item looks after one region. */
+/* The rods model for small scenes: oz_advance makes many steps in one launch, one work-group a member. */
 #include "kernels/lists.h"
 #if OZ_LEDGER
 #include "kernels/ledger.h"
 #endif
 
-/* Sizes of the structs that host and device share; compared at start. */
-kernel void oz_layout(global int *sizes)
-{
-    sizes[0] = (int)sizeof(OzParameters);
-    sizes[1] = (int)sizeof(OzControl);
-    sizes[2] = (int)sizeof(OzSizes);
-    sizes[3] = (int)sizeof(scalar);
-    sizes[4] = OZ_LANES;
-}
+#include "kernels/share.h"
 
 #define EACH_REGION for (int region = item; region < w->z.regions; region += stride)
 
@@ -91,6 +81,11 @@ OZ_INLINE int rebuild(OzWork *w, int item, int stride)
     OZ_WORK_MEET();
     EACH_REGION
     {
+        oz_lists_arrange(w, region);
+    }
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
         oz_lists_search(w, region);
     }
     OZ_WORK_MEET();
@@ -157,11 +152,7 @@ OZ_INLINE void forces_and_motion(OzWork *w, int item, int stride, int step)
     OZ_WORK_MEET();
     EACH_REGION
     {
-        int begin = oz_work_region_begin(w, region) / OZ_LANES;
-        int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
-        for (int block = begin; block < end; block++) {
-            oz_grains_block(w, block, step);
-        }
+        oz_grains_region(w, region, step);
     }
     OZ_WORK_MEET();
 #if OZ_LEDGER
@@ -178,11 +169,7 @@ OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
 {
     EACH_REGION
     {
-        int begin = oz_work_region_begin(w, region) / OZ_LANES;
-        int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
-        for (int block = begin; block < end; block++) {
-            oz_grains_before(w, block, step);
-        }
+        oz_grains_before_region(w, region, step);
     }
     OZ_WORK_MEET();
 }

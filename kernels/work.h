@@ -1,6 +1,7 @@
 /* A kernel's view of memory: every array of one member, and how work is shared out. OpenCL C only.
- * OZ_GROUP 1: one work-item does a member's whole launch and needs no barriers; otherwise the work-group's
- * size. Work-items look after regions: runs of slots with their own pair lists. */
+ * OZ_GROUP 1: one work-item does a member's whole launch and needs neither barriers nor atomics; otherwise the
+ * work-group's size. OZ_RESORT 1: a large scene, phase by phase over many work-groups. Work-items look after
+ * regions: runs of slots with their own pair lists. */
 #ifndef OZ_KERNELS_WORK_H
 #define OZ_KERNELS_WORK_H
 
@@ -46,7 +47,7 @@ typedef struct OzWork {
         w.z = z;                                                                                   \
     }
 
-#if OZ_GROUP == 1
+#if OZ_GROUP == 1 && !OZ_RESORT
 #define OZ_WORK_MEET()
 #define OZ_WORK_COUNT(counter) ((*(counter))++)
 #define OZ_WORK_ITEM   0
@@ -78,6 +79,17 @@ OZ_INLINE void oz_work_stop_lanes(OzWork *w, mask hits, int bits, int step, cons
     }
 }
 
+/* The region's blocks of grains, padding included: first and one past the last. */
+OZ_INLINE int oz_work_block_begin(const OzWork *w, int region)
+{
+    return min(region * w->z.region_slots, w->z.slots) / OZ_LANES;
+}
+
+OZ_INLINE int oz_work_block_end(const OzWork *w, int region)
+{
+    return min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
+}
+
 OZ_INLINE int oz_work_region_begin(const OzWork *w, int region)
 {
     return min(region * w->z.region_slots, w->z.slots);
@@ -106,6 +118,7 @@ OZ_INLINE OzGrain oz_work_grains(const OzWork *w, const int *slots)
     grain.rate = oz_vec3(d[0], d[1], d[2]);
     grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];
     grain.mass = OZ_EQUAL ? REAL(w->parameters->mass) : b[3];
+    grain.inverse_inertia = d[3];
     return grain;
 }
 
@@ -118,7 +131,6 @@ OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
     OzGrain grain;
     grain.place.x = oz_place_of_bits(a[0]);
     grain.place.y = oz_place_of_bits(a[1]);
-    grain.inverse_inertia = d[3];
     grain.place.z = oz_place_of_bits(a[2]);
     grain.half_shaft = oz_vec3(b[0], b[1], b[2]);
     grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];

@@ -139,9 +139,14 @@ static OzStatus build(OzSim *sim, const OzSwitches *switches, const char *source
                               sim->device->name);
     }
     oz_switches_options(switches, options, sizeof options);
-    OZ_TRY(oz_program_build(&sim->program, sim->device, source_dir, "kernels/rods.cl", options));
-    sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
-    CL_TRY(code);
+    const char *name = switches->resort ? "kernels/rods_large.cl" : "kernels/rods.cl";
+    OZ_TRY(oz_program_build(&sim->program, sim->device, source_dir, name, options));
+    if (switches->resort) {
+        OZ_TRY(oz_large_create(&sim->large, sim->program, sim->device, switches));
+    } else {
+        sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
+        CL_TRY(code);
+    }
     OZ_TRY(check_layout(sim, switches));
 done:
     return status;
@@ -182,6 +187,7 @@ void oz_sim_free(OzSim *sim)
         return;
     }
     oz_arrays_free(&sim->arrays);
+    oz_large_free(sim->large);
     if (sim->advance) {
         clReleaseKernel(sim->advance);
     }
@@ -296,8 +302,12 @@ static OzStatus finish_launch(OzSim *sim, int steps)
     OzStatus status = OZ_OK;
     for (bool more = true; more;) {
         OZ_TRY(write_control(sim));
-        OZ_TRY(enqueue(sim, steps));
-        OZ_TRY(read_control(sim));
+        if (sim->large) {
+            OZ_TRY(oz_large_steps(sim->large, &sim->arrays, &sim->control[0], steps));
+        } else {
+            OZ_TRY(enqueue(sim, steps));
+            OZ_TRY(read_control(sim));
+        }
         sim->counts.launches++;
         bool full = false;
         more = false;

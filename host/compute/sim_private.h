@@ -3,6 +3,7 @@
 #define OZ_COMPUTE_SIM_PRIVATE_H
 
 #include "compute/arrays.h"
+#include "compute/large.h"
 #include "compute/sim.h"
 
 struct OzSim {
@@ -14,7 +15,8 @@ struct OzSim {
     double *spring_start;     /* one a member: J in tangential springs at time 0  */
     int wall_order[OZ_WALLS_MAX]; /* scene's wall of each kernel wall             */
     cl_program program;
-    cl_kernel advance;
+    cl_kernel advance;        /* small scenes */
+    OzLarge *large;           /* large scenes */
     OzArrays arrays;
     int64_t step;         /* made since time 0 (or since settling began) */
     int64_t launch_first; /* step that the launch began with             */

@@ -10,7 +10,8 @@ enum {
     OUTER_PAIRS = 10, /* a grain, at first; lists grow when that is too few */
     INNER_PAIRS = 4,
     BACK_PAIRS = 16,
-    MOTION_STEPS = 8192 /* of one launch */
+    MOTION_STEPS = 8192, /* of one launch */
+    LARGE_REGION = 256   /* slots: enough of them for any number of threads, each long enough to pay */
 };
 
 static int round_up(double count, int to)
@@ -90,7 +91,8 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
     z->count = (int)grains->count;
     z->slots = round_up((double)z->count, s->lanes);
     z->blocks = z->slots / s->lanes;
-    z->region_slots = round_up(fmax(1, ceil((double)z->slots / s->group)), s->lanes);
+    double share_slots = s->resort ? LARGE_REGION : ceil((double)z->slots / s->group);
+    z->region_slots = round_up(fmax(1, share_slots), s->lanes);
     z->regions = (int)fmax(1, ceil((double)z->slots / z->region_slots));
     double share = fmax(1, (double)z->slots / z->regions);
     z->outer_capacity = round_up(OUTER_PAIRS * share + 16, s->lanes);

@@ -1,0 +1,80 @@
+/* Putting grains into the order of the grid's cells, so that neighbours in space are neighbours in memory: large
+ * scenes spend most of their time waiting for memory otherwise. Out to the spare array in the new order, then
+ * back. OpenCL C only. */
+#ifndef OZ_KERNELS_RESORT_H
+#define OZ_KERNELS_RESORT_H
+
+#include "kernels/lists.h"
+
+/* Word `word` of a slot in an array of blocks of `words` words. */
+OZ_INLINE size_t oz_resort_index(int slot, int words, int word)
+{
+    return (size_t)((slot / OZ_LANES) * words + word) * OZ_LANES + slot % OZ_LANES;
+}
+
+OZ_INLINE void oz_resort_out_words(global scalar *to, global const scalar *from, int slot, int words)
+{
+    for (int k = 0; k < words; k++) {
+        to[k] = from[oz_resort_index(slot, words, k)];
+    }
+}
+
+OZ_INLINE void oz_resort_in_words(global scalar *to, global const scalar *from, int slot, int words)
+{
+    for (int k = 0; k < words; k++) {
+        to[oz_resort_index(slot, words, k)] = from[k];
+    }
+}
+
+/* Grains for the region's new slots. */
+OZ_INLINE void oz_resort_out(OzWork *w, int region)
+{
+    for (int slot = oz_work_region_begin(w, region); slot < oz_work_region_end(w, region); slot++) {
+        global scalar *to = w->spare + (size_t)slot * OZ_SPARE;
+        int from = w->sorted_slot[slot];
+        ((global int *)to)[0] = w->id[from];
+        oz_resort_out_words(to + 1, (global const scalar *)w->state, from, OZ_STATE);
+        if (!OZ_EQUAL) {
+            oz_resort_out_words(to + 1 + OZ_STATE, (global const scalar *)w->shape, from, OZ_SHAPE);
+        }
+        if (OZ_HISTORY && OZ_WALL_ENDS > 0) {
+            oz_resort_out_words(to + 1 + OZ_STATE + OZ_SHAPE, (global const scalar *)w->wall_history,
+                                from, 3 * OZ_WALL_ENDS);
+        }
+    }
+}
+
+/* The region's records, from its grains. */
+OZ_INLINE void oz_resort_records(OzWork *w, int region)
+{
+    real dt = REAL(w->parameters->dt);
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+        OzBody body = oz_grains_load(w, block);
+        OzShape shape = oz_grains_shape(w, block);
+        oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
+                         oz_integrate_seen_spin(body, shape, dt));
+    }
+}
+
+/* The grains that oz_resort_out has put aside, into the region's slots. */
+OZ_INLINE void oz_resort_in(OzWork *w, int region)
+{
+    for (int slot = oz_work_region_begin(w, region); slot < oz_work_region_end(w, region); slot++) {
+        global const scalar *from = w->spare + (size_t)slot * OZ_SPARE;
+        int id = ((global const int *)from)[0];
+        w->id[slot] = id;
+        w->slot_of[id] = slot;
+        w->sorted_slot[slot] = slot;
+        oz_resort_in_words((global scalar *)w->state, from + 1, slot, OZ_STATE);
+        if (!OZ_EQUAL) {
+            oz_resort_in_words((global scalar *)w->shape, from + 1 + OZ_STATE, slot, OZ_SHAPE);
+        }
+        if (OZ_HISTORY && OZ_WALL_ENDS > 0) {
+            oz_resort_in_words((global scalar *)w->wall_history, from + 1 + OZ_STATE + OZ_SHAPE, slot,
+                               3 * OZ_WALL_ENDS);
+        }
+    }
+    oz_resort_records(w, region);
+}
+
+#endif
