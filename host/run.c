@@ -165,6 +165,10 @@ static OzStatus open_run(Run *run)
     OZ_TRY(status);
     oz_log_line("orzo %s: %s, %lld grains", ORZO_VERSION, run->scene.path,
                 (long long)run->grains.count);
+    if (run->scene.step != run->scene.written_step) {
+        oz_log_line("time.step %g s is used as %.17g s: the contact time in whole steps",
+                    run->scene.written_step, run->scene.step);
+    }
     OZ_TRY(oz_device_open(&run->device, options->device, options->threads));
     oz_log_line("device: %s", run->device.name);
     OzMember member = {&run->scene, &run->grains};

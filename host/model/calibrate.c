@@ -5,6 +5,7 @@
 
 #include <complex.h>
 #include <math.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -87,7 +88,7 @@ static bool solve(Search *search, void (*set)(Search *search, double turned), do
     return fabs(error_b) < 1e-9;
 }
 
-OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactValues *values)
+static OzContactConstants find_constants(const OzScene *scene, const OzContactValues *values)
 {
     OzContactConstants plain = oz_contact_constants_of(values, &scene->contact);
     Search search = {scene, values, plain, fmax(2, round(values->contact_time / scene->step))};
@@ -105,10 +106,40 @@ OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactVal
         }
         search.constants.duration = search.count * scene->step;
     } else {
-        found = solve(&search, set_damping, plain.damping, 1.01 * plain.damping + 1e-3 / values->contact_time);
+        found = solve(&search, set_damping, plain.damping,
+                      1.01 * plain.damping + 1e-3 / values->contact_time);
     }
     search.constants.tangential_stiffness =
         values->tangential_stiffness * search.constants.stiffness;
     search.constants.tangential_damping = values->tangential_damping * search.constants.damping;
     return found ? search.constants : plain;
+}
+
+/* The constants found last: every look at the contacts asks again, and a search takes milliseconds. */
+typedef struct Found {
+    OzIntegrator integrator;
+    double step;
+    OzContactValues values, grains;
+    OzContactConstants constants;
+} Found;
+
+OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactValues *values)
+{
+    enum { KEPT = 4 };
+    static _Thread_local Found kept[KEPT];
+    static _Thread_local int next;
+    for (int i = 0; i < KEPT; i++) {
+        const Found *f = &kept[i];
+        if (f->integrator == scene->integrator && f->step == scene->step &&
+            memcmp(&f->values, values, sizeof *values) == 0 &&
+            memcmp(&f->grains, &scene->contact, sizeof *values) == 0) {
+            return f->constants;
+        }
+    }
+    Found *f = &kept[next++ % KEPT];
+    *f = (Found){.integrator = scene->integrator, .step = scene->step};
+    memcpy(&f->values, values, sizeof *values);
+    memcpy(&f->grains, &scene->contact, sizeof *values);
+    f->constants = find_constants(scene, values);
+    return f->constants;
 }

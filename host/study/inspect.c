@@ -97,6 +97,10 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     fprintf(file, "integrator         %s, step %g s, %.0f steps\n",
             oz_keys_choice_name("integrator", (int)scene.integrator), scene.step,
             round(scene.duration / scene.step));
+    if (scene.step != scene.written_step) {
+        fprintf(file, "  step             %.17g s, fitted to the contact time: %g was written\n",
+                scene.step, scene.written_step);
+    }
     print_grains(file, &grains);
     print_motion(file, &scene);
     OZ_TRY(print_contacts(file, &scene, &grains));
