@@ -193,8 +193,9 @@ static OzStatus fight(void *context)
     int threads = duel->options->threads ? duel->options->threads : 1;
     OZ_TRY(oz_device_open(&device, duel->options->device, threads));
     for (int turn = 0; turn < duel->turns; turn++) {
-        OZ_TRY(run_side(duel, &device, 0, turn));
-        OZ_TRY(run_side(duel, &device, 1, turn));
+        int first = turn % 2; /* A B B A: a drift of the machine favours neither */
+        OZ_TRY(run_side(duel, &device, first, turn));
+        OZ_TRY(run_side(duel, &device, 1 - first, turn));
     }
 done:
     oz_device_close(&device);

@@ -33,7 +33,7 @@ enum {
     X(WALLS, "walls", "kernel, the same with walls, difference")                                   \
     X(REFRESH, "inner list", "kernel, repeated on a standing bed")                                 \
     X(REBUILD, "outer list", "kernel, the same with the outer list, difference")                   \
-    X(REST, "launches and the rest", "a whole step less the above")                                \
+    X(REST, "launches and the rest", "a whole step less the above: caches are colder there")       \
     X(STEP, "whole step", "a tap in launches, median")                                             \
     X(SAMPLE, "samples", "host, beside the step")                                                  \
     X(ROW, "rows of series.csv", "host, beside the step")                                          \
