@@ -1,5 +1,5 @@
-/* `restitution_calibration: discrete`, `damping: smooth` and `restitution_at: contact`: the restitution that
- * simulated hits really give, against what was asked. */
+/* `restitution_calibration: discrete`, `damping: smooth` and `restitution_at: contact`: the
+ * restitution that simulated hits really give, against what was asked. */
 #include "rig.h"
 
 #include "model/calibrate.h"
@@ -31,14 +31,18 @@ static void test_eulers_are_exact_at_every_phase(void **state)
     (void)state;
     double asked[] = {0.01, 0.1, 0.4, 0.8, 1};
     for (int k = 0; k < 30; k++) {
-        OzScene scene = make_scene(k % 2, asked[k / 2 % 5], k / 10 == 0 ? 8 : k / 10 == 1 ? 30 : 100);
+        OzScene scene = make_scene(k % 2, asked[k / 2 % 5],
+                                   k / 10 == 0   ? 8
+                                   : k / 10 == 1 ? 30
+                                                 : 100);
         OzPredictedHits hits = hits_of(&scene);
         assert_true(fabs(hits.low - scene.contact.restitution) < 1e-12);
         assert_true(fabs(hits.high - scene.contact.restitution) < 1e-12);
     }
 }
 
-/* Where no closed form exists the mean over phases is right, whatever the damping and the attraction. */
+/* Where no closed form exists the mean over phases is right, whatever the damping and the
+ * attraction. */
 static void test_means_are_exact(void **state)
 {
     (void)state;
@@ -57,12 +61,13 @@ static void test_means_are_exact(void **state)
 
 static void open_pair(Rig *rig, int integrator, double restitution, double step, const char *more)
 {
-    rig_open(rig,
-             "model: rods\ntime: {step: %.17g, duration: 1}\nintegrator: %s\ngravity: [0, 0, 0]\n"
-             "contact: {contact_time: %g, restitution: %g, %s}\ngrains:\n"
-             "  - {kind: single, diameter: 1e-3, position: [0, 0, 1.1e-3], aspect: 0}\n"
-             "  - {kind: single, diameter: 0.8e-3, aspect: 4, axis: [0, 1, 0], position: [0, 0, 0]}\n",
-             step, integrator_names[integrator], contact_time, restitution, more);
+    rig_open(
+        rig,
+        "model: rods\ntime: {step: %.17g, duration: 1}\nintegrator: %s\ngravity: [0, 0, 0]\n"
+        "contact: {contact_time: %g, restitution: %g, %s}\ngrains:\n"
+        "  - {kind: single, diameter: 1e-3, position: [0, 0, 1.1e-3], aspect: 0}\n"
+        "  - {kind: single, diameter: 0.8e-3, aspect: 4, axis: [0, 1, 0], position: [0, 0, 0]}\n",
+        step, integrator_names[integrator], contact_time, restitution, more);
 }
 
 /* Relative speed along z after a head-on hit over that before; share: of the step before touch. */
@@ -98,11 +103,12 @@ static void test_walls_are_calibrated_too(void **state)
 {
     (void)state;
     Rig rig;
-    rig_open(&rig, "model: rods\ntime: {step: 2e-5, duration: 1}\ngravity: [0, 0, 0]\n"
-                   "contact: {contact_time: 6e-4, restitution: 0.4, restitution_calibration: discrete}\n"
-                   "grains: [{kind: single, diameter: 1e-3, position: [0, 0, 0.5003e-3],"
-                   " velocity: [0, 0, -0.1]}]\n"
-                   "walls: [{kind: plane, contact: {contact_time: 4.13e-4, restitution: 0.7}}]\n");
+    rig_open(&rig,
+             "model: rods\ntime: {step: 2e-5, duration: 1}\ngravity: [0, 0, 0]\n"
+             "contact: {contact_time: 6e-4, restitution: 0.4, restitution_calibration: discrete}\n"
+             "grains: [{kind: single, diameter: 1e-3, position: [0, 0, 0.5003e-3],"
+             " velocity: [0, 0, -0.1]}]\n"
+             "walls: [{kind: plane, contact: {contact_time: 4.13e-4, restitution: 0.7}}]\n");
     rig_start(&rig);
     rig_advance(&rig, 60);
     assert_true(fabs(rig.now.velocity[2] / 0.1 - 0.7) < 1e-9);
@@ -161,13 +167,15 @@ static double worst_error(const char *damping, double steps)
     return worst;
 }
 
-/* The order that velocity-verlet keeps through a contact: ten times the steps, a hundredth of the error;
- * first order, a tenth, where the dashpot makes the force jump. 60 and 20 leave room for chance. */
+/* The order that velocity-verlet keeps through a contact: ten times the steps, a hundredth of the
+ * error; first order, a tenth, where the dashpot makes the force jump. 60 and 20 leave room for
+ * chance. */
 static void test_order_through_a_contact(void **state)
 {
     (void)state;
     double smooth = worst_error("damping: smooth", 30.4) / worst_error("damping: smooth", 303.7);
-    double constant = worst_error("damping: constant", 30.4) / worst_error("damping: constant", 303.7);
+    double constant =
+        worst_error("damping: constant", 30.4) / worst_error("damping: constant", 303.7);
     if (!(smooth > 60 && constant < 20)) {
         fail_msg("ratio of errors %g with smooth damping, %g with constant", smooth, constant);
     }
@@ -183,8 +191,8 @@ static void test_smooth_restitution_is_the_same_at_every_speed(void **state)
     rig_close(&rig);
 }
 
-/* A rod at 30 degrees to the vertical falls with its lower end on a smooth plane: speed of that end after
- * over before. */
+/* A rod at 30 degrees to the vertical falls with its lower end on a smooth plane: speed of that end
+ * after over before. */
 static double end_restitution(const char *more, double restitution, double time)
 {
     Rig rig;
@@ -206,7 +214,8 @@ static double end_restitution(const char *more, double restitution, double time)
 static void test_off_centre_hits_return_what_was_asked(void **state)
 {
     (void)state;
-    const char *options[] = {"restitution_at: contact", "restitution_at: contact, attraction: clamp",
+    const char *options[] = {"restitution_at: contact",
+                             "restitution_at: contact, attraction: clamp",
                              "restitution_at: contact, damping: smooth"};
     for (int k = 0; k < 9; k++) {
         double asked = k / 3 == 0 ? 0.2 : k / 3 == 1 ? 0.4 : 0.8;

@@ -1,6 +1,6 @@
-/* `parallel: line`: force and torque against the gradient of the stored energy, continuous in the angle where
- * the single contact jumps, the spheres' for short shafts, the single contact's for skew ones; energy over
- * a slow turn and in collisions. */
+/* `parallel: line`: force and torque against the gradient of the stored energy, continuous in the
+ * angle where the single contact jumps, the spheres' for short shafts, the single contact's for
+ * skew ones; energy over a slow turn and in collisions. */
 #include "rig.h"
 
 #include "compute/dialect.h"
@@ -8,7 +8,8 @@
 static const double radius = 0.5e-3, half = 2e-3;
 static const OzLawConstants elastic = {.stiffness = 1e8};
 
-/* A pair by its place and rotation vectors, from two upright rods side by side, 1 % of d in overlap. */
+/* A pair by its place and rotation vectors, from two upright rods side by side, 1 % of d in
+ * overlap. */
 typedef struct Pose {
     double shift[3], turn_a[3], turn_b[3];
     double half_a, half_b; /* m */
@@ -30,7 +31,12 @@ static OzPairForce touch(const Pose *pose, OzLawConstants law)
     OzVec3 b = turned(oz_vec3(0, 0, pose->half_b), pose->turn_b);
     OzGrain one = {{0, 0, 0}, a, none, none, radius, 2e-6, 1e6};
     OzGrain other = {{1.98 * radius + pose->shift[0], pose->shift[1], pose->shift[2]},
-                     b, none, none, radius, 2e-6, 1e6};
+                     b,
+                     none,
+                     none,
+                     radius,
+                     2e-6,
+                     1e6};
     return oz_rods_pair(one, other, 1, law, &history, 1e-6, 0.5);
 }
 
@@ -44,8 +50,8 @@ static double energy(Pose pose)
     return touch(&pose, elastic).parts.energy;
 }
 
-/* Component i of -dU/d(shift, turn_a, turn_b) by central differences. The kinks of U's second derivative
- * lie among the poses: the step is small against the softness of the ends, 4e-6 m. */
+/* Component i of -dU/d(shift, turn_a, turn_b) by central differences. The kinks of U's second
+ * derivative lie among the poses: the step is small against the softness of the ends, 4e-6 m. */
 static double slope(Pose pose, int i, double step)
 {
     double *x = i < 3 ? &pose.shift[i] : i < 6 ? &pose.turn_a[i - 3] : &pose.turn_b[i - 6];
@@ -56,8 +62,8 @@ static double slope(Pose pose, int i, double step)
     return (above - energy(pose)) / (2 * -step);
 }
 
-/* Rotation vectors add to rotations only at none: the pose is turned as a whole so that the axis in question
- * starts from the upright. */
+/* Rotation vectors add to rotations only at none: the pose is turned as a whole so that the axis in
+ * question starts from the upright. */
 static void check_gradient(const Pose *pose)
 {
     OzPairForce now = touch(pose, elastic);
@@ -79,8 +85,8 @@ static void check_gradient(const Pose *pose)
 /* Evenly spread numbers of -1..1. */
 static double spread(int n, int k)
 {
-    static const double step[] = {0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067,
-                                  0.4301597090, 0.2245512977};
+    static const double step[] = {0.7548776662, 0.5698402910, 0.8191725134,
+                                  0.6710436067, 0.4301597090, 0.2245512977};
     double x = n * step[k % 6];
     return 2 * (x - floor(x)) - 1;
 }
@@ -94,7 +100,10 @@ static void test_force_is_the_gradient(void **state)
     for (int n = 1; n < 2000; n++) {
         double tilt = n % 5 ? 0.02 : 0.2;
         Pose pose = {{5e-6 * spread(n, 0), 1e-4 * spread(n, 1), n % 3 ? 4e-3 * spread(n, 2) : 0},
-                     {0}, {0}, half, n % 4 ? half : half * 0.5};
+                     {0},
+                     {0},
+                     half,
+                     n % 4 ? half : half * 0.5};
         double *turn = n % 2 ? pose.turn_a : pose.turn_b;
         turn[0] = tilt * spread(n, 3);
         turn[1] = 0.3 * tilt * spread(n, 4);
@@ -106,8 +115,8 @@ static void test_force_is_the_gradient(void **state)
     assert_true(touched > 500);
 }
 
-/* The greatest change of torque on b from one angle to the next, over k xi S: a crosses or opens (axis x or
- * y) through zero, with the other angle fixed. */
+/* The greatest change of torque on b from one angle to the next, over k xi S: a crosses or opens
+ * (axis x or y) through zero, with the other angle fixed. */
 static double jump(int axis, double other, double stagger, double step)
 {
     Pose pose = {{0, 0, stagger}, {0}, {0}, half, half};
@@ -135,7 +144,8 @@ static void test_no_jump_through_zero(void **state)
         double other = k % 3 * 5e-3, stagger = k / 3 % 3 * 0.9e-3;
         use_line(1);
         double coarse = jump(k / 9, other, stagger, 1e-6), fine = jump(k / 9, other, stagger, 1e-7);
-        /* A steepest slope of S / (overlap) = 400 a radian, tenfold for the softened choice of ends. */
+        /* A steepest slope of S / (overlap) = 400 a radian, tenfold for the softened choice of
+         * ends. */
         if (!(coarse < 4e-3 && fine < 0.2 * coarse + 1e-9)) {
             fail_msg("axis %d, other %g, stagger %g: %g, %g", k / 9, other, stagger, coarse, fine);
         }
@@ -153,8 +163,11 @@ static void test_short_shafts_are_spheres(void **state)
     use_line(1);
     for (double length = 1e-6; length > 1e-11; length *= 0.1) {
         for (int n = 1; n < 50; n++) {
-            Pose pose = {{1e-6, 2e-5, -1e-5}, {3 * spread(n, 0), 3 * spread(n, 1), 0},
-                         {3 * spread(n, 2), 3 * spread(n, 3), 0}, length, n % 2 ? length : 0};
+            Pose pose = {{1e-6, 2e-5, -1e-5},
+                         {3 * spread(n, 0), 3 * spread(n, 1), 0},
+                         {3 * spread(n, 2), 3 * spread(n, 3), 0},
+                         length,
+                         n % 2 ? length : 0};
             OzVec3 off = oz_minus(touch(&pose, elastic).force, round.force);
             /* both ends move by the length, the overlap is 1e-5 m; twice for the couple */
             double bound = 4 * length / 1e-5 * sqrt(oz_dot(round.force, round.force));
@@ -169,20 +182,22 @@ static void test_skew_shafts_touch_once(void **state)
 {
     (void)state;
     for (int n = 1; n < 100; n++) {
-        Pose pose = {{0, 0, 1e-3 * spread(n, 0)}, {0}, {0.11 + 1.4 * fabs(spread(n, 1)), 0, 0},
-                     half, half};
+        Pose pose = {
+            {0, 0, 1e-3 * spread(n, 0)}, {0}, {0.11 + 1.4 * fabs(spread(n, 1)), 0, 0}, half, half};
         use_line(0);
         OzPairForce single = touch(&pose, elastic);
         use_line(1);
         OzPairForce line = touch(&pose, elastic);
         assert_true(fabs(single.force.x - line.force.x) < 1e-12 * fabs(single.force.x));
-        assert_true(fabs(single.torque_b.y - line.torque_b.y) < 1e-12 * fabs(single.force.x) * half);
+        assert_true(fabs(single.torque_b.y - line.torque_b.y) <
+                    1e-12 * fabs(single.force.x) * half);
     }
 }
 
-/* Work around a loop in the two angles that encloses the parallel, over the stored energy: none. The
- * trapezoidal rule on 4000 pieces of a periodic function of bounded slope leaves far less than 1e-4; the
- * single contact's force is a gradient as well but for its jumps, so only the first assertion can tell. */
+/* Work around a loop in the two angles that encloses the parallel, over the stored energy: none.
+ * The trapezoidal rule on 4000 pieces of a periodic function of bounded slope leaves far less than
+ * 1e-4; the single contact's force is a gradient as well but for its jumps, so only the first
+ * assertion can tell. */
 static void test_a_slow_loop_gives_no_energy(void **state)
 {
     (void)state;
@@ -197,7 +212,8 @@ static void test_a_slow_loop_gives_no_energy(void **state)
         next.turn_b[1] = 2e-3 * sin(phase + 3.14159265358979 / PIECES);
         before.turn_b[0] = 2e-3 * cos(phase - 3.14159265358979 / PIECES);
         before.turn_b[1] = 2e-3 * sin(phase - 3.14159265358979 / PIECES);
-        OzVec3 u = turned(oz_vec3(0, 0, 1), before.turn_b), v = turned(oz_vec3(0, 0, 1), next.turn_b);
+        OzVec3 u = turned(oz_vec3(0, 0, 1), before.turn_b),
+               v = turned(oz_vec3(0, 0, 1), next.turn_b);
         work += oz_dot(touch(&pose, elastic).torque_b, oz_cross(u, v));
     }
     Pose start = {{0, 0, 0.3e-3}, {0}, {2e-3, 0, 0}, half, half};
@@ -208,15 +224,16 @@ static void test_a_slow_loop_gives_no_energy(void **state)
 static void check_collision(double restitution, double bound)
 {
     Rig rig;
-    rig_open(&rig,
-             "model: rods\ntime: {step: 1e-7, duration: 1}\nintegrator: velocity-verlet\n"
-             "gravity: [0, 0, 0]\nobserve: {ledger: true}\n"
-             "contact: {contact_time: 1e-4, restitution: %g, friction: 0.3, parallel: line}\ngrains:\n"
-             "  - {kind: single, diameter: 1e-3, aspect: 4, position: [0, 0, 0], velocity: [0.1, 0, 0],"
-             " spin: [1, 3, 0]}\n"
-             "  - {kind: single, diameter: 1e-3, aspect: 4, position: [1.03e-3, 0, 3e-4],"
-             " axis: [0.01, 0.02, 1]}\n",
-             restitution);
+    rig_open(
+        &rig,
+        "model: rods\ntime: {step: 1e-7, duration: 1}\nintegrator: velocity-verlet\n"
+        "gravity: [0, 0, 0]\nobserve: {ledger: true}\n"
+        "contact: {contact_time: 1e-4, restitution: %g, friction: 0.3, parallel: line}\ngrains:\n"
+        "  - {kind: single, diameter: 1e-3, aspect: 4, position: [0, 0, 0], velocity: [0.1, 0, 0],"
+        " spin: [1, 3, 0]}\n"
+        "  - {kind: single, diameter: 1e-3, aspect: 4, position: [1.03e-3, 0, 3e-4],"
+        " axis: [0.01, 0.02, 1]}\n",
+        restitution);
     rig_start(&rig);
     double before = mechanical_energy(&rig.now), worst = 0, least = before;
     for (int step = 100; step <= 9000; step += 100) {
@@ -237,8 +254,8 @@ static void check_collision(double restitution, double bound)
 static void test_energy_balances(void **state)
 {
     (void)state;
-    /* 1000 steps a contact: second order, (pi/1000)^2 of the energy a contact exchanges; the ledger's
-     * trapezoidal rule meets the dashpot's jump at first touch, 1e-3. */
+    /* 1000 steps a contact: second order, (pi/1000)^2 of the energy a contact exchanges; the
+     * ledger's trapezoidal rule meets the dashpot's jump at first touch, 1e-3. */
     check_collision(1, 1e-4);
     check_collision(0.5, 1e-3);
 }

@@ -9,7 +9,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* K = kappa dt^2 and G = gamma dt of each integrator's map for the eigenvalues rho exp(+-i theta). */
+/* K = kappa dt^2 and G = gamma dt of each integrator's map for the eigenvalues rho exp(+-i theta).
+ */
 static void invert_euler(double rho, double theta, double *stiffness, double *damping)
 {
     *stiffness = 1 - 2 * rho * cos(theta) + rho * rho;
@@ -22,7 +23,8 @@ static void invert_symplectic_euler(double rho, double theta, double *stiffness,
     *damping = 1 - rho * rho;
 }
 
-/* z (z-1)^2 + K z^2 + G (z-1)(3z-1)/2 = 0 for z and its conjugate: two real equations in K and G. */
+/* z (z-1)^2 + K z^2 + G (z-1)(3z-1)/2 = 0 for z and its conjugate: two real equations in K and G.
+ */
 static void invert_velocity_verlet(double rho, double theta, double *stiffness, double *damping)
 {
     double complex z = rho * cexp(I * theta);
@@ -65,14 +67,13 @@ static void set_damping(Search *search, double damping)
 static double error_of(Search *search, void (*set)(Search *search, double turned), double turned)
 {
     set(search, turned);
-    OzPredictedHits hits =
-        oz_predict_hits(search->scene->integrator, search->scene->step, &search->constants,
-                        search->values->attraction);
+    OzPredictedHits hits = oz_predict_hits(search->scene->integrator, search->scene->step,
+                                           &search->constants, search->values->attraction);
     return hits.mean - search->constants.restitution;
 }
 
-/* Secants; false when they do not close in. The mean over phases has kinks where a hit gets one step longer,
- * far smaller than the error that is mended. */
+/* Secants; false when they do not close in. The mean over phases has kinks where a hit gets one
+ * step longer, far smaller than the error that is mended. */
 static bool solve(Search *search, void (*set)(Search *search, double turned), double first,
                   double second)
 {
@@ -101,8 +102,8 @@ static OzContactConstants find_constants(const OzScene *scene, const OzContactVa
     if (linear) {
         set_by_eigenvalues(&search, plain.restitution);
         if (scene->integrator == OZ_INTEGRATOR_VELOCITY_VERLET) {
-            found = solve(&search, set_by_eigenvalues, plain.restitution,
-                          0.999 * plain.restitution);
+            found =
+                solve(&search, set_by_eigenvalues, plain.restitution, 0.999 * plain.restitution);
         }
         search.constants.duration = search.count * scene->step;
     } else {
@@ -115,7 +116,8 @@ static OzContactConstants find_constants(const OzScene *scene, const OzContactVa
     return found ? search.constants : plain;
 }
 
-/* The constants found last: every look at the contacts asks again, and a search takes milliseconds. */
+/* The constants found last: every look at the contacts asks again, and a search takes milliseconds.
+ */
 typedef struct Found {
     OzIntegrator integrator;
     double step;

@@ -1,19 +1,19 @@
-/* Contact constants that make up for the errors of the step (`restitution_calibration: discrete`): the
- * discrete map of a hit (predict.h) is inverted, so that an isolated central hit of two grains returns the
- * restitution asked although the step is coarse. */
+/* Contact constants that make up for the errors of the step (`restitution_calibration: discrete`):
+ * the discrete map of a hit (predict.h) is inverted, so that an isolated central hit of two grains
+ * returns the restitution asked although the step is coarse. */
 #ifndef OZ_MODEL_CALIBRATE_H
 #define OZ_MODEL_CALIBRATE_H
 
 #include "model/contact.h"
 
-/* The constants of a scene's contact as the simulation uses them; without calibration those of contact.h.
- * A calibrated hit lasts a whole number of steps, the nearest to its contact time (the scene's step is
- * fitted to the scene's own; a wall's contact time is rounded).
- * The Eulers with `damping: constant`, `attraction: allow`: closed forms, exact at every phase of first touch.
- * velocity-verlet likewise but for its third eigenvalue: the restitution's mean over the phases is exact, and
- * single hits scatter about it. `smooth` and `clamp`: the stiffness stays that of the continuous law and the
- * damping is what gives the mean over the phases. Where no damping does (too few steps), the continuous
- * constants are returned. */
+/* The constants of a scene's contact as the simulation uses them; without calibration those of
+ * contact.h. A calibrated hit lasts a whole number of steps, the nearest to its contact time (the
+ * scene's step is fitted to the scene's own; a wall's contact time is rounded). The Eulers with
+ * `damping: constant`, `attraction: allow`: closed forms, exact at every phase of first touch.
+ * velocity-verlet likewise but for its third eigenvalue: the restitution's mean over the phases is
+ * exact, and single hits scatter about it. `smooth` and `clamp`: the stiffness stays that of the
+ * continuous law and the damping is what gives the mean over the phases. Where no damping does (too
+ * few steps), the continuous constants are returned. */
 OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactValues *values);
 
 #endif

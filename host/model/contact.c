@@ -42,10 +42,12 @@ static double clamped_damping_ratio(double restitution)
 
 /* With x the overlap times w, x = rho sin(phi) and dx/dt = w rho cos(phi), the smooth dashpot gives
  *   d(ln rho)/d(phi) = -2 zeta cos^2 sin / u,  w dt/d(phi) = 1 / u,  u = 1 + 2 zeta cos sin^2,
- * integrated by Simpson's rule from phi = 0 to pi or to where the force becomes a pull, 1 + 2 zeta cos = 0;
- * u stays above 0 for zeta < 3 sqrt(3) / 4, but falls steeply to 1 / (2 zeta)^2 where a strongly damped pull
- * would begin: phi = end (1 - y^2) puts the panels there. 4000 of them leave 1e-9 for e > 0.01. */
-double oz_contact_smooth_restitution(double damping_ratio, OzAttraction attraction, double *duration)
+ * integrated by Simpson's rule from phi = 0 to pi or to where the force becomes a pull, 1 + 2 zeta
+ * cos = 0; u stays above 0 for zeta < 3 sqrt(3) / 4, but falls steeply to 1 / (2 zeta)^2 where a
+ * strongly damped pull would begin: phi = end (1 - y^2) puts the panels there. 4000 of them leave
+ * 1e-9 for e > 0.01. */
+double oz_contact_smooth_restitution(double damping_ratio, OzAttraction attraction,
+                                     double *duration)
 {
     enum { PANELS = 4000 };
     double zeta = damping_ratio, end = pi, loss = 0, time = 0;
@@ -109,8 +111,9 @@ OzContactConstants oz_contact_constants(const OzContactValues *values)
     return constants;
 }
 
-/* Restitution of x'' = -x^(3/2) - alpha x^(1/4) x' that starts at x' = 1, until it may not pull any more:
- * Runge and Kutta's fourth order in steps of a 2000th of the free hit, the last one cut by its force. */
+/* Restitution of x'' = -x^(3/2) - alpha x^(1/4) x' that starts at x' = 1, until it may not pull any
+ * more: Runge and Kutta's fourth order in steps of a 2000th of the free hit, the last one cut by
+ * its force. */
 static double clamped_hertz_restitution(double alpha)
 {
     double h = 2.94 * pow(1.25, 0.4) / 2000, x = 0, v = 1;
@@ -130,8 +133,8 @@ static double clamped_hertz_restitution(double alpha)
     return -v;
 }
 
-/* alpha of the Hertzian dashpot: -sqrt(5) ln e / sqrt(ln^2 e + pi^2) (Antypov & Elliott 2011), or what a
- * contact that may not pull needs. */
+/* alpha of the Hertzian dashpot: -sqrt(5) ln e / sqrt(ln^2 e + pi^2) (Antypov & Elliott 2011), or
+ * what a contact that may not pull needs. */
 static double hertz_damping(double e, OzAttraction attraction)
 {
     double low = 0, high = 20;

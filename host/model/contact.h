@@ -1,6 +1,6 @@
-/* The constants of a contact from what a scene says about it: contact time and restitution in, spring and
- * dashpot out, per kg of effective mass, so that one set serves all grains; for `law: hertz-mindlin`,
- * moduli and restitution in. Knows nothing of steps: see calibrate.h. */
+/* The constants of a contact from what a scene says about it: contact time and restitution in,
+ * spring and dashpot out, per kg of effective mass, so that one set serves all grains; for `law:
+ * hertz-mindlin`, moduli and restitution in. Knows nothing of steps: see calibrate.h. */
 #ifndef OZ_MODEL_CONTACT_H
 #define OZ_MODEL_CONTACT_H
 
@@ -11,8 +11,8 @@
 #define OZ_CONTACT_RESTITUTION_LEAST 0.01
 
 typedef struct OzContactConstants {
-    double stiffness;            /* kappa = k_n / m*, 1/s^2; other laws: as in their kernel headers */
-    double damping;              /* gamma = c_n / m*, 1/s                                       */
+    double stiffness; /* kappa = k_n / m*, 1/s^2; other laws: as in their kernel headers */
+    double damping;   /* gamma = c_n / m*, 1/s                                       */
     double tangential_stiffness; /* k_t / m*, 1/s^2                                             */
     double tangential_damping;   /* c_t / m*, 1/s                                               */
     double restitution;          /* as used: at least OZ_CONTACT_RESTITUTION_LEAST; 0 with hertz */
@@ -22,13 +22,13 @@ typedef struct OzContactConstants {
 } OzContactConstants;
 
 /* `law: hooke`. `damping: constant`, `attraction: allow`: kappa = (pi^2 + ln^2 e) / t_c^2, gamma =
- * -2 ln(e) / t_c (Pournin et al. 2005, sec. 3.1). `attraction: clamp` keeps kappa and takes the gamma for
- * which a contact that may not pull returns e (Schwager & Poeschel 2007); it then ends before t_c.
- * `damping: smooth`: kappa and gamma solved so that a hit returns e and lasts t_c. */
+ * -2 ln(e) / t_c (Pournin et al. 2005, sec. 3.1). `attraction: clamp` keeps kappa and takes the
+ * gamma for which a contact that may not pull returns e (Schwager & Poeschel 2007); it then ends
+ * before t_c. `damping: smooth`: kappa and gamma solved so that a hit returns e and lasts t_c. */
 OzContactConstants oz_contact_constants(const OzContactValues *values);
 
-/* The constants of any law; grains are the scene's contact values, whose material meets that of `values`
- * (the same for two grains, a wall's otherwise). */
+/* The constants of any law; grains are the scene's contact values, whose material meets that of
+ * `values` (the same for two grains, a wall's otherwise). */
 OzContactConstants oz_contact_constants_of(const OzContactValues *values,
                                            const OzContactValues *grains);
 
@@ -36,8 +36,8 @@ OzContactConstants oz_contact_constants_of(const OzContactValues *values,
  * 1 at 0, falling towards 0 (Schwager & Poeschel 2007). */
 double oz_contact_clamped_restitution(double damping_ratio);
 
-/* The same for a dashpot that grows from nothing, and the hit's duration times sqrt(kappa). Where it may
- * pull, damping_ratio must stay below 3 sqrt(3) / 4: beyond that, hits do not end. */
+/* The same for a dashpot that grows from nothing, and the hit's duration times sqrt(kappa). Where
+ * it may pull, damping_ratio must stay below 3 sqrt(3) / 4: beyond that, hits do not end. */
 double oz_contact_smooth_restitution(double damping_ratio, OzAttraction attraction,
                                      double *duration);
 

@@ -1,9 +1,9 @@
 /* The discrete contact: eigenvalues, stability limits and restitution of each integrator. */
 #include "model/predict.h"
 
-#include "model/calibrate.h"
-
 #include "base/memory.h"
+#include "model/calibrate.h"
+#include "model/hertz.h"
 
 #include <complex.h>
 #include <math.h>
@@ -14,15 +14,31 @@ static const double pi = 3.14159265358979323846;
 /* One hit in units of step and approach speed: overlap grows while rate > 0. */
 typedef struct Hit {
     double overlap, rate, acceleration;
-    double stiffness, damping; /* K = kappa dt^2, G = gamma dt */
+    double stiffness, damping; /* K = kappa dt^2, G = gamma dt; Hertzian: force over overlap^1.5, and
+                                  G or alpha */
     bool clamp, smooth;
+    OzLaw law;
 } Hit;
+
+/* The force of the law, pushing apart. */
+static double hit_repulsion(const Hit *hit, double rate)
+{
+    double x = fmax(hit->overlap, 0);
+    if (hit->law == OZ_LAW_HERTZ_MINDLIN) {
+        return hit->stiffness * x * sqrt(x) +
+               hit->damping * sqrt(hit->stiffness * sqrt(x)) * rate;
+    }
+    if (hit->law == OZ_LAW_HERTZ) {
+        return hit->stiffness * x * sqrt(x) + hit->damping * rate;
+    }
+    double swing2 = hit->stiffness * x * x;
+    double damping = hit->damping * (hit->smooth ? sqrt(swing2 / (swing2 + rate * rate)) : 1);
+    return hit->stiffness * x + damping * rate;
+}
 
 static double hit_acceleration(const Hit *hit, double rate)
 {
-    double swing2 = hit->stiffness * hit->overlap * hit->overlap;
-    double damping = hit->damping * (hit->smooth ? sqrt(swing2 / (swing2 + rate * rate)) : 1);
-    double repulsion = hit->stiffness * hit->overlap + damping * rate;
+    double repulsion = hit_repulsion(hit, rate);
     if (hit->overlap <= 0 || (hit->clamp && repulsion < 0)) {
         return 0;
     }
@@ -177,15 +193,9 @@ static int64_t hit_step_limit(double duration, double step)
     return (int64_t)fmin(100 * duration / step + 100, 2e6);
 }
 
-OzPredictedHits oz_predict_hits(OzIntegrator integrator, double step,
-                                const OzContactConstants *constants, OzAttraction attraction)
+static OzPredictedHits average_hits(OzIntegrator integrator, Hit hit, int64_t step_limit)
 {
     OzPredictedHits hits = {.mean = 0, .low = INFINITY, .high = -INFINITY};
-    Hit hit = {.stiffness = constants->stiffness * step * step,
-               .damping = constants->damping * step,
-               .clamp = attraction == OZ_ATTRACTION_CLAMP,
-               .smooth = constants->smooth};
-    int64_t step_limit = hit_step_limit(constants->duration, step);
     for (int phase = 0; phase < OZ_PREDICT_PHASES; phase++) {
         double share = (phase + 0.5) / OZ_PREDICT_PHASES;
         double restitution = follow_hit(integrator, hit, share, step_limit);
@@ -194,6 +204,28 @@ OzPredictedHits oz_predict_hits(OzIntegrator integrator, double step,
         hits.high = fmax(hits.high, restitution);
     }
     return isnan(hits.mean) ? (OzPredictedHits){NAN, NAN, NAN} : hits;
+}
+
+OzPredictedHits oz_predict_hits(OzIntegrator integrator, double step,
+                                const OzContactConstants *constants, OzAttraction attraction)
+{
+    Hit hit = {.stiffness = constants->stiffness * step * step,
+               .damping = constants->damping * step,
+               .clamp = attraction == OZ_ATTRACTION_CLAMP,
+               .smooth = constants->smooth};
+    return average_hits(integrator, hit, hit_step_limit(constants->duration, step));
+}
+
+/* In units of step and approach speed the constants depend on the speed. */
+static OzPredictedHits predict_hertz_hits(const OzScene *scene, const OzContactValues *values,
+                                          const OzHertzHit *hertz)
+{
+    double step = scene->step;
+    Hit hit = {.stiffness = hertz->stiffness * sqrt(hertz->speed) * step * step * sqrt(step),
+               .damping = hertz->damping * (values->law == OZ_LAW_HERTZ ? step : 1),
+               .clamp = values->attraction == OZ_ATTRACTION_CLAMP,
+               .law = values->law};
+    return average_hits(scene->integrator, hit, hit_step_limit(hertz->linear.duration, step));
 }
 
 /* The effective mass along a sticking contact is smaller than across it, because the grains turn:
@@ -211,17 +243,27 @@ static bool sticking_is_stable(const OzScene *scene, const OzContactValues *valu
                                                  lighter * constants->tangential_damping);
 }
 
-static OzPrediction predict_kind(const OzScene *scene, const OzContactValues *values, int wall)
+static OzPrediction predict_kind(const OzScene *scene, const OzContactValues *values, int wall,
+                                 const OzGrains *grains)
 {
+    bool linear = values->law == OZ_LAW_HOOKE;
     OzPrediction row = {.wall = wall, .values = *values, .closed_form = NAN};
     double step = scene->step;
-    OzContactConstants c = row.constants = oz_calibrate_contact(scene, values);
+    if (linear) {
+        row.constants = oz_calibrate_contact(scene, values);
+        row.hits = oz_predict_hits(scene->integrator, step, &row.constants, values->attraction);
+    } else {
+        OzHertzHit hertz = oz_hertz_hit(scene, values, wall, grains);
+        row.constants = hertz.linear;
+        row.speed = hertz.speed;
+        row.hits = predict_hertz_hits(scene, values, &hertz);
+    }
+    OzContactConstants c = row.constants;
     row.steps = c.duration / step;
-    row.hits = oz_predict_hits(scene->integrator, step, &c, values->attraction);
     OzEigenvalues eigenvalues =
         oz_predict_eigenvalues(scene->integrator, c.stiffness * step * step, c.damping * step);
     row.radius = eigenvalues.radius;
-    if (values->attraction == OZ_ATTRACTION_ALLOW && !c.smooth && eigenvalues.theta > 0) {
+    if (linear && values->attraction == OZ_ATTRACTION_ALLOW && !c.smooth && eigenvalues.theta > 0) {
         row.closed_form = pow(eigenvalues.rho, pi / eigenvalues.theta);
     }
     row.largest_step = oz_predict_largest_step(scene->integrator, c.stiffness, c.damping);
@@ -254,7 +296,7 @@ OzStatus oz_predict_scene(OzPrediction **rows, int *count, const OzScene *scene,
     *count = scene->wall_count + 1;
     for (int i = 0; i < *count; i++) {
         const OzContactValues *values = i ? &scene->walls[i - 1].contact : &scene->contact;
-        (*rows)[i] = predict_kind(scene, values, i - 1);
+        (*rows)[i] = predict_kind(scene, values, i - 1, grains);
         set_masses(&(*rows)[i], grains);
     }
     return OZ_OK;

@@ -23,7 +23,8 @@ typedef struct OzPredictedHits {
 typedef struct OzPrediction {
     int wall;                     /* index of the wall, -1: grain against grain              */
     OzContactValues values;       /* as the scene has them                                   */
-    OzContactConstants constants; /* the continuous law                                      */
+    OzContactConstants constants; /* as used; Hertzian laws: tangent at a hit's deepest point */
+    double speed;                 /* m/s, Hertzian laws: of the hit that is predicted; else 0 */
     double mass_low, mass_high;   /* kg, least and greatest effective mass; k_n, c_n follow  */
     double steps;                 /* duration of a hit / step                                */
     OzPredictedHits hits;         /* restitution really given                                */

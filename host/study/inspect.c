@@ -54,6 +54,9 @@ static void print_contact(FILE *file, const OzPrediction *row)
     } else {
         fprintf(file, "contact            at wall %d\n", row->wall);
     }
+    if (row->speed > 0) {
+        fprintf(file, "  hit              at %.4g m/s, stiffness at its deepest point\n", row->speed);
+    }
     fprintf(file, "  k_n              %.6g ... %.6g N/m\n", c->stiffness * row->mass_low,
             c->stiffness * row->mass_high);
     fprintf(file, "  c_n              %.6g ... %.6g kg/s\n", c->damping * row->mass_low,
@@ -61,7 +64,7 @@ static void print_contact(FILE *file, const OzPrediction *row)
     fprintf(file, "  steps            %.4g a contact\n", row->steps);
     fprintf(file, "  restitution      asked %.6g, this integrator gives %.6g (%.6g ... %.6g by phase)\n",
             row->values.restitution, row->hits.mean, row->hits.low, row->hits.high);
-    if (row->values.restitution < OZ_CONTACT_RESTITUTION_LEAST) {
+    if (row->values.law != OZ_LAW_HERTZ && row->values.restitution < OZ_CONTACT_RESTITUTION_LEAST) {
         fprintf(file, "  restitution      %g is used as %g\n", row->values.restitution,
                 OZ_CONTACT_RESTITUTION_LEAST);
     }
