@@ -19,6 +19,8 @@ static const struct {
     {"keys", "", "c", "every scene key: type, unit, range, default, meaning", 0, 0},
     {"bench", "[SCENE]...", "oQFzbysdtS", "speed on this machine: an6 and a ladder of beds, or scenes", 0,
      OZ_CLI_PATHS_MAX},
+    {"report", "SCENE...", "oQTfsdtS", "what accuracy costs: error against run time", 1,
+     OZ_CLI_PATHS_MAX},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
 };
 
@@ -27,7 +29,7 @@ static const struct {
     char letter;
     const char *name, *value, *help;
 } option_rows[] = {
-    {'o', "-o", "DIR", "folder to write (default runs/<scene name>; of bench: bench)"},
+    {'o', "-o", "DIR", "folder to write (default runs/<scene name>; of bench: bench, of report: report)"},
     {'O', "--overwrite", NULL, "replace a finished run there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
     {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},
@@ -43,6 +45,7 @@ static const struct {
     {'z', "--sizes", "N,N,...", "the ladder's numbers of grains"},
     {'b', "--budget", "S", "seconds that all timed pieces together shall take"},
     {'y', "--yardstick", "PROGRAM", "the scalar yardstick (default: found beside orzo)"},
+    {'T', "--tolerance", "X", "error to be met; prints the cheapest setting, ready to paste"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -147,6 +150,16 @@ static OzStatus parse_budget(OzOptions *options, const char *value)
     return OZ_OK;
 }
 
+static OzStatus parse_tolerance(OzOptions *options, const char *value)
+{
+    char *end = NULL;
+    options->tolerance = strtod(value, &end);
+    if (*value == '\0' || *end || !isfinite(options->tolerance) || options->tolerance <= 0) {
+        return wrong(value, "--tolerance with an error above 0, as in 0.01");
+    }
+    return OZ_OK;
+}
+
 static OzStatus add_setting(OzOptions *options, const char *value)
 {
     if (options->setting_count == OZ_CLI_SETTINGS_MAX) {
@@ -195,6 +208,8 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return OZ_OK;
     case 'b':
         return parse_budget(options, value);
+    case 'T':
+        return parse_tolerance(options, value);
     case 'z':
         options->sizes = value;
         return OZ_OK;
@@ -247,12 +262,12 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     options->until = -1;
     if (argc < 2) {
         return oz_status_fail(OZ_ERR_INPUT, "orzo: no command; expected one of run, check, draw, "
-                                            "keys, bench, devices (see orzo --help)");
+                                            "keys, bench, report, devices (see orzo --help)");
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
-        return wrong(argv[1], "run, check, draw, keys, bench or devices (see orzo --help)");
+        return wrong(argv[1], "run, check, draw, keys, bench, report or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
         OZ_TRY(take_argument(options, command, argc, argv, &i));

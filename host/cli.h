@@ -25,6 +25,7 @@ typedef struct OzOptions {
     const char *source_dir;               /* --source-dir                     */
     bool features, quick;                 /* bench                            */
     double budget;                        /* --budget, s; 0: not given        */
+    double tolerance;                     /* --tolerance of report; 0: not given */
     const char *sizes;                    /* --sizes, as written              */
     const char *yardstick;                /* --yardstick                      */
 } OzOptions;

@@ -10,6 +10,7 @@
 #include "study/bench.h"
 #include "study/inspect.h"
 #include "study/redraw.h"
+#include "study/report.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -46,6 +47,11 @@ static OzStatus bench_command(const OzOptions *options)
     return oz_bench_run(options);
 }
 
+static OzStatus report_command(const OzOptions *options)
+{
+    return oz_report_run(options);
+}
+
 static OzStatus devices_command(const OzOptions *options)
 {
     const char *encoder = NULL;
@@ -64,7 +70,8 @@ static const struct {
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
     {"run", run_command},   {"check", check_command},     {"draw", draw_command},
-    {"keys", keys_command}, {"bench", bench_command},     {"devices", devices_command},
+    {"keys", keys_command}, {"bench", bench_command},     {"report", report_command},
+    {"devices", devices_command},
 };
 
 int main(int argc, char **argv)

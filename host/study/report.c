@@ -1,0 +1,162 @@
+/* The straight line of a report: every scene, every method, every step of the ladder. */
+#include "study/report.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "scene/keys.h"
+#include "study/report_plot.h"
+#include "study/report_table.h"
+
+#include <libgen.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Steps per contact. Beds are run at 20 to 60; below 10 no hit is resolved, and at 1000 float's
+ * rounding shows. */
+static const int ladder[] = {10, 14, 20, 30, 50, 100, 200, 500, 1000};
+static const int ladder_quick[] = {20, 50, 200};
+
+enum {
+    RUNGS = sizeof ladder / sizeof ladder[0],
+    RUNGS_QUICK = sizeof ladder_quick / sizeof ladder_quick[0],
+    PRECISIONS = 2,
+    PHASES = 32,
+    PHASES_QUICK = 8,
+    REPEATS = 5,
+    METHODS_MOST = 32
+};
+
+/* Without --tolerance. */
+#define TOLERANCE 0.01
+
+static const char *const folder_default = "report";
+
+typedef struct Report {
+    const OzOptions *options;
+    OzDevice device;
+    OzReportPoint *points;
+    int count;
+    char *folder;
+} Report;
+
+static int count_integrators(void)
+{
+    int count = 0;
+    for (const char *const *name = oz_keys_find("integrator")->choices; *name; name++) {
+        count++;
+    }
+    return count;
+}
+
+/* "scenes/report/bounce.yaml" is the case "bounce". */
+static OzStatus find_case(const OzReportCase **row, const char *path)
+{
+    OzStatus status = OZ_OK;
+    char *copy = NULL;
+    OZ_TRY(oz_memory_text(&copy, path));
+    char *name = basename(copy), *dot = strrchr(name, '.');
+    if (dot) {
+        *dot = '\0';
+    }
+    *row = oz_report_cases_find(name);
+    if (!*row) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "%s: no answer is known for a scene called %s; orzo report studies "
+                                "the scenes of scenes/report",
+                                path, name);
+    }
+done:
+    free(copy);
+    return status;
+}
+
+static OzStatus study_method(Report *report, const OzReportJob *job, const OzReportPoint *like)
+{
+    OzStatus status = OZ_OK;
+    bool quick = job->options->quick;
+    for (int r = 0; r < (quick ? RUNGS_QUICK : RUNGS); r++) {
+        OzReportPoint *point = &report->points[report->count];
+        *point = *like;
+        point->steps = quick ? ladder_quick[r] : ladder[r];
+        oz_log_progress("%s: %s, %s, %d steps per contact", job->row->scene,
+                        oz_keys_choice_name("integrator", (int)like->integrator),
+                        oz_keys_choice_name("precision", (int)like->precision), point->steps);
+        OZ_TRY(oz_report_point_measure(point, job));
+        report->count++;
+    }
+done:
+    oz_log_progress("%s", "");
+    return status;
+}
+
+static OzStatus study_scene(Report *report, const char *path)
+{
+    OzStatus status = OZ_OK;
+    const OzOptions *options = report->options;
+    double tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE;
+    int first = report->count;
+    OzReportJob job = {.options = options,
+                       .device = &report->device,
+                       .path = path,
+                       .phases = options->quick ? PHASES_QUICK : PHASES,
+                       .repeats = REPEATS};
+    OzReportPoint like = {0};
+    OZ_TRY(find_case(&job.row, path));
+    OZ_TRY(oz_report_point_truth(&like.truth, &job));
+    for (int i = 0; i < count_integrators(); i++) {
+        for (int p = 0; p < PRECISIONS; p++) {
+            like.integrator = (OzIntegrator)i;
+            like.precision = p == 0 ? OZ_PRECISION_FLOAT : OZ_PRECISION_DOUBLE;
+            if (like.precision == OZ_PRECISION_FLOAT || report->device.has_double) {
+                OZ_TRY(study_method(report, &job, &like));
+            }
+        }
+    }
+    oz_report_table_front(report->points + first, report->count - first);
+    oz_report_table_say(stdout, report->points + first, report->count - first, tolerance,
+                        options->tolerance > 0);
+    OZ_TRY(oz_report_plot_draw(report->folder, report->device.name, report->points + first,
+                               report->count - first));
+done:
+    return status;
+}
+
+static OzStatus study_scenes(Report *report)
+{
+    OzStatus status = OZ_OK;
+    const OzOptions *options = report->options;
+    double start = oz_clock_now();
+    OZ_TRY(OZ_NEW(&report->points, options->path_count * METHODS_MOST * RUNGS));
+    OZ_TRY(oz_device_open(&report->device, options->device, options->threads));
+    OZ_TRY(oz_file_make_folder(report->folder));
+    printf("device: %s\n", report->device.name);
+    for (int i = 0; i < options->path_count; i++) {
+        OZ_TRY(study_scene(report, options->paths[i]));
+    }
+    oz_log_line("%d settings in %.0f s; %s/report.csv and pictures", report->count,
+                oz_clock_now() - start, report->folder);
+done:
+    if (report->count > 0) {
+        OzStatus written = oz_report_table_write(report->folder, report->points, report->count);
+        status = status == OZ_OK ? written : status;
+    }
+    return status;
+}
+
+OzStatus oz_report_run(const OzOptions *options)
+{
+    OzStatus status = OZ_OK;
+    Report report = {.options = options};
+    OZ_TRY(oz_memory_text(&report.folder, options->out ? options->out : folder_default));
+    OZ_TRY(study_scenes(&report));
+done:
+    oz_device_close(&report.device);
+    free(report.points);
+    free(report.folder);
+    if (status != OZ_OK) {
+        oz_log_line("%s", oz_status_text());
+    }
+    return status;
+}

@@ -1,0 +1,14 @@
+/* `orzo report`: what the error of a setting costs in time, how far the theory of stability holds,
+ * and how extreme cases fare. */
+#ifndef OZ_STUDY_REPORT_H
+#define OZ_STUDY_REPORT_H
+
+#include "cli.h"
+
+/* Work-precision study of the scenes given, each a row of report_cases.h: prints one sentence for
+ * each and leaves DIR/report.csv and a picture of each scene (PNG and SVG). With --extreme, --map
+ * or
+ * --stability the study of that name instead. A setting that fails is listed with its reason. */
+OzStatus oz_report_run(const OzOptions *options);
+
+#endif

@@ -1,0 +1,172 @@
+/* Talking to gnuplot. */
+#include "study/report_plot.h"
+
+#include "base/log.h"
+#include "scene/keys.h"
+#include "study/report_table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where an error of nothing is drawn: below any rounding. */
+#define LEAST_ERROR 1e-17
+
+static bool same_curve(const OzReportPoint *a, const OzReportPoint *b)
+{
+    return a->integrator == b->integrator && a->precision == b->precision;
+}
+
+static bool begins_curve(const OzReportPoint *points, int i)
+{
+    for (int before = 0; before < i; before++) {
+        if (points[before].good && same_curve(&points[before], &points[i])) {
+            return false;
+        }
+    }
+    return points[i].good;
+}
+
+/* x of both panels, error, greatest error, wall time's extremes, label. */
+static void send_row(FILE *gnuplot, const OzReportPoint *p)
+{
+    fprintf(gnuplot, "%.9g %.9g %.9g %.9g %.9g %.9g %d\n", p->wall, p->evaluations,
+            fmax(p->error_rms, LEAST_ERROR), fmax(p->error_max, LEAST_ERROR), p->wall_low,
+            p->wall_high, p->steps);
+}
+
+static void send_data(FILE *gnuplot, const OzReportPoint *points, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (begins_curve(points, i)) {
+            fprintf(gnuplot, "$curve%d << EOD\n", i);
+            for (int j = i; j < count; j++) {
+                if (points[j].good && same_curve(&points[i], &points[j])) {
+                    send_row(gnuplot, &points[j]);
+                }
+            }
+            fprintf(gnuplot, "EOD\n");
+        }
+    }
+    fprintf(gnuplot, "$front << EOD\n");
+    for (int i = 0; i < count; i++) {
+        if (points[i].front) {
+            send_row(gnuplot, &points[i]);
+        }
+    }
+    fprintf(gnuplot, "EOD\n");
+}
+
+static void send_curve(FILE *gnuplot, const OzReportPoint *points, int count, int i, int x)
+{
+    static const char *const colours[] = {"#d55e00", "#0072b2", "#009e73",
+                                          "#cc79a7", "#e69f00", "#000000"};
+    const OzReportPoint *p = &points[i];
+    const char *colour = colours[(int)p->integrator % 6];
+    bool is_double = p->precision == OZ_PRECISION_DOUBLE;
+    double order = oz_report_table_order(points, count, p);
+    char title[128];
+    snprintf(title, sizeof title, "%s, %s", oz_keys_choice_name("integrator", (int)p->integrator),
+             oz_keys_choice_name("precision", (int)p->precision));
+    if (is_double && isfinite(order)) {
+        size_t length = strlen(title);
+        snprintf(title + length, sizeof title - length, " (order %.1f)", order);
+    }
+    fprintf(gnuplot,
+            "$curve%d using %d:3:3:4 with yerrorbars pt -1 ps 0 lw 1 lc rgb '%s' notitle, "
+            "$curve%d using %d:3 with linespoints lw 2 ps 0.9 pt %d dt %d lc rgb '%s' title '%s', ",
+            i, x, colour, i, x, is_double ? 7 : 6, is_double ? 1 : 2, colour, title);
+    if (is_double || x == 1) {
+        fprintf(gnuplot,
+                "$curve%d using %d:3:7 with labels offset 0,%s font ',7' tc rgb '%s' notitle, ", i,
+                x, is_double ? "-0.7" : "0.7", colour);
+    }
+}
+
+static void send_panel(FILE *gnuplot, const OzReportPoint *points, int count, int x)
+{
+    fprintf(gnuplot, "plot ");
+    for (int i = 0; i < count; i++) {
+        if (begins_curve(points, i)) {
+            send_curve(gnuplot, points, count, i, x);
+        }
+    }
+    if (x == 1) {
+        fprintf(gnuplot, "$front using 1:3 with points pt 6 ps 2.2 lw 1 lc rgb '#777777' "
+                         "title 'none is faster and better'\n");
+    } else {
+        fprintf(gnuplot, "NaN notitle\n");
+    }
+}
+
+static void send_picture(FILE *gnuplot, const char *terminal, const char *path, const char *device,
+                         const OzReportPoint *points, int count)
+{
+    const OzReportCase *row = points[0].row;
+    fprintf(gnuplot,
+            "set terminal %s size 1500,700 noenhanced font 'DejaVu Sans,11'\nset output '%s'\n"
+            "set multiplot layout 1,2 title \"%s: error in %s; labels: steps per contact; bars: up "
+            "to the greatest error of any phase\\n%s\"\n"
+            "set logscale xy\nset grid xtics ytics lc rgb '#dddddd'\nset format '%%g'\n"
+            "set ylabel 'RMS error, %s'\nset xlabel 'wall seconds per simulated second'\n"
+            "set key below font ',9' maxcols 2\nset bmargin 8\n",
+            terminal, path, points[0].scene, row->quantity, device,
+            row->unit[0] ? row->unit : "as a share");
+    send_panel(gnuplot, points, count, 1);
+    fprintf(gnuplot, "set xlabel 'force evaluations per simulated second'\n");
+    send_panel(gnuplot, points, count, 2);
+    fprintf(gnuplot, "unset multiplot\nset output\n");
+}
+
+static void list_failures(const OzReportPoint *points, int count, FILE *gnuplot)
+{
+    int line = 0;
+    for (int i = 0; i < count && line < 12; i++) {
+        if (!points[i].good) {
+            fprintf(gnuplot,
+                    "set label %d 'left out: %s, %s, %d: %.60s' at graph 0.01,%.3f font ',7' "
+                    "front\n",
+                    line + 1, oz_keys_choice_name("integrator", (int)points[i].integrator),
+                    oz_keys_choice_name("precision", (int)points[i].precision), points[i].steps,
+                    points[i].reason, 0.02 + 0.025 * line);
+            line++;
+        }
+    }
+}
+
+static bool any_good(const OzReportPoint *points, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (points[i].good) {
+            return true;
+        }
+    }
+    return false;
+}
+
+OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzReportPoint *points,
+                             int count)
+{
+    char path[1024];
+    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
+        oz_log_line("no pictures in %s: gnuplot is not installed", folder);
+        return OZ_OK;
+    }
+    if (!any_good(points, count)) {
+        return OZ_OK;
+    }
+    FILE *gnuplot = popen("gnuplot", "w");
+    if (!gnuplot) {
+        return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
+    }
+    send_data(gnuplot, points, count);
+    list_failures(points, count, gnuplot);
+    snprintf(path, sizeof path, "%s/%s.png", folder, points[0].scene);
+    send_picture(gnuplot, "pngcairo", path, device, points, count);
+    snprintf(path, sizeof path, "%s/%s.svg", folder, points[0].scene);
+    send_picture(gnuplot, "svg", path, device, points, count);
+    if (pclose(gnuplot) != 0) {
+        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s", path);
+    }
+    return OZ_OK;
+}

@@ -1,0 +1,50 @@
+/* One point of a work-precision study: a scene run with one integrator, precision and step; its
+ * error over the phases of first touch, and its wall time. */
+#ifndef OZ_STUDY_REPORT_POINT_H
+#define OZ_STUDY_REPORT_POINT_H
+
+#include "cli.h"
+#include "compute/device.h"
+#include "study/report_cases.h"
+
+/* Steps per contact of the truth where no exact answer exists. Halving the step again moves it by
+ * less than a tenth of the error of the finest point of the ladder. */
+#define OZ_REPORT_POINT_TRUTH 10000
+
+typedef struct OzReportJob {
+    const OzOptions *options; /* settings, device, source folder, --force */
+    const OzDevice *device;
+    const char *path; /* scene file                                       */
+    const OzReportCase *row;
+    int phases;  /* copies side by side, each starting earlier by another share of a step, evenly
+                    stratified  (without phases of first touch all alike)  */
+    int repeats; /* timed runs of all copies                                              */
+} OzReportJob;
+
+typedef struct OzReportPoint {
+    char scene[64];
+    const OzReportCase *row;
+    OzIntegrator integrator;
+    OzPrecision precision;
+    int steps;        /* per contact time                                     */
+    double step;      /* s                                                    */
+    double truth;     /* what the value should be                             */
+    double error_rms; /* over the phases                                      */
+    double error_max; /* of any phase                                         */
+    double wall;      /* s per simulated s: median, for one of the copies     */
+    double wall_low, wall_high;
+    double evaluations; /* of all forces, per simulated s                       */
+    bool good;          /* all of the above is filled in; otherwise: */
+    char reason[200];   /* why not                                   */
+    bool front;         /* no other point is both faster and more accurate      */
+} OzReportPoint;
+
+/* The truth of a scene: exact, or the double reference (velocity-verlet) at OZ_REPORT_POINT_TRUTH
+ * steps per contact. */
+OzStatus oz_report_point_truth(double *truth, const OzReportJob *job);
+
+/* Fills the point's errors and times from its integrator, precision, steps and truth. A setting
+ * that is unstable or blows up is no failure: the point's reason says so. */
+OzStatus oz_report_point_measure(OzReportPoint *point, const OzReportJob *job);
+
+#endif

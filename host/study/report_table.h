@@ -1,0 +1,30 @@
+/* A report in words and numbers: report.csv, the Pareto front, the sentence for a tolerance. */
+#ifndef OZ_STUDY_REPORT_TABLE_H
+#define OZ_STUDY_REPORT_TABLE_H
+
+#include "study/report_point.h"
+
+#include <stdio.h>
+
+/* Marks the points of one scene that no other point beats in both wall time and RMS error. */
+void oz_report_table_front(OzReportPoint *points, int count);
+
+/* The good point of least wall time whose greatest error is at most tolerance; NULL: there is none.
+ */
+const OzReportPoint *oz_report_table_cheapest(const OzReportPoint *points, int count,
+                                              double tolerance);
+
+/* The order at which one method's RMS error falls with the step, fitted over its good points
+ * (points of the same integrator and precision as like); NAN where errors are mere rounding or too
+ * few. */
+double oz_report_table_order(const OzReportPoint *points, int count, const OzReportPoint *like);
+
+/* One sentence for one scene, what failed, and, with paste, the setting as lines of a scene file.
+ */
+void oz_report_table_say(FILE *file, const OzReportPoint *points, int count, double tolerance,
+                         bool paste);
+
+/* Writes folder/report.csv. */
+OzStatus oz_report_table_write(const char *folder, const OzReportPoint *points, int count);
+
+#endif
