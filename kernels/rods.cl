@@ -8,6 +8,9 @@
 
 #define EACH_REGION for (int region = item; region < w->z.regions; region += stride)
 
+/* Work-items meet outside conditions wherever that is possible: a CPU driver compiles everything after a
+ * conditional meeting twice. */
+
 /* The inner list anew; 0 when a list was too small. */
 OZ_INLINE int refresh(OzWork *w, int item, int stride)
 {
@@ -26,45 +29,39 @@ OZ_INLINE int refresh(OzWork *w, int item, int stride)
         oz_lists_order(w, region);
     }
     OZ_WORK_MEET();
-    int full = w->control->full;
+    int holds = !w->control->full;
     OZ_WORK_MEET();
-    if (full) {
-        return 0;
-    }
-    EACH_REGION
-    {
-        oz_lists_forget(w, region);
-    }
-    if (item == 0) {
-        w->control->truth = OZ_TRUTH_INNER;
-        w->control->stale_step = OZ_NEVER;
-        w->control->refreshes++;
-    }
-    OZ_WORK_MEET();
-    return 1;
-}
-
-OZ_INLINE void set_truth(OzWork *w, int item, int truth)
-{
-    OZ_WORK_MEET();
-    if (item == 0) {
-        w->control->truth = truth;
+    if (holds) {
+        EACH_REGION
+        {
+            oz_lists_forget(w, region);
+        }
+        if (item == 0) {
+            w->control->truth = OZ_TRUTH_INNER;
+            w->control->stale_step = OZ_NEVER;
+            w->control->refreshes++;
+        }
     }
     OZ_WORK_MEET();
+    return holds;
 }
 
 /* The outer list anew; 0 when it was too small. */
 OZ_INLINE int rebuild(OzWork *w, int item, int stride)
 {
-    if (w->control->truth == OZ_TRUTH_OUTER) {
+    int truth = w->control->truth;
+    OZ_WORK_MEET();
+    if (truth == OZ_TRUTH_OUTER) {
         EACH_REGION
         {
             oz_lists_save(w, region);
         }
-        set_truth(w, item, OZ_TRUTH_SAVED);
     }
     oz_lists_clear(w, item, stride);
     OZ_WORK_MEET();
+    if (item == 0 && truth == OZ_TRUTH_OUTER) {
+        w->control->truth = OZ_TRUTH_SAVED;
+    }
     EACH_REGION
     {
         oz_lists_bin(w, region);
@@ -89,57 +86,56 @@ OZ_INLINE int rebuild(OzWork *w, int item, int stride)
         oz_lists_search(w, region);
     }
     OZ_WORK_MEET();
-    int full = w->control->full;
-    if (full) {
-        return 0;
-    }
-    if (w->control->truth == OZ_TRUTH_SAVED) {
+    int holds = !w->control->full;
+    if (holds && truth != OZ_TRUTH_NONE) {
         EACH_REGION
         {
             oz_lists_restore(w, region);
         }
     }
-    EACH_REGION
-    {
-        oz_lists_refer(w, region);
+    if (holds) {
+        EACH_REGION
+        {
+            oz_lists_refer(w, region);
+        }
     }
     OZ_WORK_MEET();
-    if (item == 0) {
+    if (item == 0 && holds) {
         w->control->truth = OZ_TRUTH_OUTER;
         w->control->outer_stale = 0;
         w->control->rebuilds++;
     }
     OZ_WORK_MEET();
-    return 1;
+    return holds;
 }
 
 /* Makes the lists hold again. 0 when one is full (or made by the host) and the launch must end. */
 OZ_INLINE int renew(OzWork *w, int item, int stride)
 {
+    int truth = w->control->truth;
+    OZ_WORK_MEET();
     EACH_REGION
     {
         oz_lists_measure(w, region);
-    }
-    if (w->control->truth == OZ_TRUTH_INNER) {
-        EACH_REGION
-        {
+        if (truth == OZ_TRUTH_INNER) {
             oz_lists_harvest(w, region);
         }
-        set_truth(w, item, OZ_TRUTH_OUTER);
+    }
+    if (item == 0 && truth == OZ_TRUTH_INNER) {
+        w->control->truth = OZ_TRUTH_OUTER;
     }
     OZ_WORK_MEET();
-    int outer_holds = w->control->truth == OZ_TRUTH_OUTER && !w->control->outer_stale;
+    int holds = w->control->truth == OZ_TRUTH_OUTER && !w->control->outer_stale;
     OZ_WORK_MEET();
-#if OZ_HOST_LISTS
-    if (!outer_holds) {
-        return 0;
-    }
-#else
-    if (!outer_holds && !rebuild(w, item, stride)) {
-        return 0;
+#if !OZ_HOST_LISTS
+    if (!holds) {
+        holds = rebuild(w, item, stride);
     }
 #endif
-    return refresh(w, item, stride);
+    if (holds) {
+        holds = refresh(w, item, stride);
+    }
+    return holds;
 }
 
 /* One step; the lists hold. */
@@ -171,7 +167,6 @@ OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
     {
         oz_grains_before_region(w, region, step);
     }
-    OZ_WORK_MEET();
 }
 #endif
 
@@ -184,34 +179,31 @@ kernel void oz_advance(OZ_WORK_ARGUMENTS, int last)
 {
     OZ_WORK_OPEN((int)get_group_id(0))
     int item = OZ_WORK_ITEM, stride = OZ_WORK_STRIDE, step = w.control->step;
+    int moved = w.control->moved;
     OZ_WORK_MEET();
     for (;; step++) {
+        int ends = w.control->stop_bits != 0;
+        OZ_WORK_MEET();
 #if defined(OZ_MOVES_BEFORE)
-        if (step < last && !w.control->moved) {
+        if (step < last && !ends && !moved) {
             move_before(&w, item, stride, step);
-            w.control->moved = 1;
+            moved = 1;
         }
+        OZ_WORK_MEET();
 #endif
         int stale = w.control->stale_step != OZ_NEVER || w.control->truth != OZ_TRUTH_INNER;
-        int stopped = w.control->stop_bits;
         OZ_WORK_MEET();
-        if (stopped || (stale && !renew(&w, item, stride)) || step >= last) {
+        if (stale && !ends) {
+            ends = !renew(&w, item, stride);
+        }
+        if (ends || step >= last) {
             break;
         }
         forces_and_motion(&w, item, stride, step);
-        int stop = w.control->stop_bits;
-        OZ_WORK_MEET();
-        if (stop) {
-            break;
-        }
-#if defined(OZ_MOVES_BEFORE)
-        if (item == 0) {
-            w.control->moved = 0;
-        }
-        OZ_WORK_MEET();
-#endif
+        moved = 0;
     }
     if (item == 0) {
         w.control->step = step;
+        w.control->moved = moved;
     }
 }
