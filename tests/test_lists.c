@@ -1,0 +1,165 @@
+/* Neighbour lists must not change a bit, however they are made: while a bed of all sizes is shaken,
+ * runs with other lists are compared with the run with none but all pairs. ORZO_NEEDS_DEVICE. */
+#include "device_rig.h"
+
+#include "compute/sim_private.h"
+
+enum { STEPS = 2000, GRAINS = 61 };
+
+/* Broadphase, skin. */
+static const char bed[] =
+    "model: rods\n"
+    "broadphase: %s\n"
+    "skin: %g\n"
+    "time: {step: 1e-5, duration: 1}\n"
+    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4}\n"
+    "grains:\n"
+    "  - {kind: random, count: 20, diameter: 0.6e-3}\n"
+    "  - {kind: random, count: 20, diameter: 0.5e-3, aspect: 3}\n"
+    "  - {kind: random, count: 21, diameter: [0.3e-3, 1e-3], aspect: [0.5, 3]}\n"
+    "walls:\n"
+    "  - {kind: plane, motion: {frequency: 100, acceleration_ratio: 4}}\n"
+    "  - {kind: cylinder, diameter: 5e-3}\n";
+
+typedef struct Bed {
+    Rig rig;
+    OzSim *sim;
+    OzSnapshot end;
+} Bed;
+
+static void open_bed(Bed *b, const char *broadphase, double skin)
+{
+    memset(b, 0, sizeof *b);
+    rig_open(&b->rig, bed, broadphase, skin);
+    throw_grains(&b->rig.grains, 0.3, 100);
+    for (int64_t i = 0; i < GRAINS; i++) { /* down onto the floor at once */
+        b->rig.grains.velocity[3 * i + 2] -= 1;
+    }
+    b->sim = start_sim(&b->rig, &rig_device);
+}
+
+static void run_bed(Bed *b)
+{
+    b->end = state_at(&b->rig, b->sim, STEPS);
+    assert_true(b->end.contacts.pair_count > 10);
+    assert_true(oz_sim_counts(b->sim).rebuilds > 5);
+}
+
+static void close_bed(Bed *b)
+{
+    oz_snapshot_free(&b->end);
+    oz_sim_free(b->sim);
+    rig_close(&b->rig);
+}
+
+/* What every other run must give, bit by bit. */
+static Bed by_all_pairs;
+
+static void check_bed(Bed *b)
+{
+    run_bed(b);
+    assert_same_bits(&b->end, &by_all_pairs.end);
+    close_bed(b);
+}
+
+static void check_rows(const char *broadphase, double skin)
+{
+    Bed b;
+    open_bed(&b, broadphase, skin);
+    check_bed(&b);
+}
+
+static void test_twice(void **state)
+{
+    (void)state;
+    check_rows("all_pairs", 0);
+}
+
+static void test_hash(void **state)
+{
+    (void)state;
+    check_rows("hash", 0);
+}
+
+static void test_sort_axis(void **state)
+{
+    (void)state;
+    check_rows("sort_axis", 0);
+}
+
+/* Springs survive rebuilds: rare or frequent ones, the bits are the same. */
+static void test_other_skins(void **state)
+{
+    (void)state;
+    check_rows("hash", 5e-5);
+    check_rows("hash", 2e-3);
+    check_rows("sort_axis", 1e-4);
+}
+
+/* Begins again with lists that hold next to nothing. */
+static void shrink_lists(OzSim *sim)
+{
+    OzSizes tiny = sim->arrays.sizes;
+    tiny.outer_capacity = sim->arrays.switches.lanes;
+    tiny.inner_capacity = sim->arrays.switches.lanes;
+    tiny.back_capacity = 1;
+    must(oz_arrays_resize(&sim->arrays, &tiny));
+    sim->control[0].truth = OZ_TRUTH_NONE;
+}
+
+static void check_growth(const char *broadphase)
+{
+    Bed b;
+    open_bed(&b, broadphase, 0);
+    shrink_lists(b.sim);
+    run_bed(&b);
+    assert_true(oz_sim_counts(b.sim).growths >= 3);
+    assert_same_bits(&b.end, &by_all_pairs.end);
+    close_bed(&b);
+}
+
+static void test_full_lists_grow(void **state)
+{
+    (void)state;
+    check_growth("hash");
+    check_growth("sort_axis");
+}
+
+/* Looking at the bed in between changes nothing. */
+static void test_many_launches(void **state)
+{
+    (void)state;
+    Bed b;
+    open_bed(&b, "hash", 0);
+    for (int64_t step = 0; step < STEPS; step += 37) {
+        OzSnapshot now = state_at(&b.rig, b.sim, step);
+        oz_snapshot_free(&now);
+    }
+    check_bed(&b);
+}
+
+static int open_all(void **state)
+{
+    if (open_rig_device(state) != 0) {
+        return -1;
+    }
+    open_bed(&by_all_pairs, "all_pairs", 0);
+    run_bed(&by_all_pairs);
+    return 0;
+}
+
+static int close_all(void **state)
+{
+    close_bed(&by_all_pairs);
+    return close_rig_device(state);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_twice),           cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_sort_axis),       cmocka_unit_test(test_other_skins),
+        cmocka_unit_test(test_full_lists_grow), cmocka_unit_test(test_many_launches),
+    };
+    return cmocka_run_group_tests(tests, open_all, close_all);
+}
