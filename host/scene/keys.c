@@ -92,6 +92,14 @@ enum {
                                   .inherits = "contact." #name, .help = help_ " (this wall)"       \
     }
 
+/* A choice that the kernels make once for all bodies. */
+#define WALL_SHARED(name, choices_)                                                                \
+    {                                                                                              \
+        "walls[].contact." #name, CHOICE(choices_), WALL(contact.name),                            \
+                                  .inherits = "contact." #name, .shared = true,                    \
+                                  .help = "the whole scene's"                                      \
+    }
+
 /* Arguments with commas in them. */
 #define CONTACT_TIME  NUMBER(1e-12, 100, "s")
 #define MODULUS       NUMBER(1, 1e18, "Pa")
@@ -216,7 +224,7 @@ static const OzKey KEYS[] = {
     {"walls[].motion.amplitude", NUMBER(0, 1e6, "m"), WALL(motion.written_amplitude),
      .reload = APPLY, .rival = "acceleration_ratio", .write = OZ_WRITE_NONZERO,
      .help = "greatest offset"},
-    WALL_CONTACT(law, REBUILD, CHOICE(LAWS), "normal force from overlap"),
+    WALL_SHARED(law, LAWS),
     WALL_CONTACT(contact_time, APPLY, CONTACT_TIME, "duration of a free hit"),
     WALL_CONTACT(restitution, APPLY, FRACTION, "speed after over speed before"),
     WALL_CONTACT(youngs_modulus, APPLY, MODULUS, "of the wall's material"),
@@ -227,13 +235,13 @@ static const OzKey KEYS[] = {
     WALL_CONTACT(friction, APPLY, COEFFICIENT, "Coulomb's coefficient"),
     WALL_CONTACT(tangential_stiffness, APPLY, RATIO, "tangential over normal stiffness"),
     WALL_CONTACT(tangential_damping, APPLY, RATIO, "tangential over normal damping"),
-    WALL_CONTACT(slip, REBUILD, CHOICE(SLIPS), "what sliding does to the spring"),
-    WALL_CONTACT(attraction, REBUILD, CHOICE(ATTRACTIONS), "whether damping may pull"),
-    WALL_CONTACT(damping, REBUILD, CHOICE(DAMPINGS), "how damping begins"),
-    WALL_CONTACT(parallel, REBUILD, CHOICE(PARALLELS), "how nearly parallel shafts touch"),
-    WALL_CONTACT(contact_point, REBUILD, CHOICE(CONTACT_POINTS), "where forces act"),
-    WALL_CONTACT(restitution_at, REBUILD, CHOICE(RESTITUTIONS_AT), "which hits it holds for"),
-    WALL_CONTACT(restitution_calibration, REBUILD, CHOICE(CALIBRATIONS), "for the step's errors"),
+    WALL_SHARED(slip, SLIPS),
+    WALL_SHARED(attraction, ATTRACTIONS),
+    WALL_SHARED(damping, DAMPINGS),
+    WALL_SHARED(parallel, PARALLELS),
+    WALL_SHARED(contact_point, CONTACT_POINTS),
+    WALL_SHARED(restitution_at, RESTITUTIONS_AT),
+    WALL_SHARED(restitution_calibration, CALIBRATIONS),
 
     {"settle", OF(SECTION), AT(settle.present), .fallback_help = "no settling",
      .help = "rest before time 0"},
@@ -360,7 +368,7 @@ static void print_default(const OzKey *key, FILE *file)
     } else if (key->fallback || key->fallback_help) {
         fprintf(file, "default %s", key->fallback ? key->fallback : key->fallback_help);
     } else if (key->inherits) {
-        fprintf(file, "default: %s", key->inherits);
+        fprintf(file, "%s: %s", key->shared ? "always" : "default", key->inherits);
     } else {
         fprintf(file, "optional%s%s", key->rival ? ", in place of " : "",
                 key->rival ? key->rival : "");

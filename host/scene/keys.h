@@ -55,6 +55,7 @@ typedef struct OzKey {
     unsigned laws;        /* bit i: belongs to the contact law i; 0: to all          */
     const char *rival;    /* the neighbouring key that says the same otherwise       */
     const char *inherits; /* the key whose value it takes when not written           */
+    bool shared;          /* it always takes that: refused where written             */
     OzKeyWrite write;
 } OzKey;
 

@@ -128,6 +128,14 @@ static void report_foreign_kind(const Reader *reader, const OzKey *key, const Oz
                   owners);
 }
 
+static void report_shared(const Reader *reader, const OzKey *key, const OzNode *node)
+{
+    char path[LONGEST_PATH];
+    oz_tree_path(node, false, path, sizeof path);
+    oz_faults_add(reader->faults, node->source, node->line,
+                  "%s is one for the whole scene; expected it at %s", path, key->inherits);
+}
+
 /* Of two rivals the one written later gets the fault. */
 static void check_rival(const Reader *reader, const OzKey *key, const OzNode *node)
 {
@@ -177,6 +185,10 @@ static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, c
 {
     if (key->kinds && place->kind && !(key->kinds & place->kind)) {
         report_foreign_kind(reader, key, node, place);
+        return OZ_OK;
+    }
+    if (key->shared) {
+        report_shared(reader, key, node);
         return OZ_OK;
     }
     check_rival(reader, key, node);
