@@ -46,6 +46,21 @@ OZ_INLINE OzVec3 oz_body_rate(OzVec3 spin, OzVec3 u, OzShape shape)
     return OZ_GYROSCOPIC ? oz_body_inverse_inertia(spin, u, shape) : spin;
 }
 
+/* How far an end of the shaft goes in dt, squared, m^2: the centre's way and the turn's as if across each
+ * other, and all the spin across the shaft. */
+OZ_INLINE real oz_body_step2(OzBody body, OzShape shape, real dt)
+{
+    real turn2 = oz_dot(body.spin, body.spin) * (shape.half_length * shape.half_length);
+    if (OZ_GYROSCOPIC) {
+        turn2 = turn2 * shape.inverse_inertia * shape.inverse_inertia;
+    }
+    return (oz_dot(body.velocity, body.velocity) + turn2) * dt * dt;
+}
+
+/* The share of its radius that an end may go in a step. Two grains that meet then come no deeper than a
+ * radius before their contact is seen, which the guard of overlaps catches, and none passes through a wall. */
+#define OZ_BODY_STEP_SHARE 0.5
+
 /* spin after a torque has acted for dt. */
 OZ_INLINE OzVec3 oz_body_kick_spin(OzVec3 spin, OzVec3 torque, OzVec3 u, OzShape shape, real dt)
 {

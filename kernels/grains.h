@@ -251,7 +251,7 @@ OZ_INLINE mask oz_grains_present(const OzWork *w, int block)
     return OZ_LANES_LOAD(number) > REAL(0.5);
 }
 
-/* NaN, flight out of the domain, a step longer than the radius. */
+/* NaN, flight out of the domain, a step too long for the radius. */
 OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape, int step)
 {
     global const OzParameters *p = w->parameters;
@@ -259,9 +259,10 @@ OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape,
     real far = oz_larger(oz_larger(oz_magnitude(oz_place_to_real(body.place.x)),
                                    oz_magnitude(oz_place_to_real(body.place.y))),
                          oz_magnitude(oz_place_to_real(body.place.z)));
-    real step2 = speed2 * (p->dt * p->dt);
+    real allowed = REAL(OZ_BODY_STEP_SHARE) * shape.radius;
+    real step2 = oz_body_step2(body, shape, REAL(p->dt));
     mask sound = (speed2 + spin2 < REAL(1e30)) & (far < REAL(p->domain)) &
-                 (step2 < shape.radius * shape.radius);
+                 (step2 < allowed * allowed);
     mask wrong = sound ? (mask)(0) : (mask)(-1);
     if (OZ_ANY(wrong)) {
         int slots[OZ_LANES];
@@ -272,7 +273,7 @@ OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape,
         mask nan = number ? (mask)(0) : (mask)(-1);
         oz_work_stop_lanes(w, nan, OZ_STOP_NAN, step, slots);
         oz_work_stop_lanes(w, number & (far >= REAL(p->domain)), OZ_STOP_ESCAPED, step, slots);
-        oz_work_stop_lanes(w, number & (step2 >= shape.radius * shape.radius), OZ_STOP_FAST, step,
+        oz_work_stop_lanes(w, number & (step2 >= allowed * allowed), OZ_STOP_FAST, step,
                            slots);
     }
 }

@@ -258,7 +258,7 @@ static void test_guards_name_grain_step_and_time(void **state)
     expect_guard(&rig, "not a number");
     open_guarded(&rig);
     rig.grains.velocity[3 * 3 + 1] = 60;
-    expect_guard(&rig, "more than its radius in one step");
+    expect_guard(&rig, "more than half its radius in one step");
     open_guarded(&rig);
     rig.grains.position[3 * 3 + 2] = -0.05;
     expect_guard(&rig, "left its container");

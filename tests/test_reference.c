@@ -253,7 +253,7 @@ static void test_guards_name_the_grain(void **state)
     must_blow_up(&rig, "grain 0 is through a wall");
     open_lone(&rig, ", velocity: [0, 0, -60]", "");
     rig_start(&rig);
-    must_blow_up(&rig, "grain 0 moves farther than its radius");
+    must_blow_up(&rig, "grain 0 moves an end farther than half its radius");
     open_lone(&rig, ", velocity: [0, 0, -10]", other);
     rig_start(&rig);
     must_blow_up(&rig, "grain 0 overlaps grain 1 by more than the smaller radius");

@@ -101,7 +101,6 @@ static OzStatus read_ledger(OzSim *sim, int member, const OzTouch *touch, OzLedg
     for (int k = 0; k < sim->arrays.sizes.regions * OZ_LEDGER_WORDS; k++) {
         sum[k % OZ_LEDGER_WORDS] += words[k];
     }
-    ledger->elastic = touch->elastic;
     ledger->dissipated = sum[OZ_L_DISSIPATED];
     ledger->friction = sum[OZ_L_SPRING] - touch->tangential + sim->spring_start[member];
     ledger->work_walls = sum[OZ_L_WALLS];
@@ -117,6 +116,7 @@ static OzStatus read_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
     OZ_TRY(touch_all(sim, member, snapshot, &touch));
     snapshot->has_contacts = true;
     snapshot->contacts = touch.contacts;
+    snapshot->ledger.elastic = touch.elastic;
     if (sim->arrays.switches.ledger) {
         OZ_TRY(read_ledger(sim, member, &touch, &snapshot->ledger));
         snapshot->has_ledger = true;

@@ -302,8 +302,9 @@ static OzStatus check_bodies(const OzReference *r, double dt)
         if (!(far < r->physics.parameters.domain)) {
             return blowup(r, i, "has escaped");
         }
-        if (!(speed2 * dt * dt < r->shape[i].radius * r->shape[i].radius)) {
-            return blowup(r, i, "moves farther than its radius");
+        double allowed = OZ_BODY_STEP_SHARE * r->shape[i].radius;
+        if (!(oz_body_step2(*b, r->shape[i], dt) < allowed * allowed)) {
+            return blowup(r, i, "moves an end farther than half its radius");
         }
     }
     return OZ_OK;

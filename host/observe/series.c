@@ -3,6 +3,7 @@
 #include "observe/series.h"
 
 #include "base/memory.h"
+#include "observe/surplus.h"
 
 #include <errno.h>
 #include <math.h>
@@ -24,6 +25,7 @@ struct OzSeries {
     Ring density, angle;
     bool has_start;
     double energy_start; /* J, of the first row */
+    OzSurplus surplus;
 };
 
 const OzColumn *oz_series_columns(void)
@@ -157,7 +159,8 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
         series->has_start = true;
         series->energy_start = oz_observables_energy(snapshot);
     }
-    return end_row(series);
+    OzStatus status = end_row(series);
+    return status == OZ_OK ? oz_surplus_check(&series->surplus, snapshot) : status;
 }
 
 OzStatus oz_series_free(OzSeries *series)

@@ -1,0 +1,22 @@
+/* A guard against energy from nowhere: what grains and springs hold may shrink, and grow by what
+ * walls put in, by nothing else. Sees the rows that are written anyway, so it costs one sum over
+ * the grains a row. */
+#ifndef OZ_OBSERVE_SURPLUS_H
+#define OZ_OBSERVE_SURPLUS_H
+
+#include "observe/snapshot.h"
+
+/* Zeroed is valid: nothing seen yet. */
+typedef struct OzSurplus {
+    bool has_start;
+    double start; /* J, mechanical energy at first sight, work of the walls subtracted */
+    double scale; /* J, the gain that is too much                                      */
+} OzSurplus;
+
+/* Fails with OZ_ERR_BLOWUP, naming step and time, when the mechanical energy has grown by more than
+ * the grains and springs held at first sight, and m g d of every grain: integrators that gain a
+ * little are left alone, a bed that heats up is not. Silent for snapshots without contacts (their
+ * springs are unknown), and where walls move without a ledger of their work. */
+OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot);
+
+#endif
