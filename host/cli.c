@@ -1,6 +1,7 @@
 /* Reading the command line. */
 #include "cli.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@ static const struct {
     const char *name, *arguments, *takes, *help;
     int least_paths, most_paths;
 } command_rows[] = {
-    {"run", "SCENE", "oOsdtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1},
+    {"run", "SCENE", "oOsedtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1},
     {"check", "SCENE", "sdtpS", "validate; what follows from the scene, what is stable, what is left out",
      1, 1},
     {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o", 1,
@@ -19,7 +20,7 @@ static const struct {
     {"keys", "", "c", "every scene key: type, unit, range, default, meaning", 0, 0},
     {"bench", "[SCENE]...", "oQFzbysdtS", "speed on this machine: an6 and a ladder of beds, or scenes", 0,
      OZ_CLI_PATHS_MAX},
-    {"report", "SCENE...", "oQTfsdtS", "what accuracy costs: error against run time", 1,
+    {"report", "[SCENE]...", "oQTXfsdtS", "what accuracy costs: error against run time", 0,
      OZ_CLI_PATHS_MAX},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
 };
@@ -32,6 +33,7 @@ static const struct {
     {'o', "-o", "DIR", "folder to write (default runs/<scene name>; of bench: bench, of report: report)"},
     {'O', "--overwrite", NULL, "replace a finished run there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
+    {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all"},
     {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},
     {'t', "--threads", "N", "threads of a CPU device"},
     {'p', "--precision", "float|double", "the same as --set precision=..."},
@@ -46,6 +48,7 @@ static const struct {
     {'b', "--budget", "S", "seconds that all timed pieces together shall take"},
     {'y', "--yardstick", "PROGRAM", "the scalar yardstick (default: found beside orzo)"},
     {'T', "--tolerance", "X", "error to be met; prints the cheapest setting, ready to paste"},
+    {'X', "--extreme", NULL, "stiff and extreme cases instead: expected, got, verdict"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -130,6 +133,24 @@ static OzStatus parse_threads(OzOptions *options, const char *value)
     return OZ_OK;
 }
 
+static OzStatus parse_seeds(OzOptions *options, const char *value)
+{
+    unsigned long long first = 0, last = 0;
+    int used = 0;
+    bool good = isdigit((unsigned char)value[0]) && strlen(value) < 40 &&
+                sscanf(value, "%llu..%n", &first, &used) == 1 && used > 0 &&
+                isdigit((unsigned char)value[used]);
+    int rest = used;
+    good = good && sscanf(value + rest, "%llu%n", &last, &used) == 1 && !value[rest + used];
+    if (!good || last < first || last - first >= OZ_CLI_SEEDS_MAX || last > INT64_MAX) {
+        return wrong(value, "--seeds A..B, as in 1..20, at most 100000 of them");
+    }
+    options->has_seeds = true;
+    options->seed_first = first;
+    options->seed_last = last;
+    return OZ_OK;
+}
+
 static OzStatus parse_until(OzOptions *options, const char *value)
 {
     char *end = NULL;
@@ -201,6 +222,8 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return parse_precision(options, value);
     case 'g':
         return parse_gl(options, value);
+    case 'e':
+        return parse_seeds(options, value);
     case 'u':
         return parse_until(options, value);
     case 'S':
@@ -218,6 +241,7 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return OZ_OK;
     default:
         options->quick |= letter == 'Q';
+        options->extreme |= letter == 'X';
         options->features |= letter == 'F';
         options->overwrite |= letter == 'O';
         options->no_video |= letter == 'n';

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { OZ_CLI_SETTINGS_MAX = 128, OZ_CLI_PATHS_MAX = 64 };
+enum { OZ_CLI_SETTINGS_MAX = 128, OZ_CLI_PATHS_MAX = 64, OZ_CLI_SEEDS_MAX = 100000 };
 
 typedef struct OzOptions {
     const char *command;
@@ -21,11 +21,14 @@ typedef struct OzOptions {
     int threads;                          /* --threads; 0: the driver's choice */
     OzGlBackend gl;                       /* --gl                             */
     double until;                         /* --until, s; negative: not given   */
+    bool has_seeds;                       /* --seeds                          */
+    uint64_t seed_first, seed_last;
     bool overwrite, no_video, force, columns, help;
     const char *source_dir;               /* --source-dir                     */
     bool features, quick;                 /* bench                            */
     double budget;                        /* --budget, s; 0: not given        */
     double tolerance;                     /* --tolerance of report; 0: not given */
+    bool extreme;                         /* report                           */
     const char *sizes;                    /* --sizes, as written              */
     const char *yardstick;                /* --yardstick                      */
 } OzOptions;

@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "scene/keys.h"
+#include "study/report_extreme.h"
 #include "study/report_plot.h"
 #include "study/report_table.h"
 
@@ -117,6 +118,7 @@ static OzStatus study_scene(Report *report, const char *path)
     oz_report_table_front(report->points + first, report->count - first);
     oz_report_table_say(stdout, report->points + first, report->count - first, tolerance,
                         options->tolerance > 0);
+    fflush(stdout);
     OZ_TRY(oz_report_plot_draw(report->folder, report->device.name, report->points + first,
                                report->count - first));
 done:
@@ -150,7 +152,14 @@ OzStatus oz_report_run(const OzOptions *options)
     OzStatus status = OZ_OK;
     Report report = {.options = options};
     OZ_TRY(oz_memory_text(&report.folder, options->out ? options->out : folder_default));
-    OZ_TRY(study_scenes(&report));
+    if (options->extreme) {
+        OZ_TRY(oz_report_extreme_run(options));
+    } else if (options->path_count == 0) {
+        OZ_TRY(
+            oz_status_fail(OZ_ERR_INPUT, "orzo report: no scene; expected SCENE... or --extreme"));
+    } else {
+        OZ_TRY(study_scenes(&report));
+    }
 done:
     oz_device_close(&report.device);
     free(report.points);

@@ -102,12 +102,14 @@ static double value_apex(const OzSnapshot *end)
            0.5 * speed * speed / end->scene->gravity[2];
 }
 
-static double energy(const OzSnapshot *now, const double *position, const double *axis,
+static double energy(const OzSnapshot *now, const double *position, const double *quaternion,
                      const double *velocity, const double *spin)
 {
     const OzGrains *g = now->grains;
-    double sum = 0;
-    for (int64_t i = 0; i < now->count; i++, position += 3, axis += 3, velocity += 3, spin += 3) {
+    double sum = 0, axis[3];
+    for (int64_t i = 0; i < now->count;
+         i++, position += 3, quaternion += 4, velocity += 3, spin += 3) {
+        oz_grains_axis(quaternion, axis);
         double about = dot(spin, axis);
         sum += 0.5 * g->mass[i] * dot(velocity, velocity) + 0.5 * g->inertia[i] * dot(spin, spin) +
                0.5 * (g->inertia_axis[i] - g->inertia[i]) * about * about -
@@ -118,15 +120,19 @@ static double energy(const OzSnapshot *now, const double *position, const double
 
 double oz_report_cases_energy(const OzSnapshot *now)
 {
-    return energy(now, now->position, now->axis, now->velocity, now->spin);
+    return energy(now, now->position, now->quaternion, now->velocity, now->spin);
 }
 
-/* What the ledger cannot account for, as a share of the energy at the start, at which nothing
- * spins. */
+double oz_report_cases_energy_start(const OzSnapshot *now)
+{
+    const OzGrains *g = now->grains;
+    return energy(now, g->position, g->quaternion, g->velocity, g->spin);
+}
+
+/* What the ledger cannot account for, as a share of the energy at the start. */
 static double value_residual(const OzSnapshot *end)
 {
-    double start = energy(end, end->grains->position, end->grains->spin, end->grains->velocity,
-                          end->grains->spin);
+    double start = oz_report_cases_energy_start(end);
     double now = oz_report_cases_energy(end) + end->ledger.elastic + end->ledger.dissipated +
                  end->ledger.friction - end->ledger.work_walls;
     return end->has_ledger ? (now - start) / start : NAN;
@@ -139,9 +145,9 @@ static const OzReportCase rows[] = {
     {"rolling_sphere", "way until it rolls", "", false, value_way, NULL},
     {"rolling_rod", "way until it rolls", "", false, value_way, NULL},
     {"free_rotation", "direction of the shaft", "rad", false, value_axis, exact_nothing},
-    {"rest", "overlap at rest", "", true, value_overlap, exact_overlap},
+    {"rest", "overlap at rest", "", false, value_overlap, exact_overlap},
     {"bounce", "height of the third bounce", "", true, value_apex, NULL},
-    {"ten_rods", "energy", "of the energy", true, value_residual, exact_nothing},
+    {"ten_rods", "energy", "of the energy", false, value_residual, exact_nothing},
     {NULL, NULL, NULL, false, NULL, NULL},
 };
 

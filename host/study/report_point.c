@@ -8,14 +8,20 @@
 #include "compute/reference.h"
 #include "compute/sim.h"
 #include "model/place.h"
-#include "model/predict.h"
 #include "scene/keys.h"
+#include "study/report_refuse.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { OWN_SETTINGS = 3, SETTING_SIZE = 64, REPEATS_MOST = 64, PHASES_MOST = 256 };
+enum {
+    OWN_SETTINGS = 3,
+    SETTING_SIZE = 64,
+    REPEATS_MOST = 64,
+    PHASES_MOST = 256,
+    COPIES = 4 /* of a scene without phases, all alike: for its time */
+};
 
 /* The seed of the phases; any will do, as each phase has a stratum of its own. */
 #define PHASE_SEED 20
@@ -83,7 +89,8 @@ static OzStatus open_runs(Runs *runs, const OzReportJob *job, const OzReportPoin
     OzStatus status = OZ_OK;
     double contact_time = 0;
     OzRandom random = oz_random_stream(PHASE_SEED, 0);
-    int phases = job->phases < PHASES_MOST ? job->phases : PHASES_MOST;
+    int phases = job->row->phases ? job->phases : COPIES;
+    phases = phases < PHASES_MOST ? phases : PHASES_MOST;
     OZ_TRY(find_contact_time(&contact_time, job));
     OZ_TRY(load(&runs->scene, job, point, contact_time));
     runs->steps = llround(runs->scene.duration / runs->scene.step);
@@ -129,26 +136,6 @@ done:
         close_runs(runs);
     }
     free(runs);
-    return status;
-}
-
-/* Whether orzo would run it; otherwise the point says why not. */
-static OzStatus is_stable(bool *stable, OzReportPoint *point, const Runs *runs)
-{
-    OzPrediction *rows = NULL;
-    int count = 0;
-    OzStatus status = oz_predict_scene(&rows, &count, &runs->scene, &runs->starts[0]);
-    *stable = true;
-    for (int i = 0; status == OZ_OK && i < count && *stable; i++) {
-        bool touched = rows[i].wall >= 0 || runs->starts[0].count > 1;
-        if (touched && !rows[i].stable) {
-            *stable = false;
-            snprintf(point->reason, sizeof point->reason,
-                     "unstable: the largest stable step is %.4g s, %.4g of this one",
-                     rows[i].largest_step, rows[i].margin);
-        }
-    }
-    free(rows);
     return status;
 }
 
@@ -215,10 +202,10 @@ done:
     return status;
 }
 
-/* A blow-up is an outcome. Anything else that is not finite is one, too. */
+/* A refusal or a blow-up is an outcome. Anything else that is not finite is one, too. */
 static OzStatus judge(OzReportPoint *point, OzStatus status)
 {
-    if (status == OZ_ERR_BLOWUP) {
+    if (status == OZ_ERR_BLOWUP || status == OZ_ERR_INPUT) {
         snprintf(point->reason, sizeof point->reason, "%.*s", (int)sizeof point->reason - 1,
                  oz_status_text());
         return OZ_OK;
@@ -234,17 +221,16 @@ OzStatus oz_report_point_measure(OzReportPoint *point, const OzReportJob *job)
 {
     OzStatus status = OZ_OK;
     Runs *runs = NULL;
-    bool stable = true;
     OZ_TRY(OZ_NEW(&runs, 1));
     OZ_TRY(open_runs(runs, job, point));
     point->row = job->row;
     point->step = runs->scene.step;
     point->evaluations = 1 / runs->scene.step;
     snprintf(point->scene, sizeof point->scene, "%s", runs->scene.name);
-    OZ_TRY(is_stable(&stable, point, runs));
-    if (stable || job->options->force) {
-        status = judge(point, run_all(point, job, runs));
+    if (!job->options->force) {
+        status = oz_report_refuse_unstable(&runs->scene, &runs->starts[0]);
     }
+    status = judge(point, status == OZ_OK ? run_all(point, job, runs) : status);
 done:
     if (runs) {
         close_runs(runs);

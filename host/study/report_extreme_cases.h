@@ -1,0 +1,29 @@
+/* THE list of stiff and extreme cases. A new case is a row; the table and the test walk the rows.
+ */
+#ifndef OZ_STUDY_REPORT_EXTREME_CASES_H
+#define OZ_STUDY_REPORT_EXTREME_CASES_H
+
+#include "observe/snapshot.h"
+
+enum { OZ_EXTREME_SETTINGS_MAX = 6 };
+
+typedef struct OzExtremeCase {
+    const char *name;
+    const char *grains; /* YAML: the list of populations                              */
+    const char *walls;  /* YAML: the list of walls; NULL: one plane, z = 0             */
+    const char *settings[OZ_EXTREME_SETTINGS_MAX]; /* on top of the common scene            */
+    const char *brief;    /* setting that shortens it, or NULL                           */
+    const char *measured; /* what the value is; NULL: the case must be refused           */
+    double (*value)(const OzSnapshot *end);
+    double low, high;  /* the value, both allowed                                     */
+    double float_high; /* in float, where its rounding shows; 0: high */
+} OzExtremeCase;
+
+/* The rows, ending with one whose name is NULL. */
+const OzExtremeCase *oz_report_extreme_cases_all(void);
+
+/* The keys that all cases share, as YAML without grains and walls: rods of diameter 5 mm are meant,
+ * contact time 1 ms, 50 steps per contact, restitution 0.5, friction 0.3, no gravity. */
+const char *oz_report_extreme_cases_common(void);
+
+#endif

@@ -1,0 +1,172 @@
+/* The work-precision study: exact answers, the sentence for a tolerance, the Pareto front, orders.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "study/report_point.h"
+#include "study/report_table.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static OzDevice device;
+static const OzOptions no_options;
+
+static int open_device(void **state)
+{
+    (void)state;
+    return oz_device_open(&device, NULL, 0) == OZ_OK ? 0 : -1;
+}
+
+static int close_device(void **state)
+{
+    (void)state;
+    oz_device_close(&device);
+    return 0;
+}
+
+static OzReportJob job_of(const char *scene, char path[static 512])
+{
+    snprintf(path, 512, "%s/report/%s.yaml", ORZO_SCENES, scene);
+    const OzReportCase *row = oz_report_cases_find(scene);
+    assert_non_null(row);
+    return (OzReportJob){&no_options, &device, path, row, 4, 1};
+}
+
+static double truth_of(const char *scene)
+{
+    char path[512];
+    double truth = NAN;
+    OzReportJob job = job_of(scene, path);
+    assert_int_equal(OZ_OK, oz_report_point_truth(&truth, &job));
+    return truth;
+}
+
+static OzReportPoint measured(const char *scene, OzIntegrator integrator, int steps)
+{
+    char path[512];
+    OzReportJob job = job_of(scene, path);
+    OzReportPoint point = {.integrator = integrator,
+                           .precision = OZ_PRECISION_DOUBLE,
+                           .steps = steps,
+                           .truth = truth_of(scene)};
+    assert_int_equal(OZ_OK, oz_report_point_measure(&point, &job));
+    return point;
+}
+
+static void test_every_case_has_its_scene(void **state)
+{
+    (void)state;
+    for (const OzReportCase *row = oz_report_cases_all(); row->scene; row++) {
+        char path[512];
+        OzScene scene = {0};
+        snprintf(path, sizeof path, "%s/report/%s.yaml", ORZO_SCENES, row->scene);
+        assert_int_equal(OZ_OK, oz_scene_load(&scene, path, NULL, 0));
+        /* a whole number of contact times: every rung of the ladder then ends at the same time */
+        double contacts = scene.duration / scene.contact.contact_time;
+        assert_true(fabs(contacts - round(contacts)) < 1e-9);
+        oz_scene_free(&scene);
+    }
+}
+
+/* A rigid sphere has gone 12/49 v^2/(mu g) when it rolls, at 2 v/(7 mu g), and then goes on with
+ * 5/7 v. The spring along the plane yields by mu m g / k_t at most, 1e-6 m of 2.3e-3 m. */
+static void test_reference_meets_the_rigid_sphere(void **state)
+{
+    (void)state;
+    double v = 0.1, deceleration = 0.3 * 9.81, rolls = 2 * v / (7 * deceleration);
+    double way = 12.0 / 49 * v * v / deceleration + 5.0 / 7 * v * (0.03 - rolls);
+    assert_true(fabs(truth_of("rolling_sphere") / way - 1) < 1e-3);
+}
+
+/* Gravity acts during hits of 1/60 of a flight, and shortens the third flight by so much at most.
+ */
+static void test_reference_meets_the_bouncing_sphere(void **state)
+{
+    (void)state;
+    assert_true(fabs(truth_of("bounce") / (1e-3 * pow(0.8, 6)) - 1) < 0.1);
+}
+
+/* velocity-verlet is of second order: between 20 and 80 steps its error falls 16 times, but for the
+ * edges of the phases. */
+static void test_error_falls_with_the_step(void **state)
+{
+    (void)state;
+    OzReportPoint coarse = measured("normal_hit", OZ_INTEGRATOR_VELOCITY_VERLET, 20);
+    OzReportPoint fine = measured("normal_hit", OZ_INTEGRATOR_VELOCITY_VERLET, 80);
+    assert_true(coarse.good && fine.good);
+    assert_true(coarse.error_rms > 8 * fine.error_rms);
+    assert_true(fine.error_rms > 1e-5 && fine.error_rms < 0.01);
+    assert_true(fine.wall > 0 && fine.wall_low <= fine.wall && fine.wall <= fine.wall_high);
+}
+
+static void test_unstable_settings_say_why(void **state)
+{
+    (void)state;
+    OzReportPoint point = measured("bounce", OZ_INTEGRATOR_EULER, 10);
+    assert_false(point.good);
+    assert_non_null(strstr(point.reason, "largest stable step"));
+}
+
+static OzReportPoint made_up(int steps, double wall, double error)
+{
+    return (OzReportPoint){.scene = "made_up",
+                           .row = oz_report_cases_find("normal_hit"),
+                           .steps = steps,
+                           .step = 1e-3 / steps,
+                           .error_rms = error,
+                           .error_max = error,
+                           .wall = wall,
+                           .good = true};
+}
+
+static void test_front_cheapest_and_order(void **state)
+{
+    (void)state;
+    OzReportPoint points[] = {made_up(10, 1, 0.1), made_up(20, 2, 0.025), made_up(40, 4, 0.00625),
+                              made_up(30, 3, 0.05), made_up(80, 0.1, 1e-9)};
+    points[3].integrator = OZ_INTEGRATOR_VELOCITY_VERLET;
+    points[4].integrator = OZ_INTEGRATOR_VELOCITY_VERLET;
+    points[4].good = false; /* would beat them all */
+    oz_report_table_front(points, 5);
+    assert_true(points[0].front && points[1].front && points[2].front);
+    assert_false(points[3].front || points[4].front);
+    assert_int_equal(20, oz_report_table_cheapest(points, 5, 0.03)->steps);
+    assert_null(oz_report_table_cheapest(points, 5, 1e-3));
+    assert_true(fabs(oz_report_table_order(points, 5, &points[0]) - 2) < 1e-9);
+}
+
+static void test_sentence_and_setting(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size = 0;
+    OzReportPoint point = made_up(20, 2, 0.025);
+    FILE *file = open_memstream(&text, &size);
+    assert_non_null(file);
+    oz_report_table_say(file, &point, 1, 0.03, true);
+    fclose(file);
+    assert_non_null(strstr(text, "for an error of 3 % in restitution use euler, float"));
+    assert_non_null(strstr(text, "time:\n  step: 5e-05\nintegrator: euler\nprecision: float\n"));
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_case_has_its_scene),
+        cmocka_unit_test(test_reference_meets_the_rigid_sphere),
+        cmocka_unit_test(test_reference_meets_the_bouncing_sphere),
+        cmocka_unit_test(test_error_falls_with_the_step),
+        cmocka_unit_test(test_unstable_settings_say_why),
+        cmocka_unit_test(test_front_cheapest_and_order),
+        cmocka_unit_test(test_sentence_and_setting),
+    };
+    return cmocka_run_group_tests(tests, open_device, close_device);
+}
