@@ -8,6 +8,7 @@
 #include "compute/settle.h"
 #include "compute/sim.h"
 #include "draw/gallery.h"
+#include "leftovers.h"
 #include "model/place.h"
 #include "model/predict.h"
 #include "observe/final.h"
@@ -19,6 +20,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Everything one run owns. Zeroed is valid: what was not opened is not closed. */
 typedef struct Run {
@@ -37,12 +39,16 @@ typedef struct Run {
     double started, first_step; /* wall clock */
 } Run;
 
-static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t interrupted, writing;
 
+/* While kernels are built nothing has been written yet, and nobody wants to wait for them. */
 static void note_signal(int number)
 {
     (void)number;
     interrupted = 1;
+    if (!writing) {
+        _exit(130);
+    }
 }
 
 static void watch_signals(void)
@@ -74,7 +80,7 @@ static OzStatus choose_folder(Run *run)
                                 run->folder);
         goto done;
     }
-    remove(final);
+    OZ_TRY(oz_leftovers_remove(run->folder));
     OZ_TRY(oz_file_make_folder(run->folder));
 done:
     free(final);
@@ -129,6 +135,7 @@ static OzStatus open_outputs(Run *run)
     OzStatus status = OZ_OK;
     char *series = NULL, *frames = NULL;
     bool pictures = run->scene.movie.present || run->scene.snapshots.count > 0;
+    writing = 1;
     OZ_TRY(write_scene(run));
     OZ_TRY(in_folder(run, "series.csv", &series));
     OZ_TRY(oz_series_create(&run->series, series, &run->scene, &run->grains));

@@ -91,7 +91,9 @@ static OzStatus write_picture(OzGallery *gallery, const OzSnapshot *snapshot)
     char *folder = NULL, *path = NULL, name[64];
     double period = gallery->scene->period;
     if (period > 0) {
-        snprintf(name, sizeof name, "tap_%05.0f.png", round(snapshot->time / period));
+        double tap = snapshot->time / period, off = fabs(tap - round(tap)) * period;
+        bool whole = off < gallery->scene->step; /* taps are met to half a step */
+        snprintf(name, sizeof name, whole ? "tap_%05.0f.png" : "tap_%09.3f.png", tap);
     } else {
         snprintf(name, sizeof name, "time_%.6f.png", snapshot->time);
     }

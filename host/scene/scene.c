@@ -249,6 +249,11 @@ OzStatus oz_scene_load(OzScene *scene, const char *path, char *const *settings, 
     size_t length = 0;
     *scene = (OzScene){0};
     OzStatus status = oz_file_read(&text, &length, path);
+    if (status == OZ_ERR_FILE) {
+        char why[1024];
+        snprintf(why, sizeof why, "%s", oz_status_text());
+        status = oz_status_fail(OZ_ERR_INPUT, "%s; expected a scene file", why);
+    }
     if (status == OZ_OK) {
         status = load_text(scene, path, text, length, settings, setting_count);
     }

@@ -1,0 +1,316 @@
+/* `orzo run` and its companions as a user meets them: outputs, exit statuses, signals. One scene
+ * serves all, with few changes of what its kernels do. ORZO_NEEDS_DEVICE. */
+#include "program.h"
+
+#include <math.h>
+
+/* Taps of 1000 steps. */
+static const char bed[] = "model: rods\n"
+                          "time: {step: 2e-5, taps: 2}\n"
+                          "contact: {contact_time: 6e-4, restitution: 0.5}\n"
+                          "grains: [{kind: random, count: 30, diameter: 1e-3, aspect: 2}]\n"
+                          "walls:\n"
+                          "  - {kind: plane, motion: {frequency: 50, acceleration_ratio: 2}}\n"
+                          "  - {kind: cylinder, diameter: 8e-3}\n"
+                          "settle: {drag: 70, time_max: 0.02, rest_time: 0.01}\n"
+                          "observe: {interval_taps: 0.5}\n";
+static const char pictures[] = "movie: {size: [320, 240], fps: 10, length: 0.5}\n"
+                               "snapshots: {taps: [0, 1, 50]}\n";
+
+static const char header[] =
+    "step,time,tap,density,density_all,density_tap_mean,density_com,density_slab,angle,"
+    "angle_tap_mean,angle_layer1,angle_layer2,angle_layer3,angle_layer4,count_layer1,count_layer2,"
+    "count_layer3,count_layer4,nematic_s,contact_count,overlap_max,overlap_mean,speed_max,kinetic,"
+    "rotational";
+static const char ledger_header[] =
+    ",energy_potential,energy_elastic,energy_dissipated,energy_friction,work_walls,energy_residual";
+static const char final_header[] =
+    "id,x,y,z,qw,qx,qy,qz,ux,uy,uz,vx,vy,vz,wx,wy,wz,diameter,length,mass\n";
+
+/* Line `index` of a text, in a buffer that the next call uses again. */
+static const char *line_of(const char *text, int index)
+{
+    static char line[4096];
+    for (; index > 0 && text; index--) {
+        text = strchr(text, '\n');
+        text = text ? text + 1 : NULL;
+    }
+    snprintf(line, sizeof line, "%.*s", text ? (int)strcspn(text, "\n") : 0, text ? text : "");
+    return line;
+}
+
+static int make_bed(void **state)
+{
+    if (enter_work(state) != 0) {
+        return -1;
+    }
+    write_file("bed.yaml", "%s", bed);
+    write_file("shown.yaml", "%s%s", bed, pictures);
+    return orzo("run shown.yaml -o shown");
+}
+
+static void test_outputs(void **state)
+{
+    (void)state;
+    char *series = read_file("shown/series.csv", NULL),
+         *grains = read_file("shown/final.csv", NULL);
+    assert_string_equal(line_of(series, 0), header);
+    assert_int_equal(count_lines("shown/series.csv"), 6); /* names, taps 0, 0.5, 1, 1.5, 2 */
+    assert_true(strncmp(line_of(series, 1), "0,0,0,", 6) == 0);
+    assert_true(strncmp(line_of(series, 2), "500,0.01,0.5,", 13) == 0);
+    assert_true(strncmp(line_of(series, 5), "2000,0.04,2,", 12) == 0);
+    assert_true(strncmp(grains, final_header, strlen(final_header)) == 0);
+    assert_int_equal(count_lines("shown/final.csv"), 31);
+    for (int id = 0; id < 30; id++) {
+        assert_int_equal(atoi(line_of(grains, id + 1)), id);
+    }
+    assert_true(is_playable("shown/movie.mp4"));
+    assert_true(is_there("shown/frames.bin") && is_there("shown/log.txt"));
+    assert_true(is_there("shown/snapshots/tap_00000.png"));
+    assert_true(is_there("shown/snapshots/tap_00001.png"));
+    assert_false(is_there("shown/snapshots/tap_00050.png"));
+    free(series);
+    free(grains);
+}
+
+/* The scene as used gives the same run again. */
+static void test_scene_as_used(void **state)
+{
+    (void)state;
+    expect(0, "30 grains", "run shown/scene.yaml -o again --no-video");
+    assert_true(same_files("shown/final.csv", "again/final.csv"));
+    assert_true(same_files("shown/series.csv", "again/series.csv"));
+    assert_true(same_files("shown/frames.bin", "again/frames.bin"));
+    assert_false(is_there("again/movie.mp4") || is_there("again/snapshots"));
+}
+
+static void test_finished_runs_are_kept(void **state)
+{
+    (void)state;
+    expect(0, "30 grains", "run shown.yaml -o kept --until 0.02");
+    expect(2, "kept holds a finished run; expected another folder (-o) or --overwrite",
+           "run bed.yaml -o kept");
+    assert_true(is_playable("kept/movie.mp4"));
+    expect(0, "30 grains", "run bed.yaml -o kept --overwrite --until 0.01");
+    assert_int_equal(count_lines("kept/series.csv"), 3);
+    assert_false(is_there("kept/movie.mp4") || is_there("kept/snapshots"));
+    assert_false(is_there("kept/frames.bin"));
+}
+
+static void test_default_folder(void **state)
+{
+    (void)state;
+    expect(0, "30 grains", "run bed.yaml --until 0");
+    assert_int_equal(count_lines("runs/bed/series.csv"), 2);
+}
+
+static void test_threads_give_the_same_bits(void **state)
+{
+    (void)state;
+    expect(0, "30 grains", "run bed.yaml -o one --device cpu --threads 1");
+    expect(0, "30 grains", "run bed.yaml -o two --device cpu --threads 2");
+    assert_true(same_files("one/final.csv", "two/final.csv"));
+    assert_true(same_files("one/series.csv", "two/series.csv"));
+}
+
+/* Spins come back through angular momenta: two roundings. */
+static void assert_same_numbers(const char *one, const char *other)
+{
+    char *a = read_file(one, NULL), *b = read_file(other, NULL), *end;
+    const char *x = strchr(a, '\n') + 1, *y = strchr(b, '\n') + 1;
+    int count = 0;
+    for (; *x && *y; count++) {
+        double expected = strtod(x, &end);
+        x = end + (*end != '\0');
+        double got = strtod(y, &end);
+        y = end + (*end != '\0');
+        assert_true(fabs(got - expected) <= 1e-12 * fabs(expected) + 1e-15);
+    }
+    assert_int_equal(count, 30 * 20);
+    assert_true(*x == *y);
+    free(a);
+    free(b);
+}
+
+/* A run from a settled bed's file starts where that ended. */
+static void test_bed_from_a_file(void **state)
+{
+    (void)state;
+    expect(0, "30 grains", "run bed.yaml -o settled --precision double --until 0");
+    expect(0, "30 grains",
+           "run bed.yaml -o restarted --precision double --until 0 --set settle=false "
+           "--set 'grains=[{kind: file, path: settled/final.csv}]'");
+    assert_same_numbers("settled/final.csv", "restarted/final.csv");
+}
+
+static void test_settings(void **state)
+{
+    (void)state;
+    expect(0, "30 grains",
+           "run bed.yaml -o set --until 0.01 --set contact.friction=0 --set contact.friction=0.2 "
+           "--set observe.ledger=true --set walls.0.motion.acceleration_ratio=3");
+    char *series = read_file("set/series.csv", NULL);
+    assert_true(strncmp(line_of(series, 0), header, strlen(header)) == 0);
+    assert_string_equal(line_of(series, 0) + strlen(header), ledger_header);
+    assert_true(contains("set/scene.yaml", "friction: 0.2"));
+    assert_true(contains("set/scene.yaml", "acceleration_ratio: 3"));
+    free(series);
+    expect(2, "contact.friktion", "run bed.yaml -o bad --set contact.friktion=1");
+    assert_false(is_there("bad"));
+}
+
+static void test_draws_again(void **state)
+{
+    (void)state;
+    expect(0, "frames drawn into shown/draw", "draw shown");
+    assert_true(is_playable("shown/draw/movie.mp4"));
+    assert_true(is_there("shown/draw/snapshots/tap_00001.png"));
+    expect(0, "frames drawn into other",
+           "draw shown -o other --set movie.colour=speed --set 'movie.views=[lateral]'");
+    assert_true(is_playable("other/movie.mp4"));
+    assert_false(same_files("other/snapshots/tap_00001.png", "shown/draw/snapshots/tap_00001.png"));
+    expect(2, "nowhere/scene.yaml", "draw nowhere");
+}
+
+static void test_kernels_from_a_folder(void **state)
+{
+    (void)state;
+    expect(0, "30 grains", "run bed.yaml -o source --until 0 --source-dir '" ORZO_SOURCE "'");
+    expect(1, "nowhere/kernels", "run bed.yaml -o nosource --until 0 --source-dir nowhere");
+}
+
+static void test_other_commands(void **state)
+{
+    (void)state;
+    expect(0, "orzo run SCENE", "--help");
+    expect(0, "--overwrite", "run --help");
+    expect(0, "orzo ", "--version");
+    expect(0, "walls[].motion.acceleration_ratio", "keys");
+    expect(0, "steps since the settled bed", "keys --columns");
+    char *said = read_file("said", NULL), names[1024] = "";
+    for (int row = 0; line_of(said, row)[0]; row++) {
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%.*s", used ? "," : "",
+                 (int)strcspn(line_of(said, row), " "), line_of(said, row));
+    }
+    free(said);
+    assert_true(strncmp(names, header, strlen(header)) == 0);
+    assert_string_equal(names + strlen(header), ledger_header);
+    expect(0, "encoder", "devices");
+    expect(0, "left out", "check bed.yaml");
+}
+
+static void test_wrong_command_lines(void **state)
+{
+    (void)state;
+    expect(2, "no command", "");
+    expect(2, "expected", "walk bed.yaml");
+    expect(2, "expected", "run");
+    expect(2, "expected", "run bed.yaml --quick");
+    expect(2, "expected", "run bed.yaml --until soon");
+    expect(2, "expected", "run bed.yaml --set");
+    expect(2, "expected", "check bed.yaml --overwrite");
+    expect(2, "wrong_type.yaml:3: time.step is fast", "check '" ORZO_TESTS "/bad/wrong_type.yaml'");
+    expect(2, "nowhere.yaml", "run nowhere.yaml");
+    expect(2, "no OpenCL device answers to 'abacus'", "run bed.yaml -o abacus --device abacus");
+    expect(2, "is unstable", "run bed.yaml -o unstable --set time.step=1e-3");
+}
+
+/* A guard ends the run: exit status 1, and what was written so far is whole. */
+static void test_blowup(void **state)
+{
+    (void)state;
+    expect(0, "30 grains", "run bed.yaml -o calm --until 0");
+    char *calm = read_file("calm/final.csv", NULL), *row = strstr(calm, "\n7,");
+    write_file("fast.csv", "%.*s", (int)(row + 1 - calm), calm);
+    FILE *file = fopen("fast.csv", "a");
+    const char *rest = strchr(row + 1, '\n');
+    fprintf(file, "7,0,0,0.03,1,0,0,0,0,0,1,0,0,-12,0,0,0,1e-3,2e-3,%s",
+            strrchr(line_of(row + 1, 0), ',') + 1);
+    fputs(rest, file);
+    fclose(file);
+    free(calm);
+    expect(1, "grain 7: it overlaps another body",
+           "run shown.yaml -o blown --set settle=false "
+           "--set 'grains=[{kind: file, path: fast.csv}]'");
+    assert_true(contains("blown/log.txt", "stopped at step 1"));
+    assert_true(contains("blown/log.txt", "time 0.00"));
+    assert_true(count_lines("blown/series.csv") >= 2);
+    assert_true(is_playable("blown/movie.mp4"));
+    assert_false(is_there("blown/final.csv"));
+}
+
+/* Waits until a running program has written so many lines. */
+static void wait_for_lines(const char *name, int lines)
+{
+    double end = now_seconds() + 60;
+    while (!is_there(name) || count_lines(name) < lines) {
+        assert_true(now_seconds() < end);
+        sleep_a_little();
+    }
+}
+
+static void assert_interrupted(pid_t child, const char *folder)
+{
+    char path[256];
+    double start = now_seconds();
+    kill(child, SIGINT);
+    assert_int_equal(wait_for(child, 10), 130);
+    assert_true(now_seconds() - start < 1.5); /* a second, on a machine that has others to serve */
+    snprintf(path, sizeof path, "%s/final.csv", folder);
+    assert_int_equal(count_lines(path), 31);
+    snprintf(path, sizeof path, "%s/log.txt", folder);
+    assert_true(contains(path, "interrupted at step"));
+}
+
+static void test_interrupted(void **state)
+{
+    (void)state;
+    pid_t child = start_orzo("run shown.yaml -o cut --set time.taps=100000 --set movie.speed=0.1 "
+                             "--set snapshots.taps=[0]");
+    wait_for_lines("cut/series.csv", 10);
+    assert_interrupted(child, "cut");
+    assert_true(is_playable("cut/movie.mp4"));
+}
+
+/* Without movie and snapshots neither GL nor libav is opened. */
+static void test_maps_no_more_than_it_needs(void **state)
+{
+    (void)state;
+    static const char *const unneeded[] = {"libEGL",      "libOSMesa", "libGL",     "libavcodec",
+                                           "libavformat", "libavutil", "libswscale"};
+    char path[64];
+    pid_t child = start_orzo("run bed.yaml -o bare --set time.taps=100000");
+    wait_for_lines("bare/series.csv", 10);
+    snprintf(path, sizeof path, "/proc/%ld/maps", (long)child);
+    char *maps = read_file(path, NULL);
+    assert_non_null(strstr(maps, "libOpenCL"));
+    for (size_t i = 0; i < sizeof unneeded / sizeof *unneeded; i++) {
+        if (strstr(maps, unneeded[i])) {
+            fail_msg("%s is mapped", unneeded[i]);
+        }
+    }
+    free(maps);
+    assert_interrupted(child, "bare");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_outputs),
+        cmocka_unit_test(test_scene_as_used),
+        cmocka_unit_test(test_finished_runs_are_kept),
+        cmocka_unit_test(test_default_folder),
+        cmocka_unit_test(test_threads_give_the_same_bits),
+        cmocka_unit_test(test_bed_from_a_file),
+        cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_draws_again),
+        cmocka_unit_test(test_kernels_from_a_folder),
+        cmocka_unit_test(test_other_commands),
+        cmocka_unit_test(test_wrong_command_lines),
+        cmocka_unit_test(test_blowup),
+        cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_maps_no_more_than_it_needs),
+    };
+    return cmocka_run_group_tests(tests, make_bed, leave_work);
+}
