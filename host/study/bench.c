@@ -42,7 +42,7 @@ typedef struct Bench {
     int size_count;
     Setting settings[SETTINGS_MAX];
     int setting_count;
-    double seconds; /* of a row */
+    double seconds; /* of a row of weight 1 */
     char *folder;
     FILE *csv;
     OzBenchBed first; /* an6, or the first scene given, settled */
@@ -91,19 +91,29 @@ static void choose_settings(Bench *bench)
     }
 }
 
+/* Shares of the budget that a row takes: scenes run for many taps, large beds take long for a part
+ * of one. */
+static double weight_of(double grains, bool is_scene)
+{
+    return is_scene ? 3 : grains < 10000 ? 1 : grains < 200000 ? 3 : 6;
+}
+
 /* Shares the budget out among the rows to come: beds by settings, and the scenes side by side. */
 static void share_budget(Bench *bench)
 {
     const OzOptions *options = bench->options;
     int scenes = options->path_count > 0 ? options->path_count : 1;
-    int ladder = options->path_count > 0 ? 0 : bench->size_count;
-    int rows = (scenes + ladder) * bench->setting_count + scenes;
+    double shares = scenes * (bench->setting_count + 1) * weight_of(0, true);
     double budget = options->budget > 0 ? options->budget
                     : options->quick    ? quick_budget
                                         : full_budget;
-    bench->seconds = budget / rows;
-    printf("budget %.0f s: %d rows of about %.2g s each, beside the making of beds\n", budget, rows,
-           bench->seconds);
+    for (int k = 0; k < bench->size_count && options->path_count == 0; k++) {
+        shares += bench->setting_count * weight_of((double)bench->sizes[k], false);
+    }
+    bench->seconds = budget / shares;
+    printf("budget %.0f s: about %.2g s for a row of a small bed, 3 times that for a scene or a "
+           "large bed, 6 times for the largest; making beds takes longer\n",
+           budget, bench->seconds);
 }
 
 static OzStatus open_bench(Bench *bench)
@@ -161,7 +171,7 @@ static const OzBenchRow *last_row(const Bench *bench, Setting setting)
 }
 
 /* Whether a bed of so many grains fits into memory and time, judged by the row before. */
-static bool affordable(const Bench *bench, Setting setting, double grains)
+static bool affordable(const Bench *bench, Setting setting, double grains, double row_seconds)
 {
     const OzBenchRow *last = last_row(bench, setting);
     if (!last) {
@@ -175,7 +185,7 @@ static bool affordable(const Bench *bench, Setting setting, double grains)
         return false;
     }
     double seconds = 1e-9 * last->value[OZ_BENCH_NS_GRAIN] * grains * least_steps;
-    if (seconds > patience * bench->seconds) {
+    if (seconds > patience * row_seconds) {
         printf("%.0f grains, %s, %d thread%s, left out: %.0f steps would take about %.0f s (see "
                "--budget)\n",
                grains, setting.is_double ? "double" : "float", setting.threads,
@@ -193,9 +203,12 @@ static void keep_row(Bench *bench, const OzBenchRow *row)
     }
 }
 
+/* observed: a scene, looked at as in a run; else a bed of the ladder. */
 static OzStatus run_bed(Bench *bench, OzBenchBed *bed, const char *name, bool observed)
 {
     OzStatus status = OZ_OK;
+    double grains = (double)bed->grains.count;
+    double seconds = bench->seconds * weight_of(grains, observed);
     for (int s = 0; s < bench->setting_count; s++) {
         Setting setting = bench->settings[s];
         OzBenchRow row;
@@ -206,8 +219,8 @@ static OzStatus run_bed(Bench *bench, OzBenchBed *bed, const char *name, bool ob
                           .threads = setting.threads,
                           .is_double = setting.is_double,
                           .observed = observed,
-                          .seconds = bench->seconds};
-        if (!affordable(bench, setting, (double)bed->grains.count)) {
+                          .seconds = seconds};
+        if (!affordable(bench, setting, grains, seconds)) {
             continue;
         }
         OZ_TRY(oz_bench_row_measure(&row, &job));
@@ -227,7 +240,7 @@ static OzStatus run_side_by_side(Bench *bench, OzBenchBed *bed, const char *name
                       .members = bench->device.units,
                       .threads = bench->device.threads,
                       .observed = true,
-                      .seconds = bench->seconds};
+                      .seconds = bench->seconds * weight_of(0, true)};
     if (job.members < 2) {
         return OZ_OK;
     }
@@ -300,17 +313,38 @@ done:
     return status;
 }
 
-/* Where the time of an6, or of the first scene given, goes, and what its features cost. */
+/* The largest bed of the ladder that is taken apart: larger ones would only take longer. 0: none is
+ * large. */
+static int64_t large_size(const Bench *bench)
+{
+    int64_t large = 0;
+    for (int k = 0; k < bench->size_count && bench->options->path_count == 0; k++) {
+        bool fits = bench->sizes[k] >= 10000 && bench->sizes[k] <= 100000;
+        large = fits && bench->sizes[k] > large ? bench->sizes[k] : large;
+    }
+    return large;
+}
+
+/* Where the time of an6 (or of the first scene given) and of a large bed goes, and what an6's
+ * features cost. */
 static OzStatus take_apart(Bench *bench)
 {
     OzStatus status = OZ_OK;
     const OzOptions *options = bench->options;
+    OzBenchBed bed = {0};
+    int64_t large = large_size(bench);
     OZ_TRY(oz_bench_bed_settle(&bench->first, options, OZ_BENCH_BED_TAPS));
-    OZ_TRY(oz_bench_shares_print(&bench->first, options, bench->folder, stdout));
+    OZ_TRY(oz_bench_shares_print(&bench->first, options, bench->folder, "shares", stdout));
+    if (large > 0) {
+        OZ_TRY(make_bed(bench, &bed, large));
+        bed.scene.movie.present = false;
+        OZ_TRY(oz_bench_shares_print(&bed, options, bench->folder, "shares_large", stdout));
+    }
     if (options->features && options->path_count == 0) {
         OZ_TRY(oz_bench_features_print(&bench->first, options, bench->folder, stdout));
     }
 done:
+    oz_bench_bed_free(&bed);
     return status;
 }
 

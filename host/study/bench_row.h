@@ -10,34 +10,35 @@
  * too long, the pieces are shorter and it is the mean over all of them, because the lists are not
  * rebuilt in each. */
 #define OZ_BENCH_COLUMNS(X)                                                                        \
-    X(GRAINS, "grains", "grains", 0, "grains of one scene")                                        \
-    X(MEMBERS, "scenes", NULL, 0, "equal scenes side by side")                                     \
-    X(BITS, "bits", "bits", 0, "of a number: 32 float, 64 double")                                 \
-    X(LANES, "lanes", NULL, 0, "of a vector")                                                      \
-    X(THREADS, "threads", "thr", 0, "of a CPU device")                                             \
-    X(US_STEP, "us_per_step", "us/step", 2, "wall time of a step")                                 \
-    X(US_LEAST, "us_per_step_least", NULL, 2, "the fastest piece's")                               \
-    X(US_CPU, "cpu_us_per_step", "cpu us", 2, "processor time of a step, all threads together")    \
-    X(NS_GRAIN, "ns_per_grain_step", "ns/grain", 2, "wall time of a step / all grains")            \
-    X(REFRESH, "steps_per_refresh", "refresh", 1, "steps per renewal of the inner list")           \
-    X(REBUILD, "steps_per_rebuild", "rebuild", 0, "steps per rebuilding of the outer list")        \
-    X(PAIRS, "pairs_per_grain", "pairs", 2, "of the inner list")                                   \
-    X(TOUCHING, "touching_per_grain", "touch", 2, "pairs in contact")                              \
-    X(BYTES, "bytes_per_grain", "B/grain", 0, "of device arrays")                                  \
-    X(GBYTES, "gb_per_s", "GB/s", 2, "counted bytes moved")                                        \
-    X(GFLOPS, "gflop_per_s", "GFLOP/s", 2, "counted operations")                                   \
-    X(COPY, "copy_gb_per_s", NULL, 1, "of a copy that touches as many bytes as a step")            \
-    X(MULTIPLY_ADD, "fma_gflop_per_s", NULL, 1, "of multiply-adds in registers")                   \
-    X(SHARE, "percent_of_limit", "%limit", 1,                                                      \
+    X(GRAINS, "grains", "grains", 9, 0, "grains of one scene")                                     \
+    X(MEMBERS, "scenes", NULL, 0, 0, "equal scenes side by side")                                  \
+    X(BITS, "bits", "bits", 5, 0, "of a number: 32 float, 64 double")                              \
+    X(LANES, "lanes", NULL, 0, 0, "of a vector")                                                   \
+    X(THREADS, "threads", "thr", 5, 0, "of a CPU device")                                          \
+    X(US_STEP, "us_per_step", "us/step", 12, 2, "wall time of a step")                             \
+    X(US_LEAST, "us_per_step_least", NULL, 0, 2, "the fastest piece's")                            \
+    X(US_CPU, "cpu_us_per_step", "cpu us", 12, 2,                                                  \
+      "processor time of a step, all threads together")                                            \
+    X(NS_GRAIN, "ns_per_grain_step", "ns/grain", 10, 2, "wall time of a step / all grains")        \
+    X(REFRESH, "steps_per_refresh", "refresh", 9, 1, "steps per renewal of the inner list")        \
+    X(REBUILD, "steps_per_rebuild", "rebuild", 9, 0, "steps per rebuilding of the outer list")     \
+    X(PAIRS, "pairs_per_grain", "pairs", 7, 2, "of the inner list")                                \
+    X(TOUCHING, "touching_per_grain", "touch", 7, 2, "pairs in contact")                           \
+    X(BYTES, "bytes_per_grain", "B/grain", 9, 0, "of device arrays")                               \
+    X(GBYTES, "gb_per_s", "GB/s", 8, 2, "counted bytes moved")                                     \
+    X(GFLOPS, "gflop_per_s", "GFLOP/s", 9, 2, "counted operations")                                \
+    X(COPY, "copy_gb_per_s", NULL, 0, 1, "of a copy that touches as many bytes as a step")         \
+    X(MULTIPLY_ADD, "fma_gflop_per_s", NULL, 0, 1, "of multiply-adds in registers")                \
+    X(SHARE, "percent_of_limit", "%limit", 8, 1,                                                   \
       "of the time that a copy or multiply-adds need, the larger")                                 \
-    X(OBSERVE, "observe_us_per_step", NULL, 2, "of us_per_step: snapshots and series.csv")         \
-    X(START, "start_s", "start s", 2, "from opening the device to the end of the first launch")    \
-    X(TAPS, "taps", "taps", 2, "that were timed")                                                  \
-    X(PIECES, "pieces", NULL, 0, "timed one by one")                                               \
-    X(STEPS_LAUNCH, "steps_per_launch", NULL, 1, "steps per launch")
+    X(OBSERVE, "observe_us_per_step", NULL, 0, 2, "of us_per_step: snapshots and series.csv")      \
+    X(START, "start_s", "start s", 9, 2, "from opening the device to the end of the first launch") \
+    X(TAPS, "taps", "taps", 8, 2, "that were timed")                                               \
+    X(PIECES, "pieces", NULL, 0, 0, "timed one by one")                                            \
+    X(STEPS_LAUNCH, "steps_per_launch", NULL, 0, 1, "steps per launch")
 
 enum {
-#define OZ_BENCH_COLUMN_ID(id, name, heading, decimals, meaning) OZ_BENCH_##id,
+#define OZ_BENCH_COLUMN_ID(id, name, heading, width, decimals, meaning) OZ_BENCH_##id,
     OZ_BENCH_COLUMNS(OZ_BENCH_COLUMN_ID)
 #undef OZ_BENCH_COLUMN_ID
         OZ_BENCH_COLUMN_COUNT

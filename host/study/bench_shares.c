@@ -19,12 +19,17 @@
 #include <string.h>
 
 enum {
-    MOMENTS = 4, /* of a tap at which the bed stands still */
-    TAPS = 6,    /* timed whole                            */
+    MOMENTS = 4, /* of a piece at which the bed stands still         */
+    PIECES = 6,  /* of a tap, or of piece_seconds                    */
+    WARM = 64,   /* steps: lists made, arrays touched                */
+    LEAST = 32,  /* steps of a piece                                 */
     SAMPLES = 64,
     ROWS = 16,
     FRAMES = 12
 };
+
+/* A tap of a large bed takes too long: its pieces end after about so many seconds. */
+static const double piece_seconds = 1.5;
 
 /* THE list of parts, in the order of the table. */
 #define PARTS(X)                                                                                   \
@@ -33,8 +38,8 @@ enum {
     X(WALLS, "walls", "kernel, the same with walls, difference")                                   \
     X(REFRESH, "inner list", "kernel, repeated on a standing bed")                                 \
     X(REBUILD, "outer list", "kernel, the same with the outer list, difference")                   \
-    X(REST, "launches and the rest", "a whole step less the above: caches are colder there")       \
-    X(STEP, "whole step", "a tap in launches, median")                                             \
+    X(REST, "the rest", "a whole step less the above: launches, colder caches, what is -")         \
+    X(STEP, "whole step", "in launches: median of taps; of a large bed, mean of less")             \
     X(SAMPLE, "samples", "host, beside the step")                                                  \
     X(ROW, "rows of series.csv", "host, beside the step")                                          \
     X(DRAW, "drawing", "host, beside the step, wall time")                                         \
@@ -70,7 +75,8 @@ typedef struct Shares {
     OzSnapshot now;
     OzSeries *series;
     OzGallery *gallery;
-    Share *part; /* PART_COUNT, borrowed */
+    int64_t piece; /* steps */
+    Share *part;   /* PART_COUNT, borrowed */
 } Shares;
 
 static OzStatus open_shares(Shares *s)
@@ -85,11 +91,6 @@ static OzStatus open_shares(Shares *s)
     OZ_TRY(oz_series_create(&s->series, "/dev/null", &s->bed->scene, &s->bed->grains));
 done:
     return status;
-}
-
-static int64_t steps_of_tap(const OzScene *scene)
-{
-    return scene->period > 0 ? llround(scene->period / scene->step) : 1000;
 }
 
 static int compare(const void *a, const void *b)
@@ -109,28 +110,58 @@ static double clock_of(const OzDevice *device)
     return device->is_cpu ? oz_clock_processor() : oz_clock_now();
 }
 
-static OzStatus time_steps(Shares *s)
+/* Steps of a piece: a tap if that is quick enough. */
+static OzStatus choose_piece(Shares *s)
 {
     OzStatus status = OZ_OK;
-    int64_t tap = steps_of_tap(&s->bed->scene);
-    double times[TAPS];
-    OZ_TRY(oz_sim_advance(s->sim, tap));
-    OzSimCounts before = oz_sim_counts(s->sim);
-    for (int k = 0; k < TAPS; k++) {
-        double start = clock_of(&s->device);
-        OZ_TRY(oz_sim_advance(s->sim, oz_sim_step(s->sim) + tap));
-        times[k] = clock_of(&s->device) - start;
+    const OzScene *scene = &s->bed->scene;
+    double tap = scene->period > 0 ? scene->period / scene->step : 1000;
+    OZ_TRY(oz_sim_advance(s->sim, WARM / 2));
+    double start = clock_of(&s->device);
+    OZ_TRY(oz_sim_advance(s->sim, WARM));
+    double each = (clock_of(&s->device) - start) / (WARM - WARM / 2);
+    s->piece = llround(fmin(tap, fmax(LEAST, piece_seconds / each)));
+done:
+    return status;
+}
+
+/* Lists are not rebuilt in every short piece, so their mean is taken. */
+static double piece_time(double times[PIECES], bool whole_taps)
+{
+    double sum = 0;
+    for (int k = 0; k < PIECES; k++) {
+        sum += times[k];
     }
-    OzSimCounts after = oz_sim_counts(s->sim);
-    qsort(times, TAPS, sizeof times[0], compare);
+    qsort(times, PIECES, sizeof times[0], compare);
+    return whole_taps ? 0.5 * (times[PIECES / 2 - 1] + times[PIECES / 2]) : sum / PIECES;
+}
+
+static void note_rates(Shares *s, OzSimCounts before, OzSimCounts after)
+{
     double steps = (double)(after.steps - before.steps);
-    s->part[PART_STEP] = (Share){times[TAPS / 2] / (double)tap, 1};
+    s->part[PART_PAIRS].calls_per_step = s->part[PART_GRAINS].calls_per_step = 1;
+    s->part[PART_WALLS].calls_per_step = s->part[PART_REST].calls_per_step = 1;
     s->part[PART_REFRESH].calls_per_step =
         per_step((double)(after.refreshes - before.refreshes), steps);
     s->part[PART_REBUILD].calls_per_step =
         per_step((double)(after.rebuilds - before.rebuilds), steps);
-    s->part[PART_PAIRS].calls_per_step = s->part[PART_GRAINS].calls_per_step = 1;
-    s->part[PART_WALLS].calls_per_step = s->part[PART_REST].calls_per_step = 1;
+}
+
+static OzStatus time_steps(Shares *s)
+{
+    OzStatus status = OZ_OK;
+    double times[PIECES];
+    OZ_TRY(choose_piece(s));
+    OzSimCounts before = oz_sim_counts(s->sim);
+    for (int k = 0; k < PIECES; k++) {
+        double start = clock_of(&s->device);
+        OZ_TRY(oz_sim_advance(s->sim, oz_sim_step(s->sim) + s->piece));
+        times[k] = clock_of(&s->device) - start;
+    }
+    note_rates(s, before, oz_sim_counts(s->sim));
+    const OzScene *scene = &s->bed->scene;
+    bool whole = scene->period <= 0 || (double)s->piece >= floor(scene->period / scene->step);
+    s->part[PART_STEP] = (Share){piece_time(times, whole) / (double)s->piece, 1};
 done:
     return status;
 }
@@ -138,10 +169,10 @@ done:
 static OzStatus time_phases(Shares *s)
 {
     OzStatus status = OZ_OK;
-    int64_t first = oz_sim_step(s->sim), tap = steps_of_tap(&s->bed->scene);
+    int64_t first = oz_sim_step(s->sim);
     for (int k = 1; k <= MOMENTS; k++) {
         OzPhases now;
-        OZ_TRY(oz_sim_advance(s->sim, first + tap * k / MOMENTS));
+        OZ_TRY(oz_sim_advance(s->sim, first + s->piece * k / MOMENTS));
         OZ_TRY(oz_phases_measure(&now, s->sim, s->options->source_dir));
         s->part[PART_PAIRS].seconds += now.pairs / MOMENTS;
         s->part[PART_GRAINS].seconds += now.grains / MOMENTS;
@@ -238,27 +269,41 @@ done:
     return status;
 }
 
+/* One number into the table and into the file; what was not measured is - and empty. */
+static void print_number(double value, int width, int decimals, FILE *text, FILE *csv)
+{
+    if (isfinite(value)) {
+        fprintf(text, " %*.*f", width, decimals, value);
+        fprintf(csv, ",%.6g", value);
+    } else {
+        fprintf(text, " %*s", width, "-");
+        fprintf(csv, ",");
+    }
+}
+
 static void print_part(int p, const Share *part, double step, FILE *text, FILE *csv)
 {
     double us = 1e6 * part->seconds * part->calls_per_step;
-    fprintf(csv, "%s,%s,%.6g,%.6g,%.6g,%.6g\n", parts[p].name, parts[p].how, 1e6 * part->seconds,
-            part->calls_per_step, us, 1e-4 * us / step);
-    fprintf(text, "%-22s %12.2f %13.6f %11.3f %7.1f %%  %s\n", parts[p].name, 1e6 * part->seconds,
-            part->calls_per_step, us, 1e-4 * us / step, parts[p].how);
+    fprintf(text, "%-21s", parts[p].name);
+    fprintf(csv, "%s", parts[p].name);
+    print_number(1e6 * part->seconds, 12, 2, text, csv);
+    print_number(part->calls_per_step, 13, 6, text, csv);
+    print_number(us, 12, 3, text, csv);
+    print_number(1e-4 * us / step, 9, 1, text, csv);
+    fprintf(text, "  %s\n", parts[p].how);
+    fprintf(csv, "\n");
 }
 
-static OzStatus print_all(const Share part[PART_COUNT], const char *folder, FILE *text)
+static OzStatus print_all(const Share part[PART_COUNT], const char *path, FILE *text)
 {
     OzStatus status = OZ_OK;
-    char *path = NULL;
     FILE *csv = NULL;
-    OZ_TRY(oz_file_join(&path, folder, "shares.csv"));
     csv = fopen(path, "w");
     if (!csv) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
         goto done;
     }
-    fprintf(csv, "part,how,us_per_call,calls_per_step,us_per_step,percent_of_step\n");
+    fprintf(csv, "part,us_per_call,calls_per_step,us_per_step,percent_of_step\n");
     fprintf(text, "%-22s %12s %13s %11s %9s  %s\n", "part", "us a call", "calls a step",
             "us a step", "of a step", "how measured");
     for (int p = 0; p < PART_COUNT; p++) {
@@ -268,23 +313,26 @@ done:
     if (csv) {
         fclose(csv);
     }
-    free(path);
     return status;
 }
 
 OzStatus oz_bench_shares_print(OzBenchBed *bed, const OzOptions *options, const char *folder,
-                               FILE *text)
+                               const char *name, FILE *text)
 {
     OzStatus status = OZ_OK;
     Share part[PART_COUNT] = {{0}};
-    char *movie = NULL;
+    char *movie = NULL, table[256], *path = NULL;
     part[PART_DRAW].seconds = part[PART_ENCODE].seconds = NAN;
-    OZ_TRY(oz_file_join(&movie, folder, "shares"));
+    snprintf(table, sizeof table, "%s.csv", name);
+    OZ_TRY(oz_file_join(&movie, folder, name));
+    OZ_TRY(oz_file_join(&path, folder, table));
     Shares s = {.bed = bed, .options = options, .folder = movie, .part = part};
     OZ_TRY(oz_apart_run(measure, &s, part, sizeof part));
-    fprintf(text, "\nshares of %s, float (of a CPU: processor time)\n", bed->scene.name);
-    OZ_TRY(print_all(part, folder, text));
+    fprintf(text, "\nshares of %lld grains of %s, float (of a CPU: processor time)\n",
+            (long long)bed->grains.count, bed->scene.name);
+    OZ_TRY(print_all(part, path, text));
 done:
     free(movie);
+    free(path);
     return status;
 }

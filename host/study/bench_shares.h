@@ -12,6 +12,6 @@
  * several moments of a tap, and their sum is held against a whole step; samples, rows, drawing and
  * encoding are timed on the host at the rates of the scene. */
 OzStatus oz_bench_shares_print(OzBenchBed *bed, const OzOptions *options, const char *folder,
-                               FILE *text);
+                               const char *name, FILE *text);
 
 #endif

@@ -2,25 +2,17 @@
 #include "study/bench_table.h"
 
 #include <math.h>
-#include <string.h>
 
 static const struct {
     const char *name, *heading;
-    int decimals;
+    int width, decimals;
     const char *meaning;
 } columns[] = {
-#define COLUMN(id, name, heading, decimals, meaning) {name, heading, decimals, meaning},
+#define COLUMN(id, name, heading, width, decimals, meaning)                                        \
+    {name, heading, width, decimals, meaning},
     OZ_BENCH_COLUMNS(COLUMN)
 #undef COLUMN
 };
-
-/* Room for the heading and for numbers such as 1000000 and 123456.78. */
-static int width_of(int c)
-{
-    int least = c == OZ_BENCH_GRAINS ? 8 : columns[c].decimals == 2 ? 8 : 6;
-    int heading = (int)strlen(columns[c].heading) + 1;
-    return heading > least ? heading : least;
-}
 
 void oz_bench_table_begin(FILE *text, FILE *csv)
 {
@@ -29,7 +21,7 @@ void oz_bench_table_begin(FILE *text, FILE *csv)
     for (int c = 0; c < OZ_BENCH_COLUMN_COUNT; c++) {
         fprintf(csv, ",%s", columns[c].name);
         if (columns[c].heading) {
-            fprintf(text, "%*s", width_of(c), columns[c].heading);
+            fprintf(text, "%*s", columns[c].width, columns[c].heading);
         }
     }
     fprintf(text, "\n");
@@ -47,9 +39,9 @@ static void add_cell(int c, double value, FILE *text, FILE *csv)
         return;
     }
     if (isfinite(value)) {
-        fprintf(text, "%*.*f", width_of(c), columns[c].decimals, value);
+        fprintf(text, "%*.*f", columns[c].width, columns[c].decimals, value);
     } else {
-        fprintf(text, "%*s", width_of(c), "-");
+        fprintf(text, "%*s", columns[c].width, "-");
     }
 }
 
