@@ -1,12 +1,13 @@
-/* The straight line of one run: scene in; movie, pictures and numbers out. */
+/* The straight line of a run: scene in; movie, pictures and numbers out. */
 #ifndef OZ_RUN_H
 #define OZ_RUN_H
 
 #include "base/status.h"
 #include "cli.h"
 
-/* Runs the scene of options->paths[0] into its folder. On failure or interruption the outputs so far are
- * whole and the movie is playable. */
+/* Runs the scene of options->paths[0] into its folder. With --seeds or a sweep every member has a folder below it,
+ * and members.csv and ensemble.csv say what came out; one that fails is named, and the others go on. On failure
+ * or interruption the outputs so far are whole and movies are playable. */
 OzStatus oz_run_scene(const OzOptions *options);
 
 #endif

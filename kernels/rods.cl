@@ -170,6 +170,34 @@ OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
 }
 #endif
 
+/* Springs to where they outlive new list sizes; the lists are then to be made again. */
+OZ_INLINE void shelve(OzWork *w, int item, int stride)
+{
+    int truth = w->control->truth;
+    OZ_WORK_MEET();
+    EACH_REGION
+    {
+        if (truth == OZ_TRUTH_INNER) {
+            oz_lists_harvest(w, region);
+        }
+        if (truth == OZ_TRUTH_INNER || truth == OZ_TRUTH_OUTER) {
+            oz_lists_save(w, region);
+        }
+    }
+    if (item == 0 && truth != OZ_TRUTH_NONE) {
+        w->control->truth = OZ_TRUTH_SAVED;
+    }
+}
+
+#if OZ_GROUP > 1
+__attribute__((reqd_work_group_size(OZ_GROUP, 1, 1)))
+#endif
+kernel void oz_shelve(OZ_WORK_ARGUMENTS)
+{
+    OZ_WORK_OPEN((int)get_group_id(0))
+    shelve(&w, OZ_WORK_ITEM, OZ_WORK_STRIDE);
+}
+
 /* Makes the launch's steps from control->step to last and leaves lists that hold, or ends earlier:
  * control->step says how far it came, and control->moved that the next step's places are moved already. */
 #if OZ_GROUP > 1

@@ -128,8 +128,8 @@ done:
 OzStatus oz_capture_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts)
 {
     OzStatus status = OZ_OK;
-    snapshot->step = sim->step;
-    snapshot->time = (double)sim->step * sim->members[member].scene->step;
+    snapshot->step = sim->reached[member];
+    snapshot->time = (double)snapshot->step * sim->members[member].scene->step;
     snapshot->has_contacts = false;
     snapshot->has_ledger = false;
     oz_snapshot_move_walls(snapshot);
@@ -147,6 +147,9 @@ OzStatus oz_capture_start(OzSim *sim)
     for (int m = 0; m < sim->member_count; m++) {
         OzSnapshot now;
         OzTouch touch = {0};
+        if (sim->control[m].truth != OZ_TRUTH_INNER) {
+            continue;
+        }
         OZ_TRY(oz_snapshot_create(&now, sim->members[m].scene, sim->members[m].grains));
         status = oz_capture_snapshot(sim, m, &now, false);
         status = status == OZ_OK ? touch_all(sim, m, &now, &touch) : status;

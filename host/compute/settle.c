@@ -7,6 +7,7 @@
 #include "compute/sim_private.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { JUDGE_STEPS = 128 }; /* between looks at the energy: often enough to stop in time, rarely enough to cost
                              * nothing */
@@ -44,20 +45,6 @@ static OzStatus set_drag(OzSim *sim, double drag)
     return oz_sim_write_parameters(sim);
 }
 
-/* The largest energy ratio of all members. */
-static OzStatus worst_ratio(OzSim *sim, double *worst)
-{
-    OzStatus status = OZ_OK;
-    *worst = 0;
-    for (int m = 0; m < sim->member_count; m++) {
-        double ratio = 0;
-        OZ_TRY(energy_ratio(sim, m, &ratio));
-        *worst = ratio > *worst ? ratio : *worst;
-    }
-done:
-    return status;
-}
-
 /* Grains start at rest: their energy says nothing before they have had time to fall. This is ten times what a
  * free fall takes to the threshold's speed, as a step. */
 static int64_t first_judgement(const OzScene *scene, const OzGrains *grains)
@@ -68,29 +55,57 @@ static int64_t first_judgement(const OzScene *scene, const OzGrains *grains)
     return (int64_t)ceil(10 * time / scene->step);
 }
 
-/* Advances to a time, or until the energy is below the threshold (0: to the time). The energy is looked at after
- * fixed numbers of steps, not of launches, whose length depends on the machine: the same bits on any. */
-static OzStatus run_until(OzSim *sim, double time, double threshold, OzSettleWatch watch,
-                          void *context)
+/* Lets members that have come to rest wait for the others, so that what a member does depends on itself alone;
+ * *worst receives the largest energy ratio of those that go on, *going how many there are. */
+static OzStatus judge(OzSim *sim, double *worst, int *going)
+{
+    OzStatus status = OZ_OK;
+    *worst = 0;
+    *going = 0;
+    for (int m = 0; m < sim->member_count; m++) {
+        const OzMember *member = &sim->members[m];
+        double ratio = 0;
+        if (sim->waits[m] || sim->stopped[m]) {
+            continue;
+        }
+        OZ_TRY(energy_ratio(sim, m, &ratio));
+        bool old_enough = sim->step >= first_judgement(member->scene, member->grains);
+        sim->waits[m] = old_enough && ratio < member->scene->settle.threshold;
+        *worst = ratio > *worst ? ratio : *worst;
+        *going += !sim->waits[m];
+    }
+done:
+    return status;
+}
+
+static int64_t steps_of(const OzScene *scene, double time)
+{
+    return (int64_t)ceil(time / scene->step - 1e-9);
+}
+
+/* Advances by so many steps, or with judging until every member waits. The energy is looked at after fixed
+ * numbers of steps, not of launches, whose length depends on the machine: the same bits on any. */
+static OzStatus run_for(OzSim *sim, int64_t steps, bool judging, OzSettleWatch watch, void *context)
 {
     OzStatus status = OZ_OK;
     const OzScene *scene = sim->members[0].scene;
-    double worst = INFINITY;
-    int64_t last = (int64_t)ceil(time / scene->step - 1e-9);
-    int64_t judged = first_judgement(scene, sim->members[0].grains);
-    while (sim->step < last && worst >= threshold) {
+    double worst = 0;
+    int going = sim->member_count;
+    int64_t last = sim->step + steps;
+    while (sim->step < last && going > 0) {
         int64_t next = sim->step + JUDGE_STEPS;
         OZ_TRY(oz_sim_advance(sim, next < last ? next : last));
-        OZ_TRY(worst_ratio(sim, &worst));
+        if (judging) {
+            OZ_TRY(judge(sim, &worst, &going));
+        }
         if (watch && !watch(context, (double)sim->step * scene->step, worst)) {
             status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while settling");
             goto done;
         }
-        worst = sim->step < judged ? INFINITY : worst;
     }
-    if (threshold > 0 && worst >= threshold) {
+    if (judging && going > 0 && scene->settle.threshold > 0) {
         oz_log_line("settling: kinetic energy still %.3g N m g d after %.3g s (threshold %.3g)",
-                    worst, time, threshold);
+                    worst, scene->settle.time_max, scene->settle.threshold);
     }
 done:
     return status;
@@ -119,6 +134,7 @@ done:
 static OzStatus start_clock(OzSim *sim)
 {
     sim->step = 0;
+    memset(sim->reached, 0, (size_t)sim->member_count * sizeof *sim->reached);
     sim->walls_still = false;
     sim->counts = (OzSimCounts){0};
     for (int m = 0; m < sim->member_count; m++) {
@@ -138,10 +154,10 @@ OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *c
     }
     sim->walls_still = true;
     OZ_TRY(set_drag(sim, scene->settle.drag));
-    OZ_TRY(run_until(sim, scene->settle.time_max, scene->settle.threshold, watch, context));
+    OZ_TRY(run_for(sim, steps_of(scene, scene->settle.time_max), true, watch, context));
     OZ_TRY(set_drag(sim, 0));
-    double reached = (double)sim->step * scene->step;
-    OZ_TRY(run_until(sim, reached + scene->settle.rest_time, 0, watch, context));
+    memset(sim->waits, 0, (size_t)sim->member_count * sizeof *sim->waits);
+    OZ_TRY(run_for(sim, steps_of(scene, scene->settle.rest_time), false, watch, context));
     *seconds = (double)sim->step * scene->step;
     OZ_TRY(start_clock(sim));
 done:

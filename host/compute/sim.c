@@ -2,10 +2,10 @@
 #include "compute/sim_private.h"
 
 #include "base/clock.h"
-#include "base/log.h"
 #include "base/memory.h"
 #include "compute/cl_try.h"
-#include "compute/host_lists.h"
+#include "compute/company.h"
+#include "compute/launch.h"
 #include "compute/pack.h"
 #include "compute/program.h"
 #include "compute/sizes.h"
@@ -51,28 +51,6 @@ done:
     return status;
 }
 
-static OzStatus write_control(OzSim *sim)
-{
-    OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
-        OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_control, m, &sim->control[m],
-                               sizeof(OzControl)));
-    }
-done:
-    return status;
-}
-
-static OzStatus read_control(OzSim *sim)
-{
-    OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
-        OZ_TRY(oz_arrays_read(&sim->arrays, OZ_FIELD_control, m, &sim->control[m],
-                              sizeof(OzControl)));
-    }
-done:
-    return status;
-}
-
 OzStatus oz_sim_write_parameters(OzSim *sim)
 {
     OzStatus status = OZ_OK;
@@ -95,7 +73,6 @@ static OzStatus upload_start(OzSim *sim)
                                       .truth = OZ_TRUTH_NONE};
     }
     OZ_TRY(oz_sim_write_parameters(sim));
-    OZ_TRY(write_control(sim));
 done:
     return status;
 }
@@ -112,11 +89,9 @@ static OzStatus choose_layout(OzSim *sim, OzSwitches *switches, OzSizes *sizes)
                                  member->grains));
         oz_sizes_choose(&z, &sim->parameters[m], member->scene, member->grains, &s,
                         sim->member_count);
-        bool same = memcmp(&s, switches, sizeof s) == 0 && z.count == sizes->count &&
-                    member->scene->step == sim->members[0].scene->step;
-        if (m > 0 && !same) {
+        if (m > 0 && !oz_company_fits(sim->device, &sim->members[0], member)) {
             status = oz_status_fail(OZ_ERR_INPUT, "%s: members of one launch must have the same "
-                                                  "features, number of grains and step",
+                                                  "features, number of grains, step and settling",
                                     member->scene->path);
             goto done;
         }
@@ -168,12 +143,15 @@ OzStatus oz_sim_create(OzSim **out, const OzDevice *device, const OzMember *memb
     OZ_TRY(OZ_NEW(&sim->parameters, member_count));
     OZ_TRY(OZ_NEW(&sim->control, member_count));
     OZ_TRY(OZ_NEW(&sim->spring_start, member_count));
+    OZ_TRY(OZ_NEW(&sim->reached, member_count));
+    OZ_TRY(OZ_NEW(&sim->waits, member_count));
+    OZ_TRY(OZ_NEW(&sim->stopped, member_count));
     memcpy(sim->members, members, (size_t)member_count * sizeof *members);
     OZ_TRY(choose_layout(sim, &switches, &sizes));
     OZ_TRY(build(sim, &switches, source_dir));
     OZ_TRY(oz_arrays_create(&sim->arrays, device, &switches, &sizes));
     OZ_TRY(upload_start(sim));
-    OZ_TRY(oz_sim_steps(sim, 0));
+    OZ_TRY(oz_launch_steps(sim, 0));
     *out = sim;
     sim = NULL;
 done:
@@ -194,157 +172,17 @@ void oz_sim_free(OzSim *sim)
     if (sim->program) {
         clReleaseProgram(sim->program);
     }
+    for (int m = 0; sim->stopped && m < sim->member_count; m++) {
+        free(sim->stopped[m]);
+    }
     free(sim->members);
     free(sim->parameters);
     free(sim->control);
     free(sim->spring_start);
+    free(sim->reached);
+    free(sim->waits);
+    free(sim->stopped);
     free(sim);
-}
-
-/* Offset and velocity of every wall of a member at each step of the launch, and at its end. */
-static OzStatus write_motion(OzSim *sim, int member, int64_t first, int steps)
-{
-    OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[member].scene;
-    int walls = sim->arrays.switches.planes + sim->arrays.switches.cylinders;
-    size_t count = 2 * (size_t)(steps + 1) * (size_t)walls;
-    double *motion = NULL;
-    void *narrow = NULL;
-    OZ_TRY(OZ_NEW(&motion, count));
-    OZ_TRY(oz_memory_new(&narrow, count, sizeof(double), "wall motion"));
-    for (int k = 0; k < (sim->walls_still ? 0 : steps + 1); k++) {
-        double time = (double)(sim->parameters[member].dt > 0 ? first + k : first) * scene->step;
-        for (int w = 0; w < walls; w++) {
-            double *words = motion + 2 * ((size_t)k * (size_t)walls + (size_t)w);
-            oz_constants_motion(&scene->walls[sim->wall_order[w]].motion, time, &words[0],
-                                &words[1]);
-        }
-    }
-    oz_pack_scalars(narrow, motion, count, sim->arrays.switches.is_double);
-    OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_motion, member, narrow,
-                           count * (sim->arrays.switches.is_double ? sizeof(double)
-                                                                   : sizeof(float))));
-done:
-    free(motion);
-    free(narrow);
-    return status;
-}
-
-/* Larger lists, after which the kernel takes up where it stopped. */
-static OzStatus grow_lists(OzSim *sim)
-{
-    OzSizes sizes = sim->arrays.sizes;
-    for (int m = 0; m < sim->member_count; m++) {
-        oz_sizes_grow(&sizes, &sim->control[m], &sim->arrays.switches);
-        sim->control[m].full = 0;
-    }
-    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d",
-                  (long long)sim->step, sizes.outer_capacity, sizes.inner_capacity,
-                  sizes.back_capacity);
-    sim->counts.growths++;
-    return oz_arrays_resize(&sim->arrays, &sizes);
-}
-
-static OzStatus enqueue(OzSim *sim, int steps)
-{
-    OzStatus status = OZ_OK;
-    cl_uint next = 0;
-    size_t group = (size_t)sim->arrays.switches.group;
-    size_t all = group * (size_t)sim->member_count;
-    OZ_TRY(oz_arrays_bind(&sim->arrays, sim->advance, &next));
-    CL_TRY(clSetKernelArg(sim->advance, next, sizeof steps, &steps));
-    CL_TRY(clEnqueueNDRangeKernel(sim->device->queue, sim->advance, 1, NULL, &all, &group, 0, NULL,
-                                  NULL));
-    CL_TRY(clFinish(sim->device->queue));
-done:
-    return status;
-}
-
-/* What a guard found, in words. */
-static OzStatus guard_spoke(const OzSim *sim, int member)
-{
-    static const struct {
-        int bit;
-        const char *text;
-    } reasons[] = {
-        {OZ_STOP_NAN, "its state is not a number"},
-        {OZ_STOP_ESCAPED, "it has left its container"},
-        {OZ_STOP_DEEP, "it overlaps another body by more than its radius"},
-        {OZ_STOP_FAST, "it moves more than its radius in one step"},
-    };
-    const OzControl *control = &sim->control[member];
-    const OzScene *scene = sim->members[member].scene;
-    char text[256] = "";
-    for (size_t i = 0; i < sizeof reasons / sizeof reasons[0]; i++) {
-        if (control->stop_bits & reasons[i].bit) {
-            size_t used = strlen(text);
-            snprintf(text + used, sizeof text - used, "%s%s", used ? "; " : "", reasons[i].text);
-        }
-    }
-    int64_t step = sim->launch_first + control->stop_step + 1;
-    return oz_status_fail(OZ_ERR_BLOWUP,
-                          "%s: stopped at step %lld%s, time %.9g s, grain %d: %s; try a smaller "
-                          "time.step (`orzo check` says what is stable)",
-                          scene->path, (long long)step, sim->walls_still ? " of settling" : "",
-                          (double)step * scene->step, control->stop_grain, text);
-}
-
-/* Whether a member has made its steps and its lists hold, or a guard spoke. */
-static bool is_through(const OzControl *control, int steps)
-{
-    bool lists_hold = control->truth == OZ_TRUTH_INNER && control->stale_step == OZ_NEVER;
-    return control->stop_bits || (control->step >= steps && lists_hold);
-}
-
-/* Repeats the launch until every member is through. */
-static OzStatus finish_launch(OzSim *sim, int steps)
-{
-    OzStatus status = OZ_OK;
-    for (bool more = true; more;) {
-        OZ_TRY(write_control(sim));
-        if (sim->large) {
-            OZ_TRY(oz_large_steps(sim->large, &sim->arrays, &sim->control[0], steps));
-        } else {
-            OZ_TRY(enqueue(sim, steps));
-            OZ_TRY(read_control(sim));
-        }
-        sim->counts.launches++;
-        bool full = false;
-        more = false;
-        for (int m = 0; m < sim->member_count; m++) {
-            full |= sim->control[m].full != 0;
-            more |= !is_through(&sim->control[m], steps);
-        }
-        if (full) {
-            OZ_TRY(grow_lists(sim));
-        } else if (more) {
-            OZ_TRY(oz_host_lists_make(sim));
-        }
-    }
-done:
-    return status;
-}
-
-OzStatus oz_sim_steps(OzSim *sim, int steps)
-{
-    OzStatus status = OZ_OK;
-    sim->launch_first = sim->step;
-    for (int m = 0; m < sim->member_count; m++) {
-        sim->control[m].step = 0;
-        OZ_TRY(write_motion(sim, m, sim->step, steps));
-    }
-    OZ_TRY(finish_launch(sim, steps));
-    int made = steps;
-    for (int m = 0; m < sim->member_count; m++) {
-        if (sim->control[m].stop_bits) {
-            status = guard_spoke(sim, m);
-            made = sim->control[m].stop_step + 1;
-        }
-    }
-    sim->step += made;
-    sim->counts.steps += made;
-done:
-    return status;
 }
 
 /* velocity-verlet needs the first accelerations: forces at the start, over no time. */
@@ -359,11 +197,12 @@ OzStatus oz_sim_prime(OzSim *sim)
         sim->parameters[m].dt = 0;
     }
     OZ_TRY(oz_sim_write_parameters(sim));
-    OZ_TRY(oz_sim_steps(sim, 1));
+    OZ_TRY(oz_launch_steps(sim, 1));
     sim->step -= 1;
     sim->counts.steps -= 1;
     sim->primed = true;
     for (int m = 0; m < sim->member_count; m++) {
+        sim->reached[m] -= 1;
         sim->parameters[m].dt = step;
     }
     OZ_TRY(oz_sim_write_parameters(sim));
@@ -377,12 +216,15 @@ OzStatus oz_sim_launch(OzSim *sim, int64_t step)
     OZ_TRY(oz_sim_prime(sim));
     if (sim->step >= step || sim->arrays.sizes.count == 0) {
         sim->step = step > sim->step ? step : sim->step;
+        for (int m = 0; m < sim->member_count; m++) {
+            sim->reached[m] = sim->step;
+        }
         goto done;
     }
     int64_t left = step - sim->step;
     int steps = left < sim->launch_steps ? (int)left : sim->launch_steps;
     double start = oz_clock_now();
-    OZ_TRY(oz_sim_steps(sim, steps));
+    OZ_TRY(oz_launch_steps(sim, steps));
     double wanted = launch_seconds / ((oz_clock_now() - start) / steps);
     double most = fmin(4.0 * sim->launch_steps, sim->arrays.sizes.motion_steps);
     if (steps == sim->launch_steps || wanted < sim->launch_steps) {
@@ -406,12 +248,22 @@ int64_t oz_sim_step(const OzSim *sim)
     return sim->step;
 }
 
+const char *oz_sim_stopped(const OzSim *sim, int member)
+{
+    return sim->stopped[member];
+}
+
 OzSimCounts oz_sim_counts(const OzSim *sim)
 {
     OzSimCounts counts = sim->counts;
-    counts.refreshes = sim->control[0].refreshes;
-    counts.rebuilds = sim->control[0].rebuilds;
-    counts.crossed = sim->control[0].crossed;
+    counts.refreshes = counts.rebuilds = counts.crossed = 0;
+    for (int m = 0; m < sim->member_count; m++) {
+        counts.refreshes += sim->control[m].refreshes;
+        counts.rebuilds += sim->control[m].rebuilds;
+        counts.crossed += sim->control[m].crossed;
+    }
+    counts.refreshes /= sim->member_count;
+    counts.rebuilds /= sim->member_count;
     return counts;
 }
 

@@ -16,19 +16,20 @@ typedef struct OzMember {
     const OzGrains *grains;
 } OzMember;
 
-/* What a run has cost so far. */
+/* What a run has cost so far; refreshes and rebuilds are those of a mean member, crossed all members'. */
 typedef struct OzSimCounts {
     int64_t steps, launches, refreshes, rebuilds, growths, crossed;
 } OzSimCounts;
 
-/* Builds the kernels and uploads the start. Members must agree in switches, grain count and step. */
+/* Builds the kernels and uploads the start. Members must fit together (compute/company.h). What a member does is
+ * the same to the bit whatever its companions. */
 OzStatus oz_sim_create(OzSim **sim, const OzDevice *device, const OzMember *members,
                        int member_count, const char *source_dir);
 void oz_sim_free(OzSim *sim); /* NULL is fine */
 
-/* One launch towards the given step, of at most about 50 ms. Fails with OZ_ERR_DEVICE if the device stopped,
- * with OZ_ERR_BLOWUP if a guard spoke (the message names grain, step and time); the state is then that of
- * the step where it happened. */
+/* One launch towards the given step, of at most about 50 ms. Fails with OZ_ERR_DEVICE if the device stopped. A
+ * member that a guard stopped stays at the step where it happened while the others go on; once none is left it
+ * fails with OZ_ERR_BLOWUP (the message names grain, step and time). */
 OzStatus oz_sim_launch(OzSim *sim, int64_t step);
 
 /* All the way to the given step. */
@@ -36,6 +37,9 @@ OzStatus oz_sim_advance(OzSim *sim, int64_t step);
 
 /* Steps made since time 0. */
 int64_t oz_sim_step(const OzSim *sim);
+
+/* What a guard said when it stopped the member; NULL while it goes on. */
+const char *oz_sim_stopped(const OzSim *sim, int member);
 
 OzSimCounts oz_sim_counts(const OzSim *sim);
 

@@ -18,17 +18,15 @@ struct OzSim {
     cl_kernel advance;        /* small scenes */
     OzLarge *large;           /* large scenes */
     OzArrays arrays;
-    int64_t step;         /* made since time 0 (or since settling began) */
-    int64_t launch_first; /* step that the launch began with             */
+    int64_t step;         /* made since time 0 (or since settling began) by those that go on */
+    int64_t *reached;     /* one a member: steps that it has made itself */
+    bool *waits;          /* one a member: makes no steps for now (settled before others)    */
+    char **stopped;       /* one a member: what a guard said; NULL while it goes on          */
     int launch_steps;     /* of the next launch                          */
     bool walls_still;     /* while settling                              */
     bool primed;          /* velocity-verlet knows its first acceleration */
     OzSimCounts counts;
 };
-
-/* One launch of exactly so many steps (at most sizes.motion_steps; 0 makes the lists), no first force
- * evaluation. The lists hold afterwards unless a guard spoke. */
-OzStatus oz_sim_steps(OzSim *sim, int steps);
 
 /* Uploads sim->parameters. */
 OzStatus oz_sim_write_parameters(OzSim *sim);

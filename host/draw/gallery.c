@@ -15,7 +15,7 @@
 struct OzGallery {
     const OzGallerySettings *settings;
     const OzScene *scene;
-    OzRenderer *renderer;
+    OzRenderer *renderer; /* owned unless shared */
     OzLook look;
     OzImage image;
     OzMovie *movie;
@@ -33,12 +33,20 @@ OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *setting
     return status;
 }
 
+/* A renderer of its own, or the shared one, made if this is the first to need it. */
 static OzStatus open_renderer(OzGallery *gallery, const OzSnapshot *snapshot)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_renderer_create(&gallery->renderer, gallery->settings->backend,
-                              gallery->settings->source_dir));
-    oz_log_line("drawing with %s", oz_renderer_name(gallery->renderer));
+    OzRenderer **shared = gallery->settings->renderer;
+    gallery->renderer = shared ? *shared : NULL;
+    if (!gallery->renderer) {
+        OZ_TRY(oz_renderer_create(&gallery->renderer, gallery->settings->backend,
+                                  gallery->settings->source_dir));
+        oz_log_line("drawing with %s", oz_renderer_name(gallery->renderer));
+    }
+    if (shared) {
+        *shared = gallery->renderer;
+    }
     gallery->look = oz_renderer_look(gallery->scene, snapshot);
     OZ_TRY(oz_image_create(&gallery->image, gallery->look.width, gallery->look.height));
 done:
@@ -138,7 +146,9 @@ OzStatus oz_gallery_finish(OzGallery *gallery)
         return OZ_OK;
     }
     OzStatus status = oz_movie_finish(gallery->movie);
-    oz_renderer_free(gallery->renderer);
+    if (!gallery->settings->renderer) {
+        oz_renderer_free(gallery->renderer);
+    }
     oz_image_free(&gallery->image);
     free(gallery);
     return status;

@@ -12,6 +12,8 @@ typedef struct OzGallerySettings {
     const char *source_dir; /* as in oz_embed_read; borrowed, may be NULL        */
     OzGlBackend backend;
     const char *device;     /* for the movie's metadata: who computed; borrowed   */
+    OzRenderer **renderer;  /* shared by several galleries: made by the first that draws, freed by the caller
+                             * after them; NULL: the gallery's own                */
 } OzGallerySettings;
 
 /* settings and scene are borrowed and must outlive the gallery. */

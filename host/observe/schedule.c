@@ -2,6 +2,7 @@
 #include "observe/schedule.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Simulated seconds between frames of the movie. A `length` spreads the frames evenly over the run; once they
  * lie more than a period of the floor apart they are put a whole number of periods apart, so that the floor
@@ -84,4 +85,12 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
         s->snapshots++;
     }
     return true;
+}
+
+bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
+{
+    const OzSnapshotSettings *x = &a->scene->snapshots, *y = &b->scene->snapshots;
+    return a->last_step == b->last_step && a->row == b->row && a->sample == b->sample &&
+           a->frame == b->frame && x->count == y->count &&
+           (x->count == 0 || memcmp(x->times, y->times, (size_t)x->count * sizeof *x->times) == 0);
 }

@@ -26,4 +26,7 @@ OzSchedule oz_schedule_create(const OzScene *scene, double until);
  * nothing more up to the last step; the last step itself is always an event. */
 bool oz_schedule_next(OzSchedule *schedule, int64_t *step, int *due);
 
+/* Whether two schedules have their events at the same times. */
+bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b);
+
 #endif

@@ -292,6 +292,8 @@ static const OzKey KEYS[] = {
     {"snapshots.times", .type = OZ_KEY_NUMBERS, .low = 0, .high = 1e9, .unit = "s",
      AT(snapshots.times), .count_offset = offsetof(OzScene, snapshots.count), .reload = APPLY,
      .rival = "taps", .write = OZ_WRITE_UNLESS_RIVAL, .help = "pictures at these times"},
+    {"sweep", OF(SWEEP), AT(sweep), .write = OZ_WRITE_NONZERO,
+     .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}"},
     {NULL, OF(TEXT)},
 };
 /* clang-format on */
@@ -351,6 +353,8 @@ size_t oz_keys_size(const OzKey *key)
         return (size_t)key->width * sizeof(double);
     case OZ_KEY_RANGE:
         return sizeof(OzRange);
+    case OZ_KEY_SWEEP:
+        return sizeof(OzSweep);
     case OZ_KEY_EXTENDS:
         return 0;
     default:

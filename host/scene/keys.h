@@ -24,6 +24,7 @@ typedef enum OzKeyType {
     OZ_KEY_NUMBERS, /* double *, owned, and its int count                          */
     OZ_KEY_SECTION, /* bool: an optional group of keys is present                  */
     OZ_KEY_ITEMS,   /* array of structs, owned, and its int count: a list of groups */
+    OZ_KEY_SWEEP,   /* OzSweep                                                     */
     OZ_KEY_EXTENDS  /* nothing: used up before keys are read                       */
 } OzKeyType;
 

@@ -6,6 +6,7 @@
 #include "scene/describe.h"
 #include "scene/document.h"
 #include "scene/keys.h"
+#include "scene/sweep.h"
 #include "scene/value.h"
 
 #include <stdio.h>
@@ -200,6 +201,8 @@ static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, c
                    : read_map(reader, node, place, false);
     case OZ_KEY_ITEMS:
         return read_items(reader, key, node);
+    case OZ_KEY_SWEEP:
+        return oz_sweep_read(oz_value_at(key, place->base), node, reader->faults);
     case OZ_KEY_EXTENDS:
         oz_faults_add(reader->faults, node->source, node->line,
                       "extends cannot be set; expected it in the scene file");

@@ -144,6 +144,13 @@ typedef struct OzSnapshotSettings {
     int tap_count;
 } OzSnapshotSettings;
 
+/* One key that takes several values in turn: the scene then stands for several. */
+typedef struct OzSweep {
+    char *key;     /* "contact.friction"; NULL without a sweep */
+    char **values; /* as written                               */
+    int count;
+} OzSweep;
+
 typedef struct OzScene {
     char *path;  /* as given, for messages */
     char *name;  /* file name without folder and .yaml: the run folder's name */
@@ -170,6 +177,7 @@ typedef struct OzScene {
     OzObserve observe;
     OzMovieSettings movie;
     OzSnapshotSettings snapshots;
+    OzSweep sweep;
 } OzScene;
 
 /* Loads path, then applies the settings ("key.path=value", in order), then checks everything.

@@ -4,7 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "scene/describe.h"
-#include "scene/scene.h"
+#include "scene/sweep.h"
 
 #include <errno.h>
 #include <math.h>
@@ -306,6 +306,8 @@ bool oz_value_holds(const OzKey *key, const void *base)
     case OZ_KEY_TEXT:
     case OZ_KEY_FILE:
         return *(char *const *)oz_value_at(key, base) != NULL;
+    case OZ_KEY_SWEEP:
+        return ((const OzSweep *)oz_value_at(key, base))->count > 0;
     case OZ_KEY_NUMBERS:
     case OZ_KEY_ITEMS:
         return *oz_value_count(key, base) > 0;
@@ -320,5 +322,7 @@ void oz_value_free(const OzKey *key, void *base)
         void **owned = oz_value_at(key, base);
         free(*owned);
         *owned = NULL;
+    } else if (key->type == OZ_KEY_SWEEP) {
+        oz_sweep_free(oz_value_at(key, base));
     }
 }

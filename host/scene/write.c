@@ -2,6 +2,7 @@
 #include "scene/write.h"
 
 #include "scene/keys.h"
+#include "scene/sweep.h"
 #include "scene/value.h"
 
 #include <inttypes.h>
@@ -126,6 +127,9 @@ static void print_value(const OzKey *key, const void *base, FILE *file)
             break;
         }
         print_number(range->low, file);
+        break;
+    case OZ_KEY_SWEEP:
+        oz_sweep_write(place, file);
         break;
     default:
         print_element(key, place, 0, file);

@@ -1,0 +1,16 @@
+/* Ctrl-C and friends as a question that a loop asks. */
+#ifndef OZ_BASE_INTERRUPT_H
+#define OZ_BASE_INTERRUPT_H
+
+#include <stdbool.h>
+
+/* From now on SIGINT and SIGTERM end the process with status 130, at once: nothing is being written yet. */
+void oz_interrupt_watch(void);
+
+/* From now on they end nothing by themselves. */
+void oz_interrupt_hold(void);
+
+/* Whether one has come since. */
+bool oz_interrupt_asked(void);
+
+#endif

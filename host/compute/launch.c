@@ -1,0 +1,232 @@
+/* One launch: control words and walls' motion down, the kernel until every member is through,
+ * control words up. */
+#include "compute/launch.h"
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "compute/cl_try.h"
+#include "compute/guard.h"
+#include "compute/host_lists.h"
+#include "compute/pack.h"
+#include "compute/sim_private.h"
+#include "compute/sizes.h"
+
+#include <stdlib.h>
+
+static OzStatus write_control(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    for (int m = 0; m < sim->member_count; m++) {
+        OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_control, m, &sim->control[m],
+                               sizeof(OzControl)));
+    }
+done:
+    return status;
+}
+
+static OzStatus read_control(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    for (int m = 0; m < sim->member_count; m++) {
+        OZ_TRY(
+            oz_arrays_read(&sim->arrays, OZ_FIELD_control, m, &sim->control[m], sizeof(OzControl)));
+    }
+done:
+    return status;
+}
+
+/* Offset and velocity of every wall of a member at each step of the launch, and at its end. */
+static OzStatus write_motion(OzSim *sim, int member, int64_t first, int steps)
+{
+    OzStatus status = OZ_OK;
+    const OzScene *scene = sim->members[member].scene;
+    int walls = sim->arrays.switches.planes + sim->arrays.switches.cylinders;
+    size_t count = 2 * (size_t)(steps + 1) * (size_t)walls;
+    double *motion = NULL;
+    void *narrow = NULL;
+    OZ_TRY(OZ_NEW(&motion, count));
+    OZ_TRY(oz_memory_new(&narrow, count, sizeof(double), "wall motion"));
+    for (int k = 0; k < (sim->walls_still ? 0 : steps + 1); k++) {
+        double time = (double)(sim->parameters[member].dt > 0 ? first + k : first) * scene->step;
+        for (int w = 0; w < walls; w++) {
+            double *words = motion + 2 * ((size_t)k * (size_t)walls + (size_t)w);
+            oz_constants_motion(&scene->walls[sim->wall_order[w]].motion, time, &words[0],
+                                &words[1]);
+        }
+    }
+    oz_pack_scalars(narrow, motion, count, sim->arrays.switches.is_double);
+    OZ_TRY(
+        oz_arrays_write(&sim->arrays, OZ_FIELD_motion, member, narrow,
+                        count * (sim->arrays.switches.is_double ? sizeof(double) : sizeof(float))));
+done:
+    free(motion);
+    free(narrow);
+    return status;
+}
+
+/* A kernel over all members, one work-group each; last is its one argument of its own, unless
+ * negative. */
+static OzStatus enqueue(OzSim *sim, cl_kernel kernel, int last)
+{
+    OzStatus status = OZ_OK;
+    cl_uint next = 0;
+    size_t group = (size_t)sim->arrays.switches.group;
+    size_t all = group * (size_t)sim->member_count;
+    OZ_TRY(oz_arrays_bind(&sim->arrays, kernel, &next));
+    if (last >= 0) {
+        CL_TRY(clSetKernelArg(kernel, next, sizeof last, &last));
+    }
+    CL_TRY(
+        clEnqueueNDRangeKernel(sim->device->queue, kernel, 1, NULL, &all, &group, 0, NULL, NULL));
+    CL_TRY(clFinish(sim->device->queue));
+done:
+    return status;
+}
+
+/* Springs of every member to where they outlive new list sizes: a member that is through holds its
+ * lists, which do not. It makes them again, with the same contacts, when it goes on. */
+static OzStatus shelve(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    cl_kernel kernel = clCreateKernel(sim->program, "oz_shelve", &code);
+    CL_TRY(code);
+    OZ_TRY(enqueue(sim, kernel, -1));
+    OZ_TRY(read_control(sim));
+done:
+    if (kernel) {
+        clReleaseKernel(kernel);
+    }
+    return status;
+}
+
+/* Larger lists, after which the kernel takes up where it stopped. */
+static OzStatus grow_lists(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    OzSizes sizes = sim->arrays.sizes;
+    if (sim->member_count > 1) {
+        OZ_TRY(shelve(sim));
+    }
+    for (int m = 0; m < sim->member_count; m++) {
+        oz_sizes_grow(&sizes, &sim->control[m], &sim->arrays.switches);
+        sim->control[m].full = 0;
+    }
+    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d", (long long)sim->step,
+                  sizes.outer_capacity, sizes.inner_capacity, sizes.back_capacity);
+    sim->counts.growths++;
+    OZ_TRY(oz_arrays_resize(&sim->arrays, &sizes));
+done:
+    return status;
+}
+
+/* Whether a member has made its steps and its lists hold, or a guard spoke. */
+static bool is_through(const OzControl *control, int steps)
+{
+    bool lists_hold = control->truth == OZ_TRUTH_INNER && control->stale_step == OZ_NEVER;
+    return control->stop_bits || (control->step >= steps && lists_hold);
+}
+
+/* Repeats the launch until every member is through. */
+static OzStatus finish_launch(OzSim *sim, int steps)
+{
+    OzStatus status = OZ_OK;
+    for (bool more = true; more;) {
+        OZ_TRY(write_control(sim));
+        if (sim->large) {
+            OZ_TRY(oz_large_steps(sim->large, &sim->arrays, &sim->control[0], steps));
+        } else {
+            OZ_TRY(enqueue(sim, sim->advance, steps));
+            OZ_TRY(read_control(sim));
+        }
+        sim->counts.launches++;
+        bool full = false;
+        more = false;
+        for (int m = 0; m < sim->member_count; m++) {
+            full |= sim->control[m].full != 0;
+            more |= !is_through(&sim->control[m], steps);
+        }
+        if (full) {
+            OZ_TRY(grow_lists(sim));
+        } else if (more) {
+            OZ_TRY(oz_host_lists_make(sim));
+        }
+    }
+done:
+    return status;
+}
+
+static bool goes_on(const OzSim *sim, int member)
+{
+    return !sim->waits[member] && !sim->stopped[member];
+}
+
+/* A member that does not go on is at the launch's end already. */
+static OzStatus begin_launch(OzSim *sim, int steps)
+{
+    OzStatus status = OZ_OK;
+    for (int m = 0; m < sim->member_count; m++) {
+        sim->control[m].step = goes_on(sim, m) ? 0 : steps;
+        if (goes_on(sim, m)) {
+            OZ_TRY(write_motion(sim, m, sim->step, steps));
+        }
+    }
+done:
+    return status;
+}
+
+/* Counts each member's steps and notes which ones a guard stopped; *made receives the most that any
+ * made. */
+static OzStatus end_launch(OzSim *sim, int steps, int *made)
+{
+    OzStatus status = OZ_OK;
+    *made = 0;
+    for (int m = 0; m < sim->member_count; m++) {
+        const OzControl *control = &sim->control[m];
+        if (!goes_on(sim, m)) {
+            continue;
+        }
+        int own = control->stop_bits ? control->stop_step + 1 : steps;
+        sim->reached[m] += own;
+        *made = own > *made ? own : *made;
+        if (control->stop_bits) {
+            oz_guard_fail(control, sim->members[m].scene, sim->reached[m], sim->walls_still);
+            OZ_TRY(oz_memory_text(&sim->stopped[m], oz_status_text()));
+        }
+    }
+done:
+    return status;
+}
+
+static bool all_stopped(const OzSim *sim)
+{
+    for (int m = 0; m < sim->member_count; m++) {
+        if (!sim->stopped[m]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static OzStatus none_is_left(const OzSim *sim)
+{
+    return oz_status_fail(OZ_ERR_BLOWUP, "%s", sim->stopped[sim->member_count - 1]);
+}
+
+OzStatus oz_launch_steps(OzSim *sim, int steps)
+{
+    OzStatus status = OZ_OK;
+    int made = 0;
+    if (all_stopped(sim)) {
+        return none_is_left(sim);
+    }
+    OZ_TRY(begin_launch(sim, steps));
+    OZ_TRY(finish_launch(sim, steps));
+    OZ_TRY(end_launch(sim, steps, &made));
+    made = all_stopped(sim) ? made : steps;
+    sim->step += made;
+    sim->counts.steps += made;
+    status = all_stopped(sim) ? none_is_left(sim) : OZ_OK;
+done:
+    return status;
+}

@@ -1,0 +1,32 @@
+/* The tables of an ensemble: members.csv with one row a member, ensemble.csv with mean, spread and
+ * 95 % interval of every column of series.csv over the members of each value of the sweep. */
+#ifndef OZ_ENSEMBLE_H
+#define OZ_ENSEMBLE_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct OzEnsemble OzEnsemble;
+
+/* What members.csv says of a member. */
+typedef struct OzEnsembleRow {
+    const char *name; /* its folder below the ensemble's        */
+    uint64_t seed;
+    const char *value;  /* of the swept key; NULL without a sweep */
+    const char *status; /* "done", "stopped", ...                 */
+    bool has_series;    /* it was opened in this run              */
+} OzEnsembleRow;
+
+/* key is the swept one or NULL; both are borrowed. */
+OzStatus oz_ensemble_create(OzEnsemble **ensemble, const char *folder, const char *key);
+
+/* Adds a member, whose series.csv (if there is one) is whole. Members of one value come one after
+ * another. */
+OzStatus oz_ensemble_add(OzEnsemble *ensemble, const OzEnsembleRow *row);
+
+/* Puts members.csv and ensemble.csv in place and frees; NULL is fine. */
+OzStatus oz_ensemble_finish(OzEnsemble *ensemble);
+
+#endif

@@ -1,0 +1,171 @@
+/* One member's files. */
+#include "outputs.h"
+
+#include "base/file.h"
+#include "leftovers.h"
+#include "observe/final.h"
+#include "observe/schedule.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+static OzStatus refuse_finished(const char *folder, const char *mark)
+{
+    char *path = NULL;
+    OzStatus status = oz_file_join(&path, folder, mark);
+    if (status == OZ_OK && oz_file_exists(path)) {
+        status = oz_status_fail(
+            OZ_ERR_INPUT, "%s holds a finished run; expected another folder (-o) or --overwrite",
+            folder);
+    }
+    free(path);
+    return status;
+}
+
+OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(options->out ? oz_file_join(folder, NULL, options->out)
+                        : oz_file_join(folder, "runs", name));
+    if (!options->overwrite) {
+        OZ_TRY(refuse_finished(*folder, "final.csv"));
+        OZ_TRY(refuse_finished(*folder, "members.csv"));
+    }
+    OZ_TRY(oz_leftovers_remove(*folder));
+    OZ_TRY(oz_file_make_folder(*folder));
+done:
+    return status;
+}
+
+static OzStatus write_scene(const OzOutputs *outputs)
+{
+    OzStatus status = OZ_OK;
+    char *path = NULL;
+    FILE *file = NULL;
+    OZ_TRY(oz_file_join(&path, outputs->folder, "scene.yaml"));
+    file = fopen(path, "w");
+    if (!file) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+        goto done;
+    }
+    OZ_TRY(oz_scene_write(&outputs->scene, file));
+done:
+    if (file && fclose(file) != 0 && status == OZ_OK) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    }
+    free(path);
+    return status;
+}
+
+OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
+                         OzRenderer **renderer)
+{
+    OzStatus status = OZ_OK;
+    char *series = NULL, *frames = NULL;
+    const OzScene *scene = &outputs->scene;
+    const OzGrains *grains = &outputs->grains;
+    bool pictures = scene->movie.present || scene->snapshots.count > 0;
+    outputs->is_open = true;
+    if (outputs->name &&
+        outputs->name[0]) { /* a plain run's folder is chosen, with its log in it */
+        OZ_TRY(oz_leftovers_remove(outputs->folder));
+        OZ_TRY(oz_file_make_folder(outputs->folder));
+    }
+    OZ_TRY(oz_snapshot_create(&outputs->now, scene, grains));
+    OZ_TRY(write_scene(outputs));
+    OZ_TRY(oz_file_join(&series, outputs->folder, "series.csv"));
+    OZ_TRY(oz_series_create(&outputs->series, series, scene, grains));
+    if (pictures) {
+        OZ_TRY(oz_file_join(&frames, outputs->folder, "frames.bin"));
+        OZ_TRY(oz_frames_create(&outputs->frames, frames, scene, grains));
+    }
+    if (pictures && !options->no_video) {
+        outputs->pictures = (OzGallerySettings){.folder = outputs->folder,
+                                                .source_dir = options->source_dir,
+                                                .backend = options->gl,
+                                                .device = device,
+                                                .renderer = renderer};
+        OZ_TRY(oz_gallery_create(&outputs->gallery, &outputs->pictures, scene));
+    }
+done:
+    free(series);
+    free(frames);
+    return status;
+}
+
+OzStatus oz_outputs_look(OzOutputs *outputs, int due)
+{
+    OzStatus status = OZ_OK;
+    int purpose =
+        (due & OZ_DUE_MOVIE ? OZ_FRAME_MOVIE : 0) | (due & OZ_DUE_SNAPSHOT ? OZ_FRAME_SNAPSHOT : 0);
+    if (due & OZ_DUE_SAMPLE) {
+        oz_series_sample(outputs->series, &outputs->now);
+    }
+    if (due & OZ_DUE_ROW) {
+        OZ_TRY(oz_series_write(outputs->series, &outputs->now));
+    }
+    if (purpose && outputs->frames) {
+        OZ_TRY(oz_frames_add(outputs->frames, &outputs->now, purpose));
+    }
+    if (purpose && outputs->gallery) {
+        OZ_TRY(oz_gallery_add(outputs->gallery, &outputs->now, purpose));
+    }
+done:
+    return status;
+}
+
+OzStatus oz_outputs_write_final(OzOutputs *outputs)
+{
+    OzStatus status = OZ_OK;
+    char *path = NULL;
+    OZ_TRY(oz_file_join(&path, outputs->folder, "final.csv"));
+    OZ_TRY(oz_final_write(&outputs->now, path));
+done:
+    free(path);
+    return status;
+}
+
+void oz_outputs_times(const OzOutputs *outputs, double *drawing, double *encoding)
+{
+    *drawing = outputs->drawing;
+    *encoding = outputs->encoding;
+    if (outputs->gallery) {
+        oz_gallery_times(outputs->gallery, drawing, encoding);
+    }
+}
+
+OzStatus oz_outputs_close(OzOutputs *outputs)
+{
+    char first[1024] = "";
+    OzStatus status = OZ_OK;
+    oz_outputs_times(outputs, &outputs->drawing, &outputs->encoding);
+    for (int i = 0; i < 3; i++) {
+        OzStatus closed = i == 0   ? oz_gallery_finish(outputs->gallery)
+                          : i == 1 ? oz_frames_finish(outputs->frames)
+                                   : oz_series_free(outputs->series);
+        if (status == OZ_OK && closed != OZ_OK) {
+            status = closed;
+            snprintf(first, sizeof first, "%s", oz_status_text());
+        }
+    }
+    outputs->gallery = NULL;
+    outputs->frames = NULL;
+    outputs->series = NULL;
+    outputs->is_open = false;
+    return status == OZ_OK ? OZ_OK : oz_status_fail(status, "%s", first);
+}
+
+void oz_outputs_free(OzOutputs *outputs)
+{
+    if (!outputs) {
+        return;
+    }
+    oz_outputs_close(outputs);
+    oz_snapshot_free(&outputs->now);
+    oz_grains_free(&outputs->grains);
+    oz_scene_free(&outputs->scene);
+    free(outputs->name);
+    free(outputs->folder);
+    free(outputs);
+}

@@ -1,0 +1,54 @@
+/* What one member of a run leaves: its folder with scene, series, frames, pictures and last state.
+ * Sees snapshots and no simulation. */
+#ifndef OZ_OUTPUTS_H
+#define OZ_OUTPUTS_H
+
+#include "cli.h"
+#include "draw/gallery.h"
+#include "observe/frames.h"
+#include "observe/series.h"
+
+#include <stdbool.h>
+
+/* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while
+ * open. */
+typedef struct OzOutputs {
+    OzScene scene;
+    OzGrains grains;
+    OzSnapshot now; /* the state to be written next */
+    char *name;     /* of a member of an ensemble, as in seed_00003; owned */
+    char *folder;   /* owned */
+    OzSeries *series;
+    OzFrames *frames;
+    OzGallery *gallery;
+    OzGallerySettings pictures;
+    double drawing, encoding; /* s, once closed */
+    int64_t number;           /* of the member in its plan */
+    bool is_open;
+} OzOutputs;
+
+/* The folder of a command: -o, or runs/<name>, made. Refuses one that holds a finished run or
+ * ensemble, unless --overwrite; what an earlier run left there goes. The caller frees. */
+OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name);
+
+/* Opens what the scene asks for in outputs->folder; device is for the movie's metadata; renderer is
+ * shared with other members (see OzGallerySettings). */
+OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
+                         OzRenderer **renderer);
+
+/* What is due (OZ_DUE_ bits) of outputs->now. */
+OzStatus oz_outputs_look(OzOutputs *outputs, int due);
+
+/* outputs->now as final.csv. */
+OzStatus oz_outputs_write_final(OzOutputs *outputs);
+
+/* Seconds spent in drawing and encoding so far. */
+void oz_outputs_times(const OzOutputs *outputs, double *drawing, double *encoding);
+
+/* Finishes movie, frames and series; they are whole afterwards. Returns the first failure. */
+OzStatus oz_outputs_close(OzOutputs *outputs);
+
+/* Closes and frees everything; NULL is fine. */
+void oz_outputs_free(OzOutputs *outputs);
+
+#endif

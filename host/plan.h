@@ -1,0 +1,40 @@
+/* Which scenes a command asks for: the one that was written, or a member for each value of its
+ * sweep and each seed of --seeds. Values come in the order written, each with all its seeds. */
+#ifndef OZ_PLAN_H
+#define OZ_PLAN_H
+
+#include "cli.h"
+#include "model/grains.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { OZ_PLAN_MEMBERS_MAX = 100000 }; /* each has a folder of its own */
+
+typedef struct OzPlan {
+    const OzOptions *options; /* borrowed                                        */
+    OzScene scene;            /* as written, sweep included                      */
+    int64_t seed_count;       /* members of each value                           */
+    int64_t count;            /* members                                         */
+    bool is_ensemble;         /* --seeds or a sweep: members have folders and names */
+} OzPlan;
+
+/* Reads the scene of options->paths[0] and, with each value of its sweep, whether it can be loaded.
+ * The caller frees with oz_plan_free (zeroed is fine). */
+OzStatus oz_plan_create(OzPlan *plan, const OzOptions *options);
+void oz_plan_free(OzPlan *plan);
+
+/* Member i's scene, without a sweep, and its grains at the start. Refuses a step at which a contact
+ * grows by itself, unless --force. The caller frees both, also on failure. */
+OzStatus oz_plan_load(const OzPlan *plan, int64_t i, OzScene *scene, OzGrains *grains);
+
+/* The value that member i has of the swept key, as written; NULL without a sweep. */
+const char *oz_plan_value(const OzPlan *plan, int64_t i);
+
+uint64_t oz_plan_seed(const OzPlan *plan, int64_t i);
+
+/* Its folder's name, as in friction_0.2_seed_00003; empty for a plain run. The caller frees. */
+OzStatus oz_plan_name(const OzPlan *plan, int64_t i, char **name);
+
+#endif
