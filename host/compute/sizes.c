@@ -93,7 +93,8 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
     z->blocks = z->slots / s->lanes;
     double share_slots = s->resort ? LARGE_REGION : ceil((double)z->slots / s->group);
     z->region_slots = round_up(fmax(1, share_slots), s->lanes);
-    z->regions = (int)fmax(1, ceil((double)z->slots / z->region_slots));
+    int filled = (int)fmax(1, ceil((double)z->slots / z->region_slots));
+    z->regions = s->resort ? filled : s->group; /* one for each work-item, some may be empty */
     double share = fmax(1, (double)z->slots / z->regions);
     z->outer_capacity = round_up(OUTER_PAIRS * share + 16, s->lanes);
     z->inner_capacity = round_up(INNER_PAIRS * share + 16, s->lanes);
