@@ -20,7 +20,7 @@ static const struct {
     {"keys", "", "c", "every scene key: type, unit, range, default, meaning", 0, 0},
     {"bench", "[SCENE]...", "oQFzbysdtS", "speed on this machine: an6 and a ladder of beds, or scenes", 0,
      OZ_CLI_PATHS_MAX},
-    {"report", "[SCENE]...", "oQTXfsdtS", "what accuracy costs: error against run time", 0,
+    {"report", "[SCENE]...", "oQTXMBfsdtS", "what accuracy costs: error against run time", 0,
      OZ_CLI_PATHS_MAX},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
 };
@@ -49,6 +49,8 @@ static const struct {
     {'y', "--yardstick", "PROGRAM", "the scalar yardstick (default: found beside orzo)"},
     {'T', "--tolerance", "X", "error to be met; prints the cheapest setting, ready to paste"},
     {'X', "--extreme", NULL, "stiff and extreme cases instead: expected, got, verdict"},
+    {'M', "--map", NULL, "stability map over steps per contact and restitution instead"},
+    {'B', "--stability", NULL, "the largest stable step of each scene's settled bed instead"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -242,6 +244,8 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
     default:
         options->quick |= letter == 'Q';
         options->extreme |= letter == 'X';
+        options->map |= letter == 'M';
+        options->stability |= letter == 'B';
         options->features |= letter == 'F';
         options->overwrite |= letter == 'O';
         options->no_video |= letter == 'n';

@@ -7,6 +7,10 @@
 
 #include <cmocka.h>
 
+#include "model/contact.h"
+#include "model/place.h"
+#include "study/report_bed.h"
+#include "study/report_map.h"
 #include "study/report_point.h"
 #include "study/report_table.h"
 
@@ -157,6 +161,60 @@ static void test_sentence_and_setting(void **state)
     free(text);
 }
 
+/* A slanted rod that touches a plane with one end, 45 degrees steep: 1/m + arm^2/I in place of 1/m.
+ */
+static void test_an_end_is_stiffer_than_a_centre(void **state)
+{
+    (void)state;
+    const char *text = "model: rods\ntime: {step: 1e-5, duration: 1}\n"
+                       "contact: {contact_time: 1e-3, restitution: 0.5, friction: 0}\n"
+                       "grains:\n  - {kind: single, diameter: 5e-3, aspect: 4, axis: [1, 0, 1],"
+                       " position: [0, 0, 9.56e-3]}\nwalls:\n  - {kind: plane}\n";
+    OzScene scene = {0};
+    OzGrains grains = {0};
+    OzSnapshot now = {0};
+    OzBedStiffness bed;
+    assert_int_equal(OZ_OK, oz_scene_parse(&scene, "bed", text, NULL, 0));
+    assert_int_equal(OZ_OK, oz_place_grains(&grains, &scene));
+    assert_int_equal(OZ_OK, oz_snapshot_create(&now, &scene, &grains));
+    memcpy(now.position, grains.position, 3 * sizeof(double));
+    memcpy(now.quaternion, grains.quaternion, 4 * sizeof(double));
+    oz_snapshot_turn_axes(&now);
+    assert_int_equal(OZ_OK, oz_report_bed_measure(&bed, &now));
+    double arm = 0.5 * grains.length[0] * sqrt(0.5);
+    double share = 1 + grains.mass[0] * arm * arm / grains.inertia[0];
+    OzContactConstants pair = oz_contact_constants(&scene.contact);
+    assert_int_equal(1, bed.contacts);
+    /* rounding alone: a single contact's swing is found in one iteration */
+    assert_true(fabs(bed.stiffness / (share * pair.stiffness) - 1) < 1e-9);
+    assert_true(fabs(bed.damping / (share * pair.damping) - 1) < 1e-9);
+    oz_snapshot_free(&now);
+    oz_grains_free(&grains);
+    oz_scene_free(&scene);
+}
+
+static OzMapVerdict verdict_at(OzIntegrator integrator, double steps, double restitution)
+{
+    OzMapVerdict verdict = OZ_MAP_EXPLODED;
+    double amplitude = NAN;
+    assert_int_equal(OZ_OK,
+                     oz_report_map_try(&verdict, &amplitude, integrator, steps, restitution));
+    return verdict;
+}
+
+/* Theory: explicit Euler needs 22 steps at 0.8 and 5.8 at 0.4; symplectic Euler 4.7 at 0.02. */
+static void test_the_map_meets_theory(void **state)
+{
+    (void)state;
+    assert_int_equal(OZ_MAP_STABLE, verdict_at(OZ_INTEGRATOR_EULER, 26, 0.8));
+    assert_int_not_equal(OZ_MAP_STABLE, verdict_at(OZ_INTEGRATOR_EULER, 18, 0.8));
+    assert_int_equal(OZ_MAP_EXPLODED, verdict_at(OZ_INTEGRATOR_EULER, 6, 0.8));
+    assert_int_equal(OZ_MAP_STABLE, verdict_at(OZ_INTEGRATOR_EULER, 7, 0.4));
+    assert_int_equal(OZ_MAP_STABLE, verdict_at(OZ_INTEGRATOR_SYMPLECTIC_EULER, 6, 0.02));
+    assert_int_not_equal(OZ_MAP_STABLE, verdict_at(OZ_INTEGRATOR_SYMPLECTIC_EULER, 3, 0.02));
+    assert_int_not_equal(OZ_MAP_STABLE, verdict_at(OZ_INTEGRATOR_VELOCITY_VERLET, 5, 0.02));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,6 +225,8 @@ int main(void)
         cmocka_unit_test(test_unstable_settings_say_why),
         cmocka_unit_test(test_front_cheapest_and_order),
         cmocka_unit_test(test_sentence_and_setting),
+        cmocka_unit_test(test_an_end_is_stiffer_than_a_centre),
+        cmocka_unit_test(test_the_map_meets_theory),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

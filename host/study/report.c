@@ -6,7 +6,9 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "scene/keys.h"
+#include "study/report_bed.h"
 #include "study/report_extreme.h"
+#include "study/report_map.h"
 #include "study/report_plot.h"
 #include "study/report_table.h"
 
@@ -92,7 +94,7 @@ done:
     return status;
 }
 
-static OzStatus study_scene(Report *report, const char *path)
+static OzStatus study_scene(Report *report, const char *path, const OzReportCase *row)
 {
     OzStatus status = OZ_OK;
     const OzOptions *options = report->options;
@@ -101,10 +103,10 @@ static OzStatus study_scene(Report *report, const char *path)
     OzReportJob job = {.options = options,
                        .device = &report->device,
                        .path = path,
+                       .row = row,
                        .phases = options->quick ? PHASES_QUICK : PHASES,
                        .repeats = REPEATS};
     OzReportPoint like = {0};
-    OZ_TRY(find_case(&job.row, path));
     OZ_TRY(oz_report_point_truth(&like.truth, &job));
     for (int i = 0; i < count_integrators(); i++) {
         for (int p = 0; p < PRECISIONS; p++) {
@@ -135,7 +137,14 @@ static OzStatus study_scenes(Report *report)
     OZ_TRY(oz_file_make_folder(report->folder));
     printf("device: %s\n", report->device.name);
     for (int i = 0; i < options->path_count; i++) {
-        OZ_TRY(study_scene(report, options->paths[i]));
+        const OzReportCase *row = NULL;
+        OzStatus found = find_case(&row, options->paths[i]);
+        if (found != OZ_OK && options->path_count > 1) {
+            oz_log_line("%s: left out", oz_status_text());
+            continue;
+        }
+        OZ_TRY(found);
+        OZ_TRY(study_scene(report, options->paths[i], row));
     }
     oz_log_line("%d settings in %.0f s; %s/report.csv and pictures", report->count,
                 oz_clock_now() - start, report->folder);
@@ -154,9 +163,16 @@ OzStatus oz_report_run(const OzOptions *options)
     OZ_TRY(oz_memory_text(&report.folder, options->out ? options->out : folder_default));
     if (options->extreme) {
         OZ_TRY(oz_report_extreme_run(options));
+    } else if (options->map) {
+        OZ_TRY(oz_report_map_draw(report.folder));
     } else if (options->path_count == 0) {
-        OZ_TRY(
-            oz_status_fail(OZ_ERR_INPUT, "orzo report: no scene; expected SCENE... or --extreme"));
+        OZ_TRY(oz_status_fail(OZ_ERR_INPUT,
+                              "orzo report: no scene; expected SCENE..., --extreme or --map"));
+    } else if (options->stability) {
+        for (int i = 0; i < options->path_count; i++) {
+            OZ_TRY(oz_report_bed_say(options->paths[i], options->settings, options->setting_count,
+                                     options->device, options->threads, options->source_dir));
+        }
     } else {
         OZ_TRY(study_scenes(&report));
     }

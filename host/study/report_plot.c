@@ -124,7 +124,7 @@ static void list_failures(const OzReportPoint *points, int count, FILE *gnuplot)
     for (int i = 0; i < count && line < 12; i++) {
         if (!points[i].good) {
             fprintf(gnuplot,
-                    "set label %d 'left out: %s, %s, %d: %.60s' at graph 0.01,%.3f font ',7' "
+                    "set label %d 'left out: %s, %s, %d: %.80s' at graph 0.01,%.3f font ',7' "
                     "front\n",
                     line + 1, oz_keys_choice_name("integrator", (int)points[i].integrator),
                     oz_keys_choice_name("precision", (int)points[i].precision), points[i].steps,
