@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* Large enough to be in no cache. */
-static const size_t memory_bytes = 400u << 20;
+/* Large enough to be in no cache, or in few. */
+static const size_t memory_bytes = 400u << 20, quick_bytes = 100u << 20;
 
 typedef struct Look {
     const OzOptions *options;
@@ -49,9 +49,10 @@ static OzStatus measure(void *context)
     Look *look = context;
     OzDevice device = {0};
     const char *source_dir = look->options->source_dir;
+    size_t bytes = look->options->quick ? quick_bytes : memory_bytes;
     OZ_TRY(oz_device_open(&device, look->options->device, look->threads));
     for (int d = 0; d < (device.has_double ? 2 : 1); d++) {
-        OZ_TRY(oz_limits_copy(&look->rates[d], &device, source_dir, memory_bytes, d == 1));
+        OZ_TRY(oz_limits_copy(&look->rates[d], &device, source_dir, bytes, d == 1));
         OZ_TRY(oz_limits_multiply_add(&look->rates[2 + d], &device, source_dir, d == 1));
     }
 done:

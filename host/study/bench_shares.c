@@ -19,7 +19,7 @@
 #include <string.h>
 
 enum {
-    MOMENTS = 4, /* of a piece at which the bed stands still         */
+    MOMENTS = 4, /* of a piece at which the bed stands still; --quick: 1 */
     PIECES = 6,  /* of a tap, or of piece_seconds                    */
     WARM = 64,   /* steps: lists made, arrays touched                */
     LEAST = 32,  /* steps of a piece                                 */
@@ -170,15 +170,16 @@ static OzStatus time_phases(Shares *s)
 {
     OzStatus status = OZ_OK;
     int64_t first = oz_sim_step(s->sim);
-    for (int k = 1; k <= MOMENTS; k++) {
+    int moments = s->options->quick ? 1 : MOMENTS;
+    for (int k = 1; k <= moments; k++) {
         OzPhases now;
-        OZ_TRY(oz_sim_advance(s->sim, first + s->piece * k / MOMENTS));
+        OZ_TRY(oz_sim_advance(s->sim, first + s->piece * k / moments));
         OZ_TRY(oz_phases_measure(&now, s->sim, s->options->source_dir));
-        s->part[PART_PAIRS].seconds += now.pairs / MOMENTS;
-        s->part[PART_GRAINS].seconds += now.grains / MOMENTS;
-        s->part[PART_WALLS].seconds += now.walls / MOMENTS;
-        s->part[PART_REFRESH].seconds += now.refresh / MOMENTS;
-        s->part[PART_REBUILD].seconds += now.rebuild / MOMENTS;
+        s->part[PART_PAIRS].seconds += now.pairs / moments;
+        s->part[PART_GRAINS].seconds += now.grains / moments;
+        s->part[PART_WALLS].seconds += now.walls / moments;
+        s->part[PART_REFRESH].seconds += now.refresh / moments;
+        s->part[PART_REBUILD].seconds += now.rebuild / moments;
     }
     double rest = s->part[PART_STEP].seconds;
     for (int p = 0; p < PART_REST; p++) {

@@ -63,12 +63,23 @@ static double find_number(const char *line, const char *key)
     return at ? strtod(at + strlen(key), NULL) : NAN;
 }
 
+/* Diameter of the cylinder, m; 0 without one: the yardstick then takes its own. */
+static double container_of(const OzScene *scene)
+{
+    for (int w = 0; w < scene->wall_count; w++) {
+        if (scene->walls[w].kind == OZ_WALL_CYLINDER) {
+            return scene->walls[w].diameter;
+        }
+    }
+    return 0;
+}
+
 /* One run of the program, as a row. */
-static OzStatus run_once(const char *program, const char *bed, OzBenchRow *row)
+static OzStatus run_once(const char *program, const char *bed, double container, OzBenchRow *row)
 {
     char command[9000], line[4096] = "";
     double *value = row->value;
-    snprintf(command, sizeof command, "'%s' -t %d '%s'", program, TAPS, bed);
+    snprintf(command, sizeof command, "'%s' -t %d -c %.9g '%s'", program, TAPS, container, bed);
     FILE *output = popen(command, "r");
     bool read = output && fgets(line, sizeof line, output);
     bool ended = output && pclose(output) == 0;
@@ -107,7 +118,7 @@ OzStatus oz_bench_yardstick_measure(OzBenchRow *row, bool *found, const OzBenchB
     OZ_TRY(oz_file_join(&path, folder, "bed.csv"));
     OZ_TRY(write_bed(bed, path));
     for (int k = 0; k < RUNS; k++) {
-        OZ_TRY(run_once(program, path, &runs[k]));
+        OZ_TRY(run_once(program, path, container_of(&bed->scene), &runs[k]));
     }
     qsort(runs, RUNS, sizeof runs[0], compare);
     *row = runs[RUNS / 2];
