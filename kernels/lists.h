@@ -8,189 +8,13 @@
 #ifndef OZ_KERNELS_LISTS_H
 #define OZ_KERNELS_LISTS_H
 
+#include "kernels/cells.h"
 #include "kernels/grains.h"
+#include "kernels/springs.h"
 
 OZ_INLINE void oz_lists_full(OzWork *w)
 {
     atomic_or(&w->control->full, 1);
-}
-
-/* Inner springs back to the outer list. */
-OZ_INLINE void oz_lists_harvest(OzWork *w, int region)
-{
-#if OZ_HISTORY
-    global const scalar *history = (global const scalar *)w->pair_history;
-    int begin = region * w->z.inner_capacity, count = w->pair_count[region];
-    for (int p = begin; p < begin + count; p++) {
-        global const scalar *from = history + (size_t)(p / OZ_LANES) * 3 * OZ_LANES + p % OZ_LANES;
-        global scalar *to = w->outer_history + (size_t)w->pair_outer[p] * 3;
-        to[0] = from[0];
-        to[1] = from[OZ_LANES];
-        to[2] = from[2 * OZ_LANES];
-    }
-#endif
-}
-
-/* Empties the outer list's springs once the inner list has them: one whose pair has left the inner list was
- * let go, and must not be found again when the pair comes back. */
-OZ_INLINE void oz_lists_forget(OzWork *w, int region)
-{
-#if OZ_HISTORY
-    int blocks = (w->outer_count[region] + OZ_LANES - 1) / OZ_LANES;
-    global real *words = (global real *)w->outer_history;
-    words += 3 * (size_t)(region * w->z.outer_capacity / OZ_LANES);
-    for (int k = 0; k < 3 * blocks; k++) {
-        words[k] = REAL(0.0);
-    }
-#endif
-}
-
-/* Springs of the outer list to the saved list, keyed by ids. */
-OZ_INLINE void oz_lists_save(OzWork *w, int region)
-{
-#if OZ_HISTORY
-    int begin = region * w->z.outer_capacity, saved = region * w->z.inner_capacity, count = 0;
-    for (int o = begin; o < begin + w->outer_count[region]; o++) {
-        global const scalar *h = w->outer_history + (size_t)o * 3;
-        if (h[0] != 0 || h[1] != 0 || h[2] != 0) {
-            int to = saved + count++;
-            w->saved_a[to] = w->id[w->outer_a[o]];
-            w->saved_b[to] = w->id[w->outer_b[o]];
-            w->saved_history[3 * (size_t)to] = h[0];
-            w->saved_history[3 * (size_t)to + 1] = h[1];
-            w->saved_history[3 * (size_t)to + 2] = h[2];
-        }
-    }
-    w->saved_count[region] = count;
-#endif
-}
-
-/* Saved springs to their places in the new outer list. A spring whose pair is not listed any more cannot
- * be: it touched, so its gap is below the skin. */
-OZ_INLINE void oz_lists_restore(OzWork *w, int region)
-{
-#if OZ_HISTORY
-    int begin = region * w->z.inner_capacity;
-    for (int from = begin; from < begin + w->saved_count[region]; from++) {
-        int a = w->slot_of[w->saved_a[from]], b = w->slot_of[w->saved_b[from]];
-        int first = w->outer_first[a], last = first + w->outer_number[a];
-        for (int o = first; o < last; o++) {
-            if (w->outer_b[o] == b) {
-                w->outer_history[3 * (size_t)o] = w->saved_history[3 * (size_t)from];
-                w->outer_history[3 * (size_t)o + 1] = w->saved_history[3 * (size_t)from + 1];
-                w->outer_history[3 * (size_t)o + 2] = w->saved_history[3 * (size_t)from + 2];
-            }
-        }
-    }
-#endif
-}
-
-/* Cell coordinate of a place's coordinate; unbounded, wrapped only where it becomes an index. */
-OZ_INLINE int oz_lists_cell(const OzWork *w, spot_kind spot)
-{
-    global const OzParameters *p = w->parameters;
-    return (int)floor((scalar)spot * p->length_unit * p->inverse_cell);
-}
-
-OZ_INLINE int oz_lists_cell_index(const OzWork *w, int x, int y, int z)
-{
-    int row = (z & (w->z.cells_z - 1)) * w->z.cells_y + (y & (w->z.cells_y - 1));
-    return row * w->z.cells_x + (x & (w->z.cells_x - 1));
-}
-
-OZ_INLINE void oz_lists_spot(const OzWork *w, int slot, spot_kind spot[3])
-{
-    global const spot_kind *record =
-        (global const spot_kind *)(w->record + (size_t)slot * OZ_RECORD + OZ_R_PLACE);
-    spot[0] = record[0];
-    spot[1] = record[1];
-    spot[2] = record[2];
-}
-
-/* By shape, not by the length of the shaft's vector: that one's rounding turns with the grain, and pairs of
- * equal reach would change their order. */
-OZ_INLINE scalar oz_lists_reach(const OzWork *w, int slot)
-{
-    if (OZ_EQUAL) {
-        return w->parameters->reach_max;
-    }
-    global const scalar *words = (global const scalar *)w->shape;
-    words += (size_t)(slot / OZ_LANES) * OZ_SHAPE * OZ_LANES + slot % OZ_LANES;
-    return words[OZ_B_RADIUS * OZ_LANES] + words[OZ_B_HALF_LENGTH * OZ_LANES];
-}
-
-OZ_INLINE void oz_lists_clear(OzWork *w, int item, int stride)
-{
-    for (int c = item; c < w->z.cells + 2; c += stride) {
-        w->cell_first[c] = 0;
-    }
-}
-
-/* Counts the region's grains into cells, two places on, so that after the scan and the filling cell c is
- * cell_first[c] ... cell_first[c + 1]. */
-OZ_INLINE void oz_lists_bin(OzWork *w, int region)
-{
-    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
-        spot_kind spot[3];
-        oz_lists_spot(w, i, spot);
-        int cell = oz_lists_cell_index(w, oz_lists_cell(w, spot[0]), oz_lists_cell(w, spot[1]),
-                                       oz_lists_cell(w, spot[2]));
-        w->cell_of[i] = cell;
-        OZ_WORK_COUNT(&w->cell_first[cell + 2]);
-    }
-}
-
-OZ_INLINE void oz_lists_scan(OzWork *w)
-{
-    int sum = 0;
-    for (int c = 0; c < w->z.cells + 2; c++) {
-        sum += w->cell_first[c];
-        w->cell_first[c] = sum;
-    }
-}
-
-/* Slots in the order of cells; within a cell, in any order. */
-OZ_INLINE void oz_lists_fill(OzWork *w, int region)
-{
-    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
-        int to = OZ_WORK_COUNT(&w->cell_first[w->cell_of[i] + 1]);
-        w->sorted_slot[to] = i;
-    }
-}
-
-/* Sorts the slots of a cell by id, so that the order of grains does not depend on who was faster. */
-OZ_INLINE void oz_lists_arrange_cell(OzWork *w, int first, int last)
-{
-    for (int i = first + 1; i < last; i++) {
-        int kept = w->sorted_slot[i], key = w->id[kept], to = i;
-        while (to > first && w->id[w->sorted_slot[to - 1]] > key) {
-            w->sorted_slot[to] = w->sorted_slot[to - 1];
-            to--;
-        }
-        w->sorted_slot[to] = kept;
-    }
-}
-
-/* The region's share of cells: slots sorted, and what the search needs of the grains laid out beside. */
-OZ_INLINE void oz_lists_arrange(OzWork *w, int region)
-{
-    int begin = (int)((long)w->z.cells * region / w->z.regions);
-    int end = (int)((long)w->z.cells * (region + 1) / w->z.regions);
-    for (int cell = begin; cell < end; cell++) {
-        oz_lists_arrange_cell(w, w->cell_first[cell], w->cell_first[cell + 1]);
-    }
-    for (int to = w->cell_first[begin]; to < w->cell_first[end]; to++) {
-        int i = w->sorted_slot[to];
-        spot_kind spot[3];
-        oz_lists_spot(w, i, spot);
-        w->sorted_x[to] = spot[0];
-        w->sorted_y[to] = spot[1];
-        w->sorted_z[to] = spot[2];
-        w->sorted_id[to] = w->id[i];
-        if (!OZ_EQUAL) {
-            w->sorted_reach[to] = oz_lists_reach(w, i);
-        }
-    }
 }
 
 /* The search of one grain's partners: candidates by centre distance are collected, then tested by the gap
@@ -327,7 +151,7 @@ OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
         for (int dy = -1; dy <= 1; dy++) {
             scalar off_y = oz_lists_off(dy, y - at_y, cell), off2 = off_z * off_z + off_y * off_y;
             if (off2 < s->far * s->far) {
-                oz_lists_row(w, s, oz_lists_cell_index(w, 0, at_y + dy, at_z + dz), x, off2);
+                oz_lists_row(w, s, oz_cells_index(w, 0, at_y + dy, at_z + dz), x, off2);
             }
         }
     }
@@ -345,7 +169,7 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
     for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
         s.slot = i;
         s.id = w->id[i];
-        s.reach = oz_lists_reach(w, i);
+        s.reach = oz_cells_reach(w, i);
         s.far = s.reach + w->parameters->reach_max + w->parameters->skin_outer;
         s.count = 0;
         int own[OZ_LANES];
@@ -353,7 +177,7 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
             own[l] = i;
         }
         s.grain = oz_work_geometry(w, own);
-        oz_lists_spot(w, i, s.spot);
+        oz_cells_spot(w, i, s.spot);
         int first = s.out;
         oz_lists_around(w, &s);
         oz_lists_flush(w, &s);
@@ -370,7 +194,7 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
         oz_lists_full(w);
         atomic_max(&w->control->outer_needed, s.wanted);
     }
-    oz_lists_forget(w, region);
+    oz_springs_forget(w, region);
 }
 
 /* Notes where a block of grains is. */

@@ -34,7 +34,7 @@ OZ_INLINE int refresh(OzWork *w, int item, int stride)
     if (holds) {
         EACH_REGION
         {
-            oz_lists_forget(w, region);
+            oz_springs_forget(w, region);
         }
         if (item == 0) {
             w->control->truth = OZ_TRUTH_INNER;
@@ -54,31 +54,31 @@ OZ_INLINE int rebuild(OzWork *w, int item, int stride)
     if (truth == OZ_TRUTH_OUTER) {
         EACH_REGION
         {
-            oz_lists_save(w, region);
+            oz_springs_save(w, region);
         }
     }
-    oz_lists_clear(w, item, stride);
+    oz_cells_clear(w, item, stride);
     OZ_WORK_MEET();
     if (item == 0 && truth == OZ_TRUTH_OUTER) {
         w->control->truth = OZ_TRUTH_SAVED;
     }
     EACH_REGION
     {
-        oz_lists_bin(w, region);
+        oz_cells_bin(w, region);
     }
     OZ_WORK_MEET();
     if (item == 0) {
-        oz_lists_scan(w);
+        oz_cells_scan(w);
     }
     OZ_WORK_MEET();
     EACH_REGION
     {
-        oz_lists_fill(w, region);
+        oz_cells_fill(w, region);
     }
     OZ_WORK_MEET();
     EACH_REGION
     {
-        oz_lists_arrange(w, region);
+        oz_cells_arrange(w, region);
     }
     OZ_WORK_MEET();
     EACH_REGION
@@ -90,7 +90,7 @@ OZ_INLINE int rebuild(OzWork *w, int item, int stride)
     if (holds && truth != OZ_TRUTH_NONE) {
         EACH_REGION
         {
-            oz_lists_restore(w, region);
+            oz_springs_restore(w, region);
         }
     }
     if (holds) {
@@ -118,7 +118,7 @@ OZ_INLINE int renew(OzWork *w, int item, int stride)
     {
         oz_lists_measure(w, region);
         if (truth == OZ_TRUTH_INNER) {
-            oz_lists_harvest(w, region);
+            oz_springs_harvest(w, region);
         }
     }
     if (item == 0 && truth == OZ_TRUTH_INNER) {
@@ -178,10 +178,10 @@ OZ_INLINE void shelve(OzWork *w, int item, int stride)
     EACH_REGION
     {
         if (truth == OZ_TRUTH_INNER) {
-            oz_lists_harvest(w, region);
+            oz_springs_harvest(w, region);
         }
         if (truth == OZ_TRUTH_INNER || truth == OZ_TRUTH_OUTER) {
-            oz_lists_save(w, region);
+            oz_springs_save(w, region);
         }
     }
     if (item == 0 && truth != OZ_TRUTH_NONE) {

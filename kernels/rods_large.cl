@@ -70,7 +70,7 @@ kernel void oz_measure(OZ_WORK_ARGUMENTS, int step)
     (void)step;
     oz_lists_measure(&w, region);
     if (w.control->truth == OZ_TRUTH_INNER) {
-        oz_lists_harvest(&w, region);
+        oz_springs_harvest(&w, region);
     }
 }
 
@@ -94,21 +94,21 @@ kernel void oz_save(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
     (void)step;
-    oz_lists_save(&w, region);
+    oz_springs_save(&w, region);
 }
 
 kernel void oz_clear(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
     (void)step;
-    oz_lists_clear(&w, region, w.z.regions);
+    oz_cells_clear(&w, region, w.z.regions);
 }
 
 kernel void oz_bin(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
     (void)step;
-    oz_lists_bin(&w, region);
+    oz_cells_bin(&w, region);
 }
 
 kernel void oz_scan(OZ_WORK_ARGUMENTS, int step)
@@ -116,7 +116,7 @@ kernel void oz_scan(OZ_WORK_ARGUMENTS, int step)
     OZ_WORK_OPEN(0)
     (void)step;
     if (get_global_id(0) == 0) {
-        oz_lists_scan(&w);
+        oz_cells_scan(&w);
     }
 }
 
@@ -124,14 +124,14 @@ kernel void oz_fill(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
     (void)step;
-    oz_lists_fill(&w, region);
+    oz_cells_fill(&w, region);
 }
 
 kernel void oz_arrange(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
     (void)step;
-    oz_lists_arrange(&w, region);
+    oz_cells_arrange(&w, region);
 }
 
 kernel void oz_move_out(OZ_WORK_ARGUMENTS, int step)
@@ -161,7 +161,7 @@ kernel void oz_restore(OZ_WORK_ARGUMENTS, int step)
     OPEN_REGION
     (void)step;
     if (!w.control->full && w.control->truth == OZ_TRUTH_SAVED) {
-        oz_lists_restore(&w, region);
+        oz_springs_restore(&w, region);
     }
 }
 
@@ -196,6 +196,6 @@ kernel void oz_forget(OZ_WORK_ARGUMENTS, int step)
     OPEN_REGION
     (void)step;
     if (!w.control->full) {
-        oz_lists_forget(&w, region);
+        oz_springs_forget(&w, region);
     }
 }

@@ -1,0 +1,116 @@
+/* The hashed grid: grains counted into cells and laid out in the order of cells. Cell coordinates wrap around, so
+ * space is unbounded; a distance test tells apart what shares a cell. OpenCL C only. */
+#ifndef OZ_KERNELS_CELLS_H
+#define OZ_KERNELS_CELLS_H
+
+#include "kernels/work.h"
+
+/* Cell coordinate of a place's coordinate; unbounded, wrapped only where it becomes an index. */
+OZ_INLINE int oz_cells_of(const OzWork *w, spot_kind spot)
+{
+    global const OzParameters *p = w->parameters;
+    return (int)floor((scalar)spot * p->length_unit * p->inverse_cell);
+}
+
+OZ_INLINE int oz_cells_index(const OzWork *w, int x, int y, int z)
+{
+    int row = (z & (w->z.cells_z - 1)) * w->z.cells_y + (y & (w->z.cells_y - 1));
+    return row * w->z.cells_x + (x & (w->z.cells_x - 1));
+}
+
+OZ_INLINE void oz_cells_spot(const OzWork *w, int slot, spot_kind spot[3])
+{
+    global const spot_kind *record =
+        (global const spot_kind *)(w->record + (size_t)slot * OZ_RECORD + OZ_R_PLACE);
+    spot[0] = record[0];
+    spot[1] = record[1];
+    spot[2] = record[2];
+}
+
+/* By shape, not by the length of the shaft's vector: that one's rounding turns with the grain, and pairs of
+ * equal reach would change their order. */
+OZ_INLINE scalar oz_cells_reach(const OzWork *w, int slot)
+{
+    if (OZ_EQUAL) {
+        return w->parameters->reach_max;
+    }
+    global const scalar *words = (global const scalar *)w->shape;
+    words += (size_t)(slot / OZ_LANES) * OZ_SHAPE * OZ_LANES + slot % OZ_LANES;
+    return words[OZ_B_RADIUS * OZ_LANES] + words[OZ_B_HALF_LENGTH * OZ_LANES];
+}
+
+OZ_INLINE void oz_cells_clear(OzWork *w, int item, int stride)
+{
+    for (int c = item; c < w->z.cells + 2; c += stride) {
+        w->cell_first[c] = 0;
+    }
+}
+
+/* Counts the region's grains into cells, two places on, so that after the scan and the filling cell c is
+ * cell_first[c] ... cell_first[c + 1]. */
+OZ_INLINE void oz_cells_bin(OzWork *w, int region)
+{
+    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+        spot_kind spot[3];
+        oz_cells_spot(w, i, spot);
+        int cell = oz_cells_index(w, oz_cells_of(w, spot[0]), oz_cells_of(w, spot[1]),
+                                       oz_cells_of(w, spot[2]));
+        w->cell_of[i] = cell;
+        OZ_WORK_COUNT(&w->cell_first[cell + 2]);
+    }
+}
+
+OZ_INLINE void oz_cells_scan(OzWork *w)
+{
+    int sum = 0;
+    for (int c = 0; c < w->z.cells + 2; c++) {
+        sum += w->cell_first[c];
+        w->cell_first[c] = sum;
+    }
+}
+
+/* Slots in the order of cells; within a cell, in any order. */
+OZ_INLINE void oz_cells_fill(OzWork *w, int region)
+{
+    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+        int to = OZ_WORK_COUNT(&w->cell_first[w->cell_of[i] + 1]);
+        w->sorted_slot[to] = i;
+    }
+}
+
+/* Sorts the slots of a cell by id, so that the order of grains does not depend on who was faster. */
+OZ_INLINE void oz_cells_arrange_one(OzWork *w, int first, int last)
+{
+    for (int i = first + 1; i < last; i++) {
+        int kept = w->sorted_slot[i], key = w->id[kept], to = i;
+        while (to > first && w->id[w->sorted_slot[to - 1]] > key) {
+            w->sorted_slot[to] = w->sorted_slot[to - 1];
+            to--;
+        }
+        w->sorted_slot[to] = kept;
+    }
+}
+
+/* The region's share of cells: slots sorted, and what the search needs of the grains laid out beside. */
+OZ_INLINE void oz_cells_arrange(OzWork *w, int region)
+{
+    int begin = (int)((long)w->z.cells * region / w->z.regions);
+    int end = (int)((long)w->z.cells * (region + 1) / w->z.regions);
+    for (int cell = begin; cell < end; cell++) {
+        oz_cells_arrange_one(w, w->cell_first[cell], w->cell_first[cell + 1]);
+    }
+    for (int to = w->cell_first[begin]; to < w->cell_first[end]; to++) {
+        int i = w->sorted_slot[to];
+        spot_kind spot[3];
+        oz_cells_spot(w, i, spot);
+        w->sorted_x[to] = spot[0];
+        w->sorted_y[to] = spot[1];
+        w->sorted_z[to] = spot[2];
+        w->sorted_id[to] = w->id[i];
+        if (!OZ_EQUAL) {
+            w->sorted_reach[to] = oz_cells_reach(w, i);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,78 @@
+/* Tangential springs on their way through a rebuild of the lists: inner -> outer -> saved by ids -> outer -> inner
+ * (control->truth says where they are). OpenCL C only. */
+#ifndef OZ_KERNELS_SPRINGS_H
+#define OZ_KERNELS_SPRINGS_H
+
+#include "kernels/work.h"
+
+/* Inner springs back to the outer list. */
+OZ_INLINE void oz_springs_harvest(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    global const scalar *history = (global const scalar *)w->pair_history;
+    int begin = region * w->z.inner_capacity, count = w->pair_count[region];
+    for (int p = begin; p < begin + count; p++) {
+        global const scalar *from = history + (size_t)(p / OZ_LANES) * 3 * OZ_LANES + p % OZ_LANES;
+        global scalar *to = w->outer_history + (size_t)w->pair_outer[p] * 3;
+        to[0] = from[0];
+        to[1] = from[OZ_LANES];
+        to[2] = from[2 * OZ_LANES];
+    }
+#endif
+}
+
+/* Empties the outer list's springs once the inner list has them: one whose pair has left the inner list was
+ * let go, and must not be found again when the pair comes back. */
+OZ_INLINE void oz_springs_forget(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    int blocks = (w->outer_count[region] + OZ_LANES - 1) / OZ_LANES;
+    global real *words = (global real *)w->outer_history;
+    words += 3 * (size_t)(region * w->z.outer_capacity / OZ_LANES);
+    for (int k = 0; k < 3 * blocks; k++) {
+        words[k] = REAL(0.0);
+    }
+#endif
+}
+
+/* Springs of the outer list to the saved list, keyed by ids. */
+OZ_INLINE void oz_springs_save(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    int begin = region * w->z.outer_capacity, saved = region * w->z.inner_capacity, count = 0;
+    for (int o = begin; o < begin + w->outer_count[region]; o++) {
+        global const scalar *h = w->outer_history + (size_t)o * 3;
+        if (h[0] != 0 || h[1] != 0 || h[2] != 0) {
+            int to = saved + count++;
+            w->saved_a[to] = w->id[w->outer_a[o]];
+            w->saved_b[to] = w->id[w->outer_b[o]];
+            w->saved_history[3 * (size_t)to] = h[0];
+            w->saved_history[3 * (size_t)to + 1] = h[1];
+            w->saved_history[3 * (size_t)to + 2] = h[2];
+        }
+    }
+    w->saved_count[region] = count;
+#endif
+}
+
+/* Saved springs to their places in the new outer list. A spring whose pair is not listed any more cannot
+ * be: it touched, so its gap is below the skin. */
+OZ_INLINE void oz_springs_restore(OzWork *w, int region)
+{
+#if OZ_HISTORY
+    int begin = region * w->z.inner_capacity;
+    for (int from = begin; from < begin + w->saved_count[region]; from++) {
+        int a = w->slot_of[w->saved_a[from]], b = w->slot_of[w->saved_b[from]];
+        int first = w->outer_first[a], last = first + w->outer_number[a];
+        for (int o = first; o < last; o++) {
+            if (w->outer_b[o] == b) {
+                w->outer_history[3 * (size_t)o] = w->saved_history[3 * (size_t)from];
+                w->outer_history[3 * (size_t)o + 1] = w->saved_history[3 * (size_t)from + 1];
+                w->outer_history[3 * (size_t)o + 2] = w->saved_history[3 * (size_t)from + 2];
+            }
+        }
+    }
+#endif
+}
+
+#endif
