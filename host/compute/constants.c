@@ -46,7 +46,7 @@ static double extent(const OzScene *scene, const OzGrains *grains)
 }
 
 /* The unit of a place in single precision: 2^-22 to 2^-17 of the smallest diameter, the finest with which
- * twice the scene's extent stays within 2^30 units (differences of two places must fit 32 bits). At 40, 450
+ * one and a half times the extent stays within 2^30 units (differences of two places must fit 32 bits). At 40, 450
  * and 4500 diameters this leaves rounding of 1e-7, 5e-7 and 4e-6 diameters. */
 static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *grains)
 {
@@ -56,13 +56,13 @@ static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *
     }
     for (int bits = 22; bits >= 17; bits--) {
         *unit = ldexp(smallest, -bits);
-        if (2 * far < *unit * 0x1p30) {
+        if (1.5 * far < *unit * 0x1p30) {
             return OZ_OK;
         }
     }
     return oz_status_fail(OZ_ERR_INPUT,
                           "%s: the scene reaches %g m from the origin, %.3g times the smallest diameter; "
-                          "precision: float holds 4096, precision: double any",
+                          "precision: float holds 5461, precision: double any",
                           scene->path, far, far / smallest);
 }
 
