@@ -54,8 +54,8 @@ static int floor_of(const char *room)
 /* "draw/movie.c" is in draw, "run.c" in run. */
 static void room_of(char room[NAME_SIZE], const char *path)
 {
-    snprintf(room, NAME_SIZE, "%s", path);
-    room[strcspn(room, "/.")] = 0;
+    size_t length = strcspn(path, "/.");
+    snprintf(room, NAME_SIZE, "%.*s", length < NAME_SIZE ? (int)length : NAME_SIZE - 1, path);
 }
 
 /* path is below host/, header as written between its quotes. */
