@@ -73,18 +73,22 @@ static void assert_states_close(const OzSnapshot *a, const OzSnapshot *b, Tolera
     }
 }
 
-static void assert_sums_close(const OzSnapshot *a, const OzSnapshot *b)
+static void assert_contacts_close(const OzSnapshot *a, const OzSnapshot *b)
 {
     assert_int_equal(a->contacts.pair_count, b->contacts.pair_count);
     assert_int_equal(a->contacts.wall_count, b->contacts.wall_count);
     assert_close(a->contacts.overlap_max, b->contacts.overlap_max, 1e-6);
     assert_close(a->contacts.overlap_sum, b->contacts.overlap_sum, 1e-6);
+}
+
+static void assert_ledgers_close(const OzSnapshot *a, const OzSnapshot *b, double part)
+{
     assert_int_equal(a->has_ledger, b->has_ledger);
     if (a->has_ledger) {
-        assert_close(a->ledger.elastic, b->ledger.elastic, 1e-6);
-        assert_close(a->ledger.dissipated, b->ledger.dissipated, 1e-6);
-        assert_close(a->ledger.friction, b->ledger.friction, 1e-6);
-        assert_close(a->ledger.work_walls, b->ledger.work_walls, 1e-6);
+        assert_close(a->ledger.elastic, b->ledger.elastic, part);
+        assert_close(a->ledger.dissipated, b->ledger.dissipated, part);
+        assert_close(a->ledger.friction, b->ledger.friction, part);
+        assert_close(a->ledger.work_walls, b->ledger.work_walls, part);
     }
 }
 
@@ -100,9 +104,10 @@ static void check_crowd(const char *precision, const char *keys, const char *gra
     rig_advance(&rig, STEPS);
     assert_true(seen.has_contacts && seen.contacts.pair_count + seen.contacts.wall_count > 5);
     assert_states_close(&seen, &rig.now, wide ? in_double : in_float);
-    if (wide) {
-        assert_sums_close(&seen, &rig.now);
+    if (wide) { /* in float a contact may begin or end a step apart */
+        assert_contacts_close(&seen, &rig.now);
     }
+    assert_ledgers_close(&seen, &rig.now, wide ? 1e-6 : 1e-2);
     oz_snapshot_free(&seen);
     rig_close(&rig);
 }
@@ -150,7 +155,7 @@ static void test_few_spheres(void **state)
         assert_int_equal(seen.count, counts[k]);
         assert_int_equal(seen.step, STEPS);
         assert_states_close(&seen, &rig.now, in_double);
-        assert_sums_close(&seen, &rig.now);
+        assert_contacts_close(&seen, &rig.now);
         oz_snapshot_free(&seen);
         rig_close(&rig);
     }
@@ -161,7 +166,7 @@ static void test_work_items_give_the_same_bits(void **state)
 {
     (void)state;
     Rig rig;
-    rig_open(&rig, crowd, "float", 1e-5, CONTACT "friction: 0.3}", RODS);
+    rig_open(&rig, crowd, "double", 1e-5, VERLET, MIXTURE);
     throw_grains(&rig.grains, 0.4, 200);
     OzSnapshot one = state_after(&rig, SCALAR, STEPS), many = state_after(&rig, GROUP, STEPS);
     assert_same_bits(&one, &many);

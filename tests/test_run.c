@@ -27,6 +27,9 @@ static const char ledger_header[] =
 static const char final_header[] =
     "id,x,y,z,qw,qx,qy,qz,ux,uy,uz,vx,vy,vz,wx,wy,wz,diameter,length,mass\n";
 
+/* A program of its own, which tests share. */
+#define EXACT "--precision double --set observe.ledger=true"
+
 /* Line `index` of a text, in a buffer that the next call uses again. */
 static const char *line_of(const char *text, int index)
 {
@@ -136,9 +139,9 @@ static void assert_same_numbers(const char *one, const char *other)
 static void test_bed_from_a_file(void **state)
 {
     (void)state;
-    expect(0, "30 grains", "run bed.yaml -o settled --precision double --until 0");
+    expect(0, "30 grains", "run bed.yaml -o settled " EXACT " --until 0");
     expect(0, "30 grains",
-           "run bed.yaml -o restarted --precision double --until 0 --set settle=false "
+           "run bed.yaml -o restarted " EXACT " --until 0 --set settle=false "
            "--set 'grains=[{kind: file, path: settled/final.csv}]'");
     assert_same_numbers("settled/final.csv", "restarted/final.csv");
 }
@@ -147,8 +150,8 @@ static void test_settings(void **state)
 {
     (void)state;
     expect(0, "30 grains",
-           "run bed.yaml -o set --until 0.01 --set contact.friction=0 --set contact.friction=0.2 "
-           "--set observe.ledger=true --set walls.0.motion.acceleration_ratio=3");
+           "run bed.yaml -o set --until 0.01 --set contact.friction=0 --set "
+           "contact.friction=0.2 " EXACT " --set walls.0.motion.acceleration_ratio=3");
     char *series = read_file("set/series.csv", NULL);
     assert_true(strncmp(line_of(series, 0), header, strlen(header)) == 0);
     assert_string_equal(line_of(series, 0) + strlen(header), ledger_header);
@@ -157,6 +160,17 @@ static void test_settings(void **state)
     free(series);
     expect(2, "contact.friktion", "run bed.yaml -o bad --set contact.friktion=1");
     assert_false(is_there("bad"));
+}
+
+/* Pictures between taps do not take each other's names. */
+static void test_pictures_between_taps(void **state)
+{
+    (void)state;
+    expect(0, "30 grains",
+           "run shown.yaml -o between --until 0.02 --set 'snapshots.taps=[0.25, 0.4, 1]'");
+    assert_true(is_there("between/snapshots/tap_00000.250.png"));
+    assert_true(is_there("between/snapshots/tap_00000.400.png"));
+    assert_true(is_there("between/snapshots/tap_00001.png"));
 }
 
 static void test_draws_again(void **state)
@@ -304,6 +318,7 @@ int main(void)
         cmocka_unit_test(test_threads_give_the_same_bits),
         cmocka_unit_test(test_bed_from_a_file),
         cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_pictures_between_taps),
         cmocka_unit_test(test_draws_again),
         cmocka_unit_test(test_kernels_from_a_folder),
         cmocka_unit_test(test_other_commands),
