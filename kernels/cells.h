@@ -91,6 +91,26 @@ OZ_INLINE void oz_cells_arrange_one(OzWork *w, int first, int last)
     }
 }
 
+/* Where a slot's skin in the outer list is kept. */
+OZ_INLINE size_t oz_cells_skin_index(int slot)
+{
+    return (size_t)((slot / OZ_LANES) * OZ_REFERENCE + OZ_REFERENCE_SKIN) * OZ_LANES + slot % OZ_LANES;
+}
+
+/* A grain's skin in the outer list: what it moves in outer_time at its present speed, within bounds. */
+OZ_INLINE scalar oz_cells_skin(const OzWork *w, int slot)
+{
+    global const OzParameters *p = w->parameters;
+    global const scalar *record = w->record + (size_t)slot * OZ_RECORD;
+    global const scalar *a = record + OZ_R_SHAFT, *v = record + OZ_R_VELOCITY, *r = record + OZ_R_RATE;
+    scalar speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!OZ_ROUND) {
+        speed += sqrt((a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) *
+                      (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]));
+    }
+    return fmin(p->outer_most, p->outer_least + speed * p->outer_time);
+}
+
 /* The region's share of cells: slots sorted, and what the search needs of the grains laid out beside. */
 OZ_INLINE void oz_cells_arrange(OzWork *w, int region)
 {
@@ -107,6 +127,9 @@ OZ_INLINE void oz_cells_arrange(OzWork *w, int region)
         w->sorted_y[to] = spot[1];
         w->sorted_z[to] = spot[2];
         w->sorted_id[to] = w->id[i];
+        scalar skin = oz_cells_skin(w, i);
+        w->sorted_skin[to] = skin;
+        ((global scalar *)w->reference_outer)[oz_cells_skin_index(i)] = skin;
         if (!OZ_EQUAL) {
             w->sorted_reach[to] = oz_cells_reach(w, i);
         }

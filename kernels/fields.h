@@ -35,6 +35,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(scalar, sorted_reach, OZ_EQUAL ? 0 : z.slots + OZ_LANES)                                     \
     X(integer, sorted_slot, z.slots + OZ_LANES)                                                    \
     X(integer, sorted_id, z.slots + OZ_LANES)                                                      \
+    X(scalar, sorted_skin, z.slots + OZ_LANES)                                                     \
     X(integer, outer_a, z.regions *z.outer_capacity)                                               \
     X(integer, outer_b, z.regions *z.outer_capacity)                                               \
     X(scalar, outer_history, OZ_HISTORY ? z.regions * z.outer_capacity * 3 : 0)                    \

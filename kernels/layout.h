@@ -25,7 +25,8 @@ typedef struct OzParameters {
     scalar drag;          /* 1/s, only while settling                                         */
     scalar gravity[3];    /* m/s^2                                                            */
     OzLawConstants law;            /* between grains                                                   */
-    scalar skin_outer;    /* m: pairs with a smaller gap are in the outer list                */
+    scalar outer_least, outer_most; /* m, of one grain in the outer list: grows with its speed */
+    scalar outer_time;    /* s: for which that shall last at its present speed                */
     scalar skin_least, skin_most; /* m, of one grain: its skin grows with its speed           */
     scalar skin_time;     /* s: for which a grain's skin shall last at its present speed      */
     scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
@@ -112,8 +113,8 @@ enum {
 /* Words of a block's shapes, for populations that are not all equal. */
 enum { OZ_B_RADIUS, OZ_B_HALF_LENGTH, OZ_B_MASS, OZ_B_INVERSE_INERTIA, OZ_B_INVERSE_AXIS, OZ_SHAPE };
 
-/* Words of a block's reference: place and half-shaft when a list was made, and (inner list) how far the grain
- * may move before the list must be made again. */
+/* Words of a block's reference: place and half-shaft when a list was made, and the grain's skin in that list: how
+ * far it may move before the list must be made again. */
 enum { OZ_REFERENCE_SKIN = 6, OZ_REFERENCE = 7 };
 
 #endif

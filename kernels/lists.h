@@ -1,6 +1,6 @@
-/* Neighbour lists. The outer list holds every pair whose gap was below skin_outer when it was made from the
- * hashed grid; the inner list, which the forces walk, those of them whose gap is below the sum of both grains'
- * skins. A grain's skin grows with its speed, so that slow and fast ones use theirs up at about the same time.
+/* Neighbour lists. The outer list holds every pair whose gap was below the sum of both grains' outer skins when it
+ * was made from the hashed grid; the inner list, which the forces walk, those of them whose gap is below the sum of both grains'
+ * inner skins. A grain's skins grow with its speed, so that slow and fast ones use theirs up at about the same time.
  * The inner list is made anew from the outer one as long as that covers every grain's motion and skin. A list too small raises
  * control->full with the sizes needed and leaves the springs where control->truth says, so that the host
  * can enlarge it and repeat: no pair is ever dropped. A pair's first grain is the one with the longer reach
@@ -26,6 +26,7 @@ typedef struct OzSearch {
     spot_kind spot[3];   /* its place                                     */
     OzGrain grain;       /* its geometry, the same in every lane          */
     scalar reach;        /* m, half-length + radius                       */
+    scalar skin;         /* m, in the outer list                          */
     scalar far;          /* m, centre distance of the farthest partner    */
     int out;             /* where its next pair goes in the outer list    */
     int limit;           /* end of the region's outer list                */
@@ -47,6 +48,17 @@ OZ_INLINE real oz_lists_distance2(const OzWork *w, OzGrain one, OzGrain other, r
     return oz_dot(gap, gap);
 }
 
+/* Outer skins of the grains in slots. */
+OZ_INLINE real oz_lists_outer_skins(const OzWork *w, const int *slots)
+{
+    global const scalar *words = (global const scalar *)w->reference_outer;
+    scalar skin[OZ_LANES];
+    for (int l = 0; l < OZ_LANES; l++) {
+        skin[l] = words[oz_cells_skin_index(slots[l])];
+    }
+    return OZ_LANES_LOAD(skin);
+}
+
 /* Tests the collected candidates and stores the pairs. */
 OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
 {
@@ -57,7 +69,7 @@ OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
         int picked[OZ_LANES];
         OzGrain other = oz_work_geometry(w, s->candidate + first);
         real radii, distance2 = oz_lists_distance2(w, s->grain, other, &radii);
-        real near = radii + REAL(w->parameters->skin_outer);
+        real near = radii + REAL(s->skin) + oz_lists_outer_skins(w, s->candidate + first);
         mask hits = (distance2 < near * near) &
                     oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
         int count = oz_lanes_compact(picked, OZ_LANES_LOAD(s->candidate + first), hits);
@@ -83,12 +95,13 @@ OZ_INLINE void oz_lists_sweep(OzWork *w, OzSearch *s, int first, int last)
                            oz_place_to_real(apart.z) * unit);
         mask mine = oz_lanes_mask_of((OZ_LANES_LOAD(w->sorted_id + k) > s->id) &
                                      (OZ_LANES_IOTA + k < last));
-        real far = REAL(s->far);
+        real skins = OZ_LANES_LOAD(w->sorted_skin + k) + REAL(s->skin);
+        real far = REAL(2 * s->reach) + skins;
         if (!OZ_EQUAL) {
             real reach = OZ_LANES_LOAD(w->sorted_reach + k), own = REAL(s->reach);
             mask here = oz_lanes_mask_of(OZ_LANES_IOTA + k < last);
             mine = ((reach < own) & here) | ((reach == own) & mine);
-            far = reach + REAL(s->reach + w->parameters->skin_outer);
+            far = reach + REAL(s->reach) + skins;
         }
         if (s->count > OZ_CANDIDATES) {
             oz_lists_flush(w, s);
@@ -170,7 +183,8 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
         s.slot = i;
         s.id = w->id[i];
         s.reach = oz_cells_reach(w, i);
-        s.far = s.reach + w->parameters->reach_max + w->parameters->skin_outer;
+        s.skin = ((global const scalar *)w->reference_outer)[oz_cells_skin_index(i)];
+        s.far = s.reach + w->parameters->reach_max + s.skin + w->parameters->outer_most;
         s.count = 0;
         int own[OZ_LANES];
         for (int l = 0; l < OZ_LANES; l++) {
@@ -233,14 +247,13 @@ OZ_INLINE real oz_lists_skin(const OzWork *w, OzBody body, OzShape shape, OzVec3
 OZ_INLINE void oz_lists_measure(OzWork *w, int region)
 {
     int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
-    real most = REAL((scalar)0.5 * w->parameters->skin_outer);
     for (int block = begin; block < end; block++) {
         OzBody body = oz_grains_load(w, block);
         OzShape shape = oz_grains_shape(w, block);
         OzVec3 axis = oz_quaternion_axis(body.turn), shaft = oz_scale(axis, shape.half_length);
         real skin = oz_lists_skin(w, body, shape, axis);
-        real left = most - skin;
         global const real *outer = w->reference_outer + (size_t)block * OZ_REFERENCE;
+        real left = outer[OZ_REFERENCE_SKIN] - skin; /* outer_least is above skin_most: never negative */
         if (OZ_ANY(oz_grains_moved2(w, outer, body, shaft) > left * left)) {
             w->control->outer_stale = 1;
         }

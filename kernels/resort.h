@@ -65,6 +65,7 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
         w->id[slot] = id;
         w->slot_of[id] = slot;
         w->sorted_slot[slot] = slot;
+        ((global scalar *)w->reference_outer)[oz_cells_skin_index(slot)] = w->sorted_skin[slot];
         oz_resort_in_words((global scalar *)w->state, from + 1, slot, OZ_STATE);
         if (!OZ_EQUAL) {
             oz_resort_in_words((global scalar *)w->shape, from + 1 + OZ_STATE, slot, OZ_SHAPE);

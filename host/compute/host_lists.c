@@ -137,7 +137,7 @@ static OzStatus find_entries(Work *w)
     OzStatus status = OZ_OK;
     const OzParameters *p = &w->sim->parameters[w->member];
     OZ_TRY(
-        oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis, p->skin_outer));
+        oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis, 2 * p->outer_most));
     OZ_TRY(OZ_NEW(&w->entries, w->pairs.count));
     for (int64_t k = 0; k < w->pairs.count; k++) {
         w->entries[k] = entry_of(w, w->pairs.pair[k]);
@@ -252,6 +252,8 @@ static OzStatus write_reference(Work *w)
             oz_pack_scalars(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, 3 + c), &half[c],
                             1, s->is_double);
         }
+        oz_pack_scalars(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, OZ_REFERENCE_SKIN),
+                        &w->sim->parameters[w->member].outer_most, 1, s->is_double);
     }
     OZ_TRY(upload(w, OZ_FIELD_reference_outer, reference));
 done:

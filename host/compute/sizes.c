@@ -1,10 +1,11 @@
 /* Choosing sizes. */
 #include "compute/sizes.h"
 
-/* Reach of the lists beyond contact, measured on the tapped bed of Pournin et al.: larger skins are used up
- * less often but hold more pairs. Lengths in mean diameters. */
-static const double outer_skin = 0.9, least_skin = 0.008, most_skin = 0.15;
-static const double skin_steps = 12; /* steps for which a grain's skin shall last at its present speed */
+/* Skins of a grain in the lists, measured on the tapped bed of Pournin et al.: larger ones are used up less often but
+ * hold more pairs. Lengths in mean diameters; the steps are those for which a grain's skin shall last at its
+ * present speed. */
+static const double least_outer = 0.25, most_outer = 0.7, outer_steps = 60;
+static const double least_skin = 0.008, most_skin = 0.12, skin_steps = 12;
 
 enum {
     OUTER_PAIRS = 10, /* a grain, at first; lists grow when that is too few */
@@ -55,7 +56,7 @@ static void extents(double size[3], const OzGrains *grains)
  * around, so its size is a matter of speed only, as long as no cell is met twice. */
 static void choose_cells(OzSizes *z, OzParameters *p, const OzGrains *grains)
 {
-    double reach = 2 * p->reach_max + p->skin_outer, size[3];
+    double reach = 2 * (p->reach_max + p->outer_most), size[3];
     double cell = fmax(reach, 1e-300);
     p->inverse_cell = 1 / cell;
     extents(size, grains);
@@ -83,8 +84,10 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
 {
     double diameter = mean_diameter(grains);
     *z = (OzSizes){0};
-    p->skin_outer = scene->skin > 0 ? scene->skin : outer_skin * diameter;
-    p->skin_most = fmin(most_skin * diameter, p->skin_outer / 4);
+    p->outer_most = scene->skin > 0 ? scene->skin / 2 : most_outer * diameter;
+    p->outer_least = fmin(least_outer * diameter, p->outer_most);
+    p->outer_time = outer_steps * scene->step;
+    p->skin_most = fmin(most_skin * diameter, p->outer_least / 2);
     p->skin_least = fmin(least_skin * diameter, p->skin_most);
     p->skin_time = skin_steps * scene->step;
     z->members = members;
