@@ -116,6 +116,18 @@ static void share_budget(Bench *bench)
            budget, bench->seconds);
 }
 
+/* Wall times are worth little while other programs run; the table's processor times then tell more.
+ */
+static void warn_of_others(void)
+{
+    double load = 0;
+    if (getloadavg(&load, 1) == 1 && load > 0.5) {
+        printf("other programs are running (load %.1f): trust `cpu us` more than wall times, and "
+               "no comparison of threads\n",
+               load);
+    }
+}
+
 static OzStatus open_bench(Bench *bench)
 {
     OzStatus status = OZ_OK;
@@ -129,6 +141,7 @@ static OzStatus open_bench(Bench *bench)
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
         goto done;
     }
+    warn_of_others();
     OZ_TRY(oz_bench_limits_device(&bench->device, bench->options));
     OZ_TRY(oz_bench_limits_print(&bench->device, bench->options, stdout));
     choose_settings(bench);

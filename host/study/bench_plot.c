@@ -52,16 +52,27 @@ static void send_range(FILE *gnuplot, char axis, const OzBenchRow *rows, int cou
     fprintf(gnuplot, "set %crange [%.9g:%.9g]\n", axis, 0.7 * low, 1.4 * high);
 }
 
+/* Numbers at 1, 2 and 5 of each decade: a range of less than one would have but one otherwise. */
+static void send_tics(FILE *gnuplot)
+{
+    fprintf(gnuplot, "set ytics (0.001");
+    for (int decade = -3; decade <= 6; decade++) {
+        fprintf(gnuplot, ", 1e%d, 2e%d, 5e%d", decade, decade, decade);
+    }
+    fprintf(gnuplot, ")\n");
+}
+
 static void send_axes(FILE *gnuplot, const char *path, const char *title, const OzBenchRow *rows,
                       int count)
 {
     fprintf(gnuplot,
             "set terminal pngcairo size 1200,700 noenhanced font 'DejaVu Sans,11'\n"
             "set output '%s'\nset title '%s'\nset logscale xy\n"
-            "set grid xtics ytics mytics\nset mytics 10\n"
+            "set grid\n"
             "set xlabel 'grains'\nset ylabel 'ns per grain and step'\n"
             "set format x '%%.0f'\nset format y '%%g'\nset key outside right top\n",
             path, title);
+    send_tics(gnuplot);
     send_range(gnuplot, 'x', rows, count, OZ_BENCH_GRAINS);
     send_range(gnuplot, 'y', rows, count, OZ_BENCH_NS_GRAIN);
 }
