@@ -68,14 +68,22 @@ static void azimuth_colour(const double axis[3], float rgb[3])
     mix(GREY, hue, fmin(4 * lying, 1), rgb);
 }
 
+void oz_palette_grey(double x, float rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = (float)(0.15 + 0.75 * fmin(fmax(x, 0), 1));
+}
+
 void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i, float rgb[3])
 {
     const double *axis = &snapshot->axis[3 * i], *v = &snapshot->velocity[3 * i];
     bool sphere = !(snapshot->grains->length[i] > 0);
+    double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / fmax(look->speed_high, 1e-300);
     switch (look->colour) {
     case OZ_COLOUR_SPEED:
-        oz_palette_viridis(
-            sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / fmax(look->speed_high, 1e-300), rgb);
+        oz_palette_viridis(speed, rgb);
+        return;
+    case OZ_COLOUR_GREY:
+        oz_palette_grey(speed, rgb);
         return;
     case OZ_COLOUR_TYPE:
         oz_palette_type(snapshot->grains->population[i], rgb);

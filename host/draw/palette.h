@@ -8,6 +8,9 @@
  * and Smith 2015). Clamped. */
 void oz_palette_viridis(double x, float rgb[3]);
 
+/* Dark to light grey for x from 0 to 1. Clamped. */
+void oz_palette_grey(double x, float rgb[3]);
+
 /* Once around the hues, equally light, for x from 0 to 1; wraps. */
 void oz_palette_cyclic(double x, float rgb[3]);
 

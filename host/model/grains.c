@@ -44,6 +44,7 @@ void oz_grains_free(OzGrains *grains)
     free(grains->quaternion);
     free(grains->velocity);
     free(grains->spin);
+    oz_pieces_free(grains->pieces);
     memset(grains, 0, sizeof *grains);
 }
 

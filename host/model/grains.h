@@ -4,6 +4,7 @@
 #define OZ_MODEL_GRAINS_H
 
 #include "base/status.h"
+#include "model/pieces.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -11,16 +12,19 @@
 
 typedef struct OzGrains {
     int64_t count;
-    double *diameter;   /* m                                                     */
-    double *length;     /* m, shaft: aspect x diameter                           */
-    double *mass;       /* kg                                                    */
-    double *inertia;    /* kg m^2, about an axis across the shaft (P eq. 10)     */
+    double *diameter;     /* m                                                     */
+    double *length;       /* m, shaft: aspect x diameter                           */
+    double *mass;         /* kg                                                    */
+    double *inertia;      /* kg m^2, about an axis across the shaft (P eq. 10)     */
     double *inertia_axis; /* kg m^2, about the shaft                             */
-    int *population;    /* row of the scene's grains list                        */
-    double *position;   /* 3 x count: x y z of grain 0, then of grain 1, ...     */
-    double *quaternion; /* 4 x count: w x y z; turns body z into the shaft axis  */
-    double *velocity;   /* 3 x count, m/s                                        */
-    double *spin;       /* 3 x count, rad/s, world frame                         */
+    int *population;      /* row of the scene's grains list                        */
+    double *position;     /* 3 x count: x y z of grain 0, then of grain 1, ...     */
+    double *quaternion;   /* 4 x count: w x y z; turns body z into the shaft axis  */
+    double *velocity;     /* 3 x count, m/s                                        */
+    double *spin;         /* 3 x count, rad/s, world frame                         */
+    OzPieces *pieces;     /* owned: what trigrains and their walls are made of; NULL for rods.
+                           * Grains then lie in the plane z = 0, turn about z, and diameter is
+                           * that of the smallest circle about the centre of mass; length is 0 */
 } OzGrains;
 
 /* Allocates count zeroed grains; the caller frees with oz_grains_free. */

@@ -7,6 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+static OzStatus create_pieces(OzSnapshot *snapshot, int64_t count)
+{
+    OzStatus status = OZ_OK;
+    snapshot->piece_count = count;
+    OZ_TRY(OZ_NEW(&snapshot->piece_position, 2 * count));
+    OZ_TRY(OZ_NEW(&snapshot->piece_angle, count));
+    OZ_TRY(OZ_NEW(&snapshot->piece_velocity, 2 * count));
+    OZ_TRY(OZ_NEW(&snapshot->piece_spin, count));
+done:
+    return status;
+}
+
 OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
@@ -22,6 +34,9 @@ OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const Oz
     OZ_TRY(OZ_NEW(&snapshot->spin, 3 * count));
     OZ_TRY(OZ_NEW(&snapshot->wall_offset, scene->wall_count));
     OZ_TRY(OZ_NEW(&snapshot->wall_velocity, scene->wall_count));
+    if (grains->pieces) {
+        OZ_TRY(create_pieces(snapshot, grains->pieces->count));
+    }
 done:
     if (status != OZ_OK) {
         oz_snapshot_free(snapshot);
@@ -38,6 +53,10 @@ void oz_snapshot_free(OzSnapshot *snapshot)
     free(snapshot->spin);
     free(snapshot->wall_offset);
     free(snapshot->wall_velocity);
+    free(snapshot->piece_position);
+    free(snapshot->piece_angle);
+    free(snapshot->piece_velocity);
+    free(snapshot->piece_spin);
     memset(snapshot, 0, sizeof *snapshot);
 }
 
@@ -52,6 +71,64 @@ void oz_snapshot_move_walls(OzSnapshot *snapshot)
         snapshot->wall_velocity[w] =
             moves ? motion->amplitude * rate * cos(rate * snapshot->time) : 0;
     }
+}
+
+/* Sums of a grain's pieces: mass, first moments of position and velocity, turn. */
+typedef struct Join {
+    double mass, position[2], velocity[2], turn, inertia, momentum;
+} Join;
+
+static Join join_linear(const OzSnapshot *snapshot, int64_t first, int64_t end)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    Join join = {0};
+    for (int64_t i = first; i < end; i++) {
+        double mass = pieces->mass[i];
+        join.mass += mass;
+        join.turn += mass * (snapshot->piece_angle[i] - pieces->angle[i]);
+        for (int k = 0; k < 2; k++) {
+            join.position[k] += mass * snapshot->piece_position[2 * i + k];
+            join.velocity[k] += mass * snapshot->piece_velocity[2 * i + k];
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        join.position[k] /= join.mass;
+        join.velocity[k] /= join.mass;
+    }
+    join.turn /= join.mass;
+    return join;
+}
+
+/* Moment of inertia and angular momentum about the centre of mass. */
+static void join_angular(const OzSnapshot *snapshot, int64_t first, int64_t end, Join *join)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    for (int64_t i = first; i < end; i++) {
+        const double *r = snapshot->piece_position + 2 * i, *v = snapshot->piece_velocity + 2 * i;
+        double x = r[0] - join->position[0], y = r[1] - join->position[1];
+        double u = v[0] - join->velocity[0], w = v[1] - join->velocity[1];
+        join->inertia += pieces->inertia[i] + pieces->mass[i] * (x * x + y * y);
+        join->momentum +=
+            pieces->inertia[i] * snapshot->piece_spin[i] + pieces->mass[i] * (x * w - y * u);
+    }
+}
+
+void oz_snapshot_join_pieces(OzSnapshot *snapshot)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    for (int64_t g = 0; g < snapshot->count; g++) {
+        Join join = join_linear(snapshot, pieces->first[g], pieces->first[g + 1]);
+        join_angular(snapshot, pieces->first[g], pieces->first[g + 1], &join);
+        memcpy(&snapshot->position[3 * g], (double[3]){join.position[0], join.position[1], 0},
+               3 * sizeof(double));
+        memcpy(&snapshot->velocity[3 * g], (double[3]){join.velocity[0], join.velocity[1], 0},
+               3 * sizeof(double));
+        memcpy(&snapshot->spin[3 * g], (double[3]){0, 0, join.momentum / join.inertia},
+               3 * sizeof(double));
+        memcpy(&snapshot->quaternion[4 * g],
+               (double[4]){cos(0.5 * join.turn), 0, 0, sin(0.5 * join.turn)}, 4 * sizeof(double));
+    }
+    oz_snapshot_turn_axes(snapshot);
 }
 
 void oz_snapshot_turn_axes(OzSnapshot *snapshot)

@@ -1,5 +1,5 @@
-/* The state at one moment, by grain id: the only bridge from the simulation to everything that looks
- * at it (observables, pictures, files). A snapshot can be written by hand in a test. */
+/* The state at one moment, by grain id: the only bridge from the simulation to everything that
+ * looks at it (observables, pictures, files). A snapshot can be written by hand in a test. */
 #ifndef OZ_OBSERVE_SNAPSHOT_H
 #define OZ_OBSERVE_SNAPSHOT_H
 
@@ -12,10 +12,10 @@
 
 /* Sums over all contacts at this moment, grain-grain pairs and walls apart. */
 typedef struct OzContactSums {
-    int64_t pair_count;  /* touching pairs of grains                      */
-    int64_t wall_count;  /* touching ends at walls                        */
-    double overlap_max;  /* m, over pairs and walls                       */
-    double overlap_sum;  /* m, over pairs and walls                       */
+    int64_t pair_count; /* touching pairs of grains                      */
+    int64_t wall_count; /* touching ends at walls                        */
+    double overlap_max; /* m, over pairs and walls                       */
+    double overlap_sum; /* m, over pairs and walls                       */
 } OzContactSums;
 
 /* Energies since time 0, J. residual = change of (kinetic + rotational + potential + elastic)
@@ -26,6 +26,41 @@ typedef struct OzLedger {
     double friction;   /* by sliding, since time 0                     */
     double work_walls; /* put in by moving walls, since time 0         */
 } OzLedger;
+
+/* trigrains: kinds of contact (Poeschel and Buchholtz 1995, section 3, and physics' sixth), discs
+ * apart. */
+typedef enum OzTouchKind {
+    OZ_TOUCH_I,    /* two crossings on one edge of one triangle                     */
+    OZ_TOUCH_II,   /* two crossings on different edges of both                      */
+    OZ_TOUCH_III,  /* four crossings, two on each of two edges of both              */
+    OZ_TOUCH_IV,   /* four crossings, one triangle cut on all three edges           */
+    OZ_TOUCH_V,    /* six crossings                                                 */
+    OZ_TOUCH_VI,   /* four crossings, both triangles cut on all three edges         */
+    OZ_TOUCH_DISC, /* one or two discs                                              */
+    OZ_TOUCH_KINDS
+} OzTouchKind;
+
+/* trigrains: sums over all pieces, contacts and beams at this moment. */
+typedef struct OzPieceSums {
+    int64_t touches[OZ_TOUCH_KINDS]; /* contacts of each kind, walls included            */
+    int64_t grain_pairs;             /* pairs of grains that touch                       */
+    int64_t wall_touches;            /* contacts with walls                              */
+    double overlap_sum, overlap_max; /* m^2; of triangles                                */
+    double stretch_min, stretch_max; /* beams' length over their length at rest; 1 without beams */
+    double bend_max;                 /* rad, largest bending angle of a beam's end       */
+    double contact_energy;           /* J a metre deep: stored in overlaps               */
+    double beam_energy;              /* J: stored in beams                               */
+} OzPieceSums;
+
+/* trigrains: energies since time 0, J. residual = change of (translational + rotational + potential
+ * + contact + beam) + beam_axial + beam_bending + disc_damping + disc_friction - work_walls. */
+typedef struct OzPieceLedger {
+    double beam_axial;    /* dissipated by beams along their axes  */
+    double beam_bending;  /* dissipated by beams' bending          */
+    double disc_damping;  /* dissipated by discs, normal           */
+    double disc_friction; /* dissipated by discs, tangential       */
+    double work_walls;    /* put in by moving walls                */
+} OzPieceLedger;
 
 typedef struct OzSnapshot {
     const OzScene *scene;   /* borrowed                                                     */
@@ -44,6 +79,13 @@ typedef struct OzSnapshot {
     OzContactSums contacts;
     bool has_ledger;
     OzLedger ledger;
+    int64_t piece_count;        /* grains->pieces->count; 0 and NULL arrays for rods            */
+    double *piece_position;     /* 2 x piece_count, walls' pieces included, as of what follows  */
+    double *piece_angle;        /* piece_count, rad, not wrapped                                */
+    double *piece_velocity;     /* 2 x piece_count                                              */
+    double *piece_spin;         /* piece_count                                                  */
+    OzPieceSums pieces;         /* with has_contacts                                            */
+    OzPieceLedger piece_ledger; /* with has_ledger                                          */
 } OzSnapshot;
 
 /* Allocates the arrays for scene and grains; frees with oz_snapshot_free (zeroed is fine). */
@@ -52,6 +94,11 @@ void oz_snapshot_free(OzSnapshot *snapshot);
 
 /* Fills wall_offset and wall_velocity for snapshot->time. */
 void oz_snapshot_move_walls(OzSnapshot *snapshot);
+
+/* Fills position, velocity, spin, quaternion and axis of grains from their pieces: centre of mass,
+ * its velocity, angular momentum about it over moment of inertia, and the mean turn of the pieces.
+ */
+void oz_snapshot_join_pieces(OzSnapshot *snapshot);
 
 /* Fills axis from quaternion. */
 void oz_snapshot_turn_axes(OzSnapshot *snapshot);

@@ -12,11 +12,13 @@
 #include <stdint.h>
 #include <stdio.h>
 
-typedef enum OzModelKind { OZ_MODEL_RODS } OzModelKind;
+typedef enum OzModelKind { OZ_MODEL_RODS, OZ_MODEL_TRIGRAINS } OzModelKind;
 typedef enum OzIntegrator {
     OZ_INTEGRATOR_EULER,
     OZ_INTEGRATOR_SYMPLECTIC_EULER,
-    OZ_INTEGRATOR_VELOCITY_VERLET
+    OZ_INTEGRATOR_VELOCITY_VERLET,
+    OZ_INTEGRATOR_GEAR4, /* trigrains: predictor-corrector of fourth order          */
+    OZ_INTEGRATOR_RK4    /* trigrains, on the host's reference only                 */
 } OzIntegrator;
 typedef enum OzPrecision { OZ_PRECISION_FLOAT, OZ_PRECISION_DOUBLE } OzPrecision;
 typedef enum OzBroadphase {
@@ -32,6 +34,26 @@ typedef enum OzParallel { OZ_PARALLEL_SINGLE, OZ_PARALLEL_LINE } OzParallel;
 typedef enum OzContactPoint { OZ_POINT_MIDPOINT, OZ_POINT_SURFACES } OzContactPoint;
 typedef enum OzRestitutionAt { OZ_RESTITUTION_CENTRE, OZ_RESTITUTION_CONTACT } OzRestitutionAt;
 typedef enum OzCalibration { OZ_CALIBRATION_NONE, OZ_CALIBRATION_DISCRETE } OzCalibration;
+
+typedef enum OzForcePoint { OZ_FORCE_CENTROID, OZ_FORCE_MIDPOINT } OzForcePoint;
+typedef enum OzDampingShear { OZ_SHEAR_NONE, OZ_SHEAR_BALANCED } OzDampingShear;
+
+/* trigrains: what two overlapping triangles do to each other. */
+typedef struct OzTriangleValues {
+    double stiffness; /* Y, N/m^2: force over overlap area                            */
+    OzForcePoint force_point;
+} OzTriangleValues;
+
+/* trigrains: the beams that hold a grain's triangles together. */
+typedef struct OzBeamValues {
+    double stiffness;     /* E, N/m: force over elongation                            */
+    double second_moment; /* I, m^3: E I / L is the bending stiffness                 */
+    double damping;       /* gamma, kg/s                                              */
+    OzDampingShear damping_shear;
+    int64_t substeps;     /* steps of the beams in one of the contacts                */
+    double length_min;    /* m: grains with shorter beams are not made                */
+    double area_min;      /* m^2: nor with smaller triangles                          */
+} OzBeamValues;
 
 /* What two touching bodies do to each other. */
 typedef struct OzContactValues {
@@ -62,14 +84,31 @@ typedef struct OzMotion {
     double acceleration_ratio; /* A (2 pi f)^2 / |gravity|; both are filled in, whichever was   */
     double amplitude;          /* m                                                      written */
     double written_amplitude;  /* m; 0 when the acceleration ratio was written                  */
+    double angular_velocity;   /* rad/s about the wall's point, trigrains                       */
 } OzMotion;
 
-typedef enum OzWallKind { OZ_WALL_PLANE, OZ_WALL_CYLINDER } OzWallKind;
+typedef enum OzWallKind {
+    OZ_WALL_PLANE,
+    OZ_WALL_CYLINDER,
+    OZ_WALL_SEGMENT, /* trigrains from here on: a smooth straight wall from one point to another */
+    OZ_WALL_FLOOR,   /* a toothed floor of a width about a point                                 */
+    OZ_WALL_HOPPER,  /* two slopes with an opening between them, and upright sides above         */
+    OZ_WALL_DRUM,    /* the inside of a toothed circle                                           */
+    OZ_WALL_VESSEL   /* bottom and two sides                                                     */
+} OzWallKind;
 
 typedef struct OzWall {
     OzWallKind kind;
     double point[3], normal[3]; /* plane: normal is a unit vector into the free side       */
-    double diameter;            /* cylinder: side wall only, axis z through the origin     */
+    double diameter;            /* cylinder: side wall only, axis z through the origin; drum  */
+    double from[2], to[2];      /* m, segment: the free side lies to the left on the way      */
+    double width, height;       /* m, floor, hopper (inner, at the top), vessel (inner)       */
+    double opening;             /* m, hopper                                                  */
+    double slope;               /* rad from the horizontal, hopper                            */
+    int64_t tooth_count;        /* floor, hopper's slopes, drum; 0: smooth                    */
+    double tooth_depth;         /* m                                                          */
+    double thickness;           /* m, of what walls of triangles are made; 0: chosen by orzo  */
+    double until;               /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;
     OzContactValues contact;    /* the scene's, with this wall's own values put over them  */
     int line;
@@ -87,6 +126,14 @@ typedef enum OzPopulationKind {
     OZ_GRAINS_FILE     /* every grain of a final.csv, with its position, velocity and size             */
 } OzPopulationKind;
 
+typedef enum OzShapeKind {
+    OZ_SHAPE_SQUARE,   /* four triangles about the middle                                     */
+    OZ_SHAPE_POLYGON,  /* a triangle on each edge about the middle; irregular if asked for    */
+    OZ_SHAPE_STAR,     /* corners in and out in turn                                          */
+    OZ_SHAPE_VERTICES, /* any simple polygon                                                  */
+    OZ_SHAPE_DISC
+} OzShapeKind;
+
 typedef struct OzPopulation {
     OzPopulationKind kind;
     int64_t count;              /* random: as written; lattice: product of cells; single: 1; file: -1 */
@@ -99,6 +146,16 @@ typedef struct OzPopulation {
     double position[3], axis[3], velocity[3], spin[3]; /* single, lattice; axis is a unit vector;
                                                           spin in the world frame, rad/s   */
     char *path;                 /* file: absolute, or relative to the working folder       */
+    OzShapeKind shape;          /* trigrains, with what follows; two-dimensional vectors have
+                                   z = 0, spin is spin[2], density is kg/m^2               */
+    OzRange edge;               /* m, square                                               */
+    OzRange radius;             /* m, polygon and star (to the outer corners), disc        */
+    OzRange corners;            /* whole numbers: of a polygon, points of a star           */
+    double irregularity;        /* 0..1: how far polygons' corners are moved at random     */
+    double depth;               /* star: inner over outer radius                           */
+    double *vertices;           /* m: x and y of vertex 0, then of vertex 1, ...           */
+    int vertex_count;           /* numbers in vertices: two for each vertex                */
+    double angle;               /* rad, single and lattice                                 */
     int line;
 } OzPopulation;
 
@@ -116,6 +173,8 @@ typedef struct OzObserve {
     int64_t samples_per_tap; /* for the tap means                                          */
     double layer_thickness; /* m; default 4e-3                                             */
     bool ledger;            /* energy columns                                              */
+    double outlet;          /* m, trigrains: grains below this height have flowed out      */
+    bool has_outlet;
 } OzObserve;
 
 typedef enum OzView { OZ_VIEW_LATERAL, OZ_VIEW_CUT } OzView;
@@ -123,7 +182,8 @@ typedef enum OzColour {
     OZ_COLOUR_ANGLE,   /* angle to the floor, viridis, 0..90 degrees                       */
     OZ_COLOUR_AZIMUTH, /* cyclic, on twice the angle                                       */
     OZ_COLOUR_SPEED,   /* viridis, 0 to the scene's typical speed                          */
-    OZ_COLOUR_TYPE     /* one colour for each population                                   */
+    OZ_COLOUR_TYPE,    /* one colour for each population                                   */
+    OZ_COLOUR_GREY     /* speed in greys: the faster, the lighter                          */
 } OzColour;
 
 typedef struct OzMovieSettings {
@@ -135,6 +195,8 @@ typedef struct OzMovieSettings {
     OzColour colour;
     double speed;       /* shown seconds per real second of simulated time; 0: length is used */
     double length;      /* s of movie; 0: speed is used                                        */
+    bool outlines;      /* trigrains: grains' outlines are drawn                               */
+    bool beams;         /* trigrains: beams are drawn                                          */
 } OzMovieSettings;
 
 typedef struct OzSnapshotSettings {
@@ -142,6 +204,7 @@ typedef struct OzSnapshotSettings {
     int count;
     double *taps;  /* as written, ascending, or NULL */
     int tap_count;
+    double strobe; /* s between the states laid over each other in one picture; 0: none */
 } OzSnapshotSettings;
 
 /* One key that takes several values in turn: the scene then stands for several. */
@@ -169,6 +232,8 @@ typedef struct OzScene {
     double skin;       /* m, neighbour list's reach beyond contact; 0: chosen by orzo */
     bool gyroscopic;
     OzContactValues contact;
+    OzTriangleValues triangles;
+    OzBeamValues beams;
     OzPopulation *populations;
     int population_count;
     OzWall *walls;
