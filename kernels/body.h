@@ -22,6 +22,7 @@ typedef struct OzBody {
     OzVec3 velocity;     /* m/s                                                             */
     OzVec3 spin;         /* kg m^2/s or rad/s, see above                                    */
     OzQuaternion turn;
+    OzQuaternion turn_rest; /* what turn could not hold yet                                 */
 #if defined(OZ_HOST) || OZ_INTEGRATOR_ID == 2
     OzVec3 acceleration; /* m/s^2, of the step before (velocity-verlet)                     */
     OzVec3 torque;       /* N m, of the step before                                         */
@@ -71,17 +72,20 @@ OZ_INLINE OzVec3 oz_body_kick_spin(OzVec3 spin, OzVec3 torque, OzVec3 u, OzShape
 /* Turns the body for dt at constant spin. With the angular momentum L constant this is the exact free
  * motion of an axisymmetric body: a turn about L at |L|/I, after a turn about its own axis at
  * (L.u)(1/I_axis - 1/I). */
-OZ_INLINE OzQuaternion oz_body_turn(OzQuaternion turn, OzVec3 spin, OzShape shape, real dt)
+OZ_INLINE void oz_body_turn(OzBody *body, OzVec3 spin, OzShape shape, real dt)
 {
+    OzQuaternion change = oz_quaternion_to_unit(body->turn);
     OzVec3 turned_by = oz_scale(spin, dt);
     if (OZ_GYROSCOPIC) {
-        OzVec3 u = oz_quaternion_axis(turn);
+        OzVec3 u = oz_quaternion_axis(body->turn);
         real own = (shape.inverse_inertia_axis - shape.inverse_inertia) * oz_dot(spin, u) * dt;
         OzQuaternion about_axis = oz_quaternion_turn(oz_vec3(REAL(0.0), REAL(0.0), own));
-        turn = oz_quaternion_times(turn, about_axis);
+        change = oz_quaternion_add(change, oz_quaternion_times(body->turn, about_axis));
         turned_by = oz_scale(turned_by, shape.inverse_inertia);
     }
-    return oz_quaternion_unit(oz_quaternion_times(oz_quaternion_turn(turned_by), turn));
+    OzQuaternion before = oz_quaternion_add(body->turn, change);
+    OzQuaternion about_spin = oz_quaternion_times(oz_quaternion_turn(turned_by), before);
+    oz_quaternion_move(&body->turn, &body->turn_rest, oz_quaternion_add(change, about_spin));
 }
 
 #endif

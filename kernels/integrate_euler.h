@@ -12,7 +12,7 @@ OZ_INLINE void oz_euler_after(OzBody *body, OzShape shape, OzLoad load, real dt,
 {
     OzVec3 u = oz_quaternion_axis(body->turn);
     oz_place_move(&body->place, &body->rest, oz_scale(body->velocity, dt), inverse_unit);
-    body->turn = oz_body_turn(body->turn, body->spin, shape, dt);
+    oz_body_turn(body, body->spin, shape, dt);
     body->velocity = oz_along(body->velocity, dt * shape.inverse_mass, load.force);
     body->spin = oz_body_kick_spin(body->spin, load.torque, u, shape, dt);
 }

@@ -14,7 +14,7 @@ OZ_INLINE void oz_symplectic_euler_after(OzBody *body, OzShape shape, OzLoad loa
     body->velocity = oz_along(body->velocity, dt * shape.inverse_mass, load.force);
     body->spin = oz_body_kick_spin(body->spin, load.torque, u, shape, dt);
     oz_place_move(&body->place, &body->rest, oz_scale(body->velocity, dt), inverse_unit);
-    body->turn = oz_body_turn(body->turn, body->spin, shape, dt);
+    oz_body_turn(body, body->spin, shape, dt);
 }
 
 #endif

@@ -16,7 +16,7 @@ OZ_INLINE void oz_velocity_verlet_before(OzBody *body, OzShape shape, real dt, s
     OzVec3 middle = oz_along(body->velocity, REAL(0.5) * dt, body->acceleration);
     OzVec3 spin = oz_body_kick_spin(body->spin, body->torque, u, shape, REAL(0.5) * dt);
     oz_place_move(&body->place, &body->rest, oz_scale(middle, dt), inverse_unit);
-    body->turn = oz_body_turn(body->turn, spin, shape, dt);
+    oz_body_turn(body, spin, shape, dt);
 }
 
 /* Velocity and spin that the forces of this step see. The turn's axis is already the new one: the old

@@ -98,6 +98,9 @@ enum {
 /* Words of a pair's result: force on b and overlap, torque on a, torque on b. */
 enum { OZ_F_FORCE = 0, OZ_F_OVERLAP = 3, OZ_F_TORQUE_A = 4, OZ_F_TORQUE_B = 8, OZ_PAIR_FORCE = 12 };
 
+/* Words of a slot's load: force and torque, each with one word to spare. */
+enum { OZ_LOAD = 8 };
+
 /* Words of a block's state, each a real with one lane per grain. */
 enum {
     OZ_S_PLACE = 0,
@@ -105,9 +108,10 @@ enum {
     OZ_S_VELOCITY = 6,
     OZ_S_SPIN = 9,
     OZ_S_TURN = 12,
-    OZ_S_ACCELERATION = 16, /* velocity-verlet only */
-    OZ_S_TORQUE = 19,
-    OZ_STATE = 22
+    OZ_S_TURN_REST = 16,
+    OZ_S_ACCELERATION = 20, /* velocity-verlet only */
+    OZ_S_TORQUE = 23,
+    OZ_STATE = 26
 };
 
 /* Words of a block's shapes, for populations that are not all equal. */

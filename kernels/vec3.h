@@ -1,7 +1,7 @@
 /* Vectors of three lanes-wide numbers, quaternions, and places: coordinates whose differences are exact.
  * In single precision a place is a 32-bit integer count of length_unit with a carried remainder, so that
  * overlaps keep their digits far from the origin and slow grains do not stall at small steps; in double
- * it is the coordinate itself. */
+ * it is the coordinate itself. A quaternion carries a remainder too. */
 #ifndef OZ_KERNELS_VEC3_H
 #define OZ_KERNELS_VEC3_H
 
@@ -124,25 +124,62 @@ OZ_INLINE OzQuaternion oz_quaternion_times(OzQuaternion a, OzQuaternion b)
     return q;
 }
 
-/* The turn about `angle` (a rotation vector, rad). Series of cos and sin(h)/h in h^2, h half the angle:
- * exact to 1e-8 up to an angle of 1 rad, more than any stable step turns. */
+/* What the turn about `angle` (a rotation vector, rad) adds to the turn that changes nothing: series of
+ * sin(h)/h and cos(h) - 1 in h^2, h half the angle, exact to 1e-8 up to an angle of 1 rad, more than any
+ * stable step turns. Its product with q is what the turn adds to q, to full relative precision. */
 OZ_INLINE OzQuaternion oz_quaternion_turn(OzVec3 angle)
 {
     real h2 = REAL(0.25) * oz_dot(angle, angle);
     real half_sine =
         REAL(0.5) -
         h2 * (REAL(1.0 / 12) - h2 * (REAL(1.0 / 240) - h2 * (REAL(1.0 / 10080) - h2 * REAL(1.0 / 725760))));
-    real cosine = REAL(1.0) -
-                  h2 * (REAL(0.5) - h2 * (REAL(1.0 / 24) - h2 * (REAL(1.0 / 720) - h2 * REAL(1.0 / 40320))));
-    OzQuaternion q = {angle.x * half_sine, angle.y * half_sine, angle.z * half_sine, cosine};
+    real cosine_less_one =
+        -h2 * (REAL(0.5) - h2 * (REAL(1.0 / 24) - h2 * (REAL(1.0 / 720) - h2 * REAL(1.0 / 40320))));
+    OzQuaternion q = {angle.x * half_sine, angle.y * half_sine, angle.z * half_sine, cosine_less_one};
     return q;
 }
 
-OZ_INLINE OzQuaternion oz_quaternion_unit(OzQuaternion q)
+OZ_INLINE OzQuaternion oz_quaternion_add(OzQuaternion a, OzQuaternion b)
 {
-    real scale = REAL(1.0) / sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    OzQuaternion unit = {q.x * scale, q.y * scale, q.z * scale, q.w * scale};
-    return unit;
+    OzQuaternion q = {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+    return q;
 }
+
+/* What brings a quaternion of nearly unit length back to it: one step of Newton's. */
+OZ_INLINE OzQuaternion oz_quaternion_to_unit(OzQuaternion q)
+{
+    real share = REAL(0.5) - REAL(0.5) * (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    OzQuaternion change = {q.x * share, q.y * share, q.z * share, q.w * share};
+    return change;
+}
+
+#if defined(OZ_HOST) || defined(OZ_DOUBLE)
+
+OZ_INLINE void oz_quaternion_move(OzQuaternion *turn, OzQuaternion *rest, OzQuaternion change)
+{
+    (void)rest;
+    *turn = oz_quaternion_add(*turn, change);
+}
+
+#else
+
+OZ_INLINE void oz_quaternion_move_one(real *turn, real *rest, real change)
+{
+    real sum = *rest + change;
+    real moved = *turn + sum;
+    *rest = sum - (moved - *turn);
+    *turn = moved;
+}
+
+/* Adds a change; what is less than a digit of turn stays in rest (Kahan 1965). */
+OZ_INLINE void oz_quaternion_move(OzQuaternion *turn, OzQuaternion *rest, OzQuaternion change)
+{
+    oz_quaternion_move_one(&turn->x, &rest->x, change.x);
+    oz_quaternion_move_one(&turn->y, &rest->y, change.y);
+    oz_quaternion_move_one(&turn->z, &rest->z, change.z);
+    oz_quaternion_move_one(&turn->w, &rest->w, change.w);
+}
+
+#endif
 
 #endif

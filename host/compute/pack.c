@@ -60,6 +60,16 @@ static void momentum(const OzGrains *grains, int64_t i, const double axis[3], do
     }
 }
 
+static void put_turn(void *state, const OzSwitches *s, const double turn[4], int64_t slot)
+{
+    for (int c = 0; c < 4; c++) {
+        double whole = turn[(c + 1) % 4];
+        double held = s->is_double ? whole : (double)(float)whole;
+        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), held, s->is_double);
+        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN_REST + c), whole - held, s->is_double);
+    }
+}
+
 static void put_state(void *state, const OzSwitches *s, const OzParameters *p,
                       const OzGrains *grains, int64_t slot, int64_t i)
 {
@@ -80,9 +90,8 @@ static void put_state(void *state, const OzSwitches *s, const OzParameters *p,
         put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c),
             present ? grains->velocity[3 * i + c] : 0, wide);
         put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), present ? spin[c] : 0, wide);
-        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), turn[c + 1], wide);
     }
-    put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + 3), turn[0], wide);
+    put_turn(state, s, turn, slot);
 }
 
 static void put_shape(void *shape, const OzSwitches *s, const OzGrains *grains, int64_t slot,
@@ -195,6 +204,17 @@ static void make_unit(double quaternion[4])
     }
 }
 
+static void get_turn(const void *state, const OzSwitches *s, int64_t slot, double turn[4])
+{
+    for (int c = 0; c < 4; c++) {
+        size_t whole = oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c);
+        size_t rest = oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN_REST + c);
+        turn[(c + 1) % 4] =
+            oz_pack_scalar(state, whole, s->is_double) + oz_pack_scalar(state, rest, s->is_double);
+    }
+    make_unit(turn);
+}
+
 static void get_state(const void *state, const OzSwitches *s, const OzParameters *p, int64_t slot,
                       int64_t i, OzSnapshot *snapshot)
 {
@@ -205,12 +225,10 @@ static void get_state(const void *state, const OzSwitches *s, const OzParameters
         snapshot->position[3 * i + c] = (whole + rest) * p->length_unit;
         snapshot->velocity[3 * i + c] =
             oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide);
-        snapshot->spin[3 * i + c] = oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), wide);
-        snapshot->quaternion[4 * i + c + 1] =
-            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), wide);
+        snapshot->spin[3 * i + c] =
+            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), wide);
     }
-    snapshot->quaternion[4 * i] = oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + 3), wide);
-    make_unit(&snapshot->quaternion[4 * i]);
+    get_turn(state, s, slot, &snapshot->quaternion[4 * i]);
     oz_grains_axis(&snapshot->quaternion[4 * i], &snapshot->axis[3 * i]);
     if (s->gyroscopic) {
         spin_of(snapshot->grains, i, &snapshot->axis[3 * i], &snapshot->spin[3 * i]);
