@@ -59,7 +59,7 @@ done:
 }
 
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
-                         OzRenderer **renderer)
+                         OzStudio *studio)
 {
     OzStatus status = OZ_OK;
     char *series = NULL, *frames = NULL;
@@ -85,7 +85,8 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
                                                 .source_dir = options->source_dir,
                                                 .backend = options->gl,
                                                 .device = device,
-                                                .renderer = renderer};
+                                                .renderer = oz_studio_renderer(studio)};
+        outputs->studio = studio;
         OZ_TRY(oz_gallery_create(&outputs->gallery, &outputs->pictures, scene));
     }
 done:
@@ -109,7 +110,7 @@ OzStatus oz_outputs_look(OzOutputs *outputs, int due)
         OZ_TRY(oz_frames_add(outputs->frames, &outputs->now, purpose));
     }
     if (purpose && outputs->gallery) {
-        OZ_TRY(oz_gallery_add(outputs->gallery, &outputs->now, purpose));
+        OZ_TRY(oz_studio_add(outputs->studio, outputs->gallery, &outputs->now, purpose));
     }
 done:
     return status;
@@ -126,22 +127,12 @@ done:
     return status;
 }
 
-void oz_outputs_times(const OzOutputs *outputs, double *drawing, double *encoding)
-{
-    *drawing = outputs->drawing;
-    *encoding = outputs->encoding;
-    if (outputs->gallery) {
-        oz_gallery_times(outputs->gallery, drawing, encoding);
-    }
-}
-
 OzStatus oz_outputs_close(OzOutputs *outputs)
 {
     char first[1024] = "";
     OzStatus status = OZ_OK;
-    oz_outputs_times(outputs, &outputs->drawing, &outputs->encoding);
     for (int i = 0; i < 3; i++) {
-        OzStatus closed = i == 0   ? oz_gallery_finish(outputs->gallery)
+        OzStatus closed = i == 0   ? oz_studio_finish(outputs->studio, outputs->gallery)
                           : i == 1 ? oz_frames_finish(outputs->frames)
                                    : oz_series_free(outputs->series);
         if (status == OZ_OK && closed != OZ_OK) {

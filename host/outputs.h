@@ -4,7 +4,7 @@
 #define OZ_OUTPUTS_H
 
 #include "cli.h"
-#include "draw/gallery.h"
+#include "draw/studio.h"
 #include "observe/frames.h"
 #include "observe/series.h"
 
@@ -22,8 +22,8 @@ typedef struct OzOutputs {
     OzFrames *frames;
     OzGallery *gallery;
     OzGallerySettings pictures;
-    double drawing, encoding; /* s, once closed */
-    int64_t number;           /* of the member in its plan */
+    OzStudio *studio; /* borrowed: draws the gallery's pictures */
+    int64_t number;   /* of the member in its plan */
     bool is_open;
 } OzOutputs;
 
@@ -31,19 +31,16 @@ typedef struct OzOutputs {
  * ensemble, unless --overwrite; what an earlier run left there goes. The caller frees. */
 OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name);
 
-/* Opens what the scene asks for in outputs->folder; device is for the movie's metadata; renderer is
- * shared with other members (see OzGallerySettings). */
+/* Opens what the scene asks for in outputs->folder; device is for the movie's metadata; studio is
+ * shared with other members and must outlive this one. */
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
-                         OzRenderer **renderer);
+                         OzStudio *studio);
 
 /* What is due (OZ_DUE_ bits) of outputs->now. */
 OzStatus oz_outputs_look(OzOutputs *outputs, int due);
 
 /* outputs->now as final.csv. */
 OzStatus oz_outputs_write_final(OzOutputs *outputs);
-
-/* Seconds spent in drawing and encoding so far. */
-void oz_outputs_times(const OzOutputs *outputs, double *drawing, double *encoding);
 
 /* Finishes movie, frames and series; they are whole afterwards. Returns the first failure. */
 OzStatus oz_outputs_close(OzOutputs *outputs);

@@ -29,7 +29,7 @@ typedef struct Run {
     const OzOptions *options;
     OzPlan plan;
     OzDevice device;
-    OzRenderer *renderer; /* of all members */
+    OzStudio *studio; /* of all members */
     char *folder;
     OzOutputs **members;        /* of the group in hand */
     int64_t member_count, most; /* most: that there is room for at a time            */
@@ -38,8 +38,8 @@ typedef struct Run {
     Outcome *outcomes;          /* of each member of the plan                        */
     OzSim *sim;
     OzSchedule schedule;
-    double started, first_step; /* wall clock */
-    OzStatus loss;              /* why the first member that did not end well did not */
+    double started, first_step, spent; /* wall clock; spent: from the first step to the last */
+    OzStatus loss;                     /* why the first member that did not end well did not */
 } Run;
 
 /* Does a thing after a failure, whose text it keeps; returns the failure, or the thing's outcome
@@ -134,6 +134,7 @@ static OzStatus open_run(Run *run)
     OZ_TRY(open_log(run));
     oz_log_line("orzo %s: %s, %lld grains", ORZO_VERSION, run->plan.scene.path,
                 (long long)run->loaded->grains.count);
+    OZ_TRY(oz_studio_create(&run->studio));
     OZ_TRY(oz_device_open(&run->device, options->device, options->threads));
     oz_log_line("device: %s", run->device.name);
     OZ_TRY(choose_most(run));
@@ -194,7 +195,7 @@ static OzStatus open_group(Run *run)
         OZ_TRY(oz_plan_name(&run->plan, member->number, &member->name));
         OZ_TRY(member->name[0] ? oz_file_join(&member->folder, run->folder, member->name)
                                : oz_file_join(&member->folder, NULL, run->folder));
-        OZ_TRY(oz_outputs_open(member, run->options, run->device.name, &run->renderer));
+        OZ_TRY(oz_outputs_open(member, run->options, run->device.name, run->studio));
     }
     if (run->plan.is_ensemble) {
         oz_log_line("%s to %s: %lld side by side", run->members[0]->name,
@@ -308,6 +309,7 @@ static OzStatus walk(Run *run)
         OZ_TRY(look(run, due, &open));
     }
 done:
+    run->spent = oz_clock_now() - run->first_step;
     oz_log_progress(" ");
     return status;
 }
@@ -315,18 +317,14 @@ done:
 static void log_costs(const Run *run)
 {
     OzSimCounts counts = oz_sim_counts(run->sim);
-    double steps = counts.steps > 0 ? (double)counts.steps : 1, drawing = 0, encoding = 0;
-    double spent = oz_clock_now() - run->first_step;
-    for (int64_t m = 0; m < run->member_count; m++) {
-        double own_drawing = 0, own_encoding = 0;
-        oz_outputs_times(run->members[m], &own_drawing, &own_encoding);
-        drawing += own_drawing;
-        encoding += own_encoding;
-    }
-    oz_log_line("%lld steps in %.2f s: %.1f us a step without pictures (drawing %.2f s, encoding "
-                "%.2f s); list refreshed every %.1f, rebuilt every %.0f steps",
-                (long long)counts.steps, spent, 1e6 * (spent - drawing - encoding) / steps, drawing,
-                encoding, steps / (double)(counts.refreshes ? counts.refreshes : 1),
+    double steps = counts.steps > 0 ? (double)counts.steps : 1;
+    OzStudioTimes pictures = oz_studio_take_times(run->studio);
+    oz_log_line("%lld steps in %.2f s, %.2f s of them waiting for pictures: %.1f us a step without "
+                "(beside it drawing %.2f s, encoding %.2f s); list refreshed every %.1f, rebuilt "
+                "every %.0f steps",
+                (long long)counts.steps, run->spent, pictures.waited,
+                1e6 * (run->spent - pictures.waited) / steps, pictures.drawing, pictures.encoding,
+                steps / (double)(counts.refreshes ? counts.refreshes : 1),
                 steps / (double)(counts.rebuilds ? counts.rebuilds : 1));
     if (counts.crossed > 0) {
         oz_log_line("warning: %lld contacts of crossing shafts had no normal",
@@ -354,14 +352,14 @@ done:
 
 static OzStatus end_group(Run *run, OzStatus status)
 {
-    if (run->sim && run->first_step > 0) {
-        log_costs(run);
-    }
     for (int64_t m = 0; m < run->member_count; m++) {
         if (run->members[m]->is_open) {
             AFTER(status, end_member(run, m, status));
         }
         oz_outputs_free(run->members[m]);
+    }
+    if (run->sim && run->first_step > 0) {
+        log_costs(run);
     }
     run->member_count = 0;
     run->first_step = 0;
@@ -419,7 +417,7 @@ static OzStatus tell_losses(const Run *run)
 static void close_run(Run *run)
 {
     oz_outputs_free(run->loaded);
-    oz_renderer_free(run->renderer);
+    oz_studio_free(run->studio);
     oz_device_close(&run->device);
     oz_plan_free(&run->plan);
     free(run->members);

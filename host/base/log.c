@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+/* stderr's lock is that of the file and of progress_shown too. */
 static FILE *file;
 static bool progress_shown;
 
@@ -31,6 +32,7 @@ static void write_file(const char *format, va_list arguments)
 void oz_log_line(const char *format, ...)
 {
     va_list arguments;
+    flockfile(stderr);
     clear_progress();
     va_start(arguments, format);
     vfprintf(stderr, format, arguments);
@@ -39,14 +41,17 @@ void oz_log_line(const char *format, ...)
     va_start(arguments, format);
     write_file(format, arguments);
     va_end(arguments);
+    funlockfile(stderr);
 }
 
 void oz_log_detail(const char *format, ...)
 {
     va_list arguments;
+    flockfile(stderr);
     va_start(arguments, format);
     write_file(format, arguments);
     va_end(arguments);
+    funlockfile(stderr);
 }
 
 void oz_log_progress(const char *format, ...)
@@ -54,12 +59,14 @@ void oz_log_progress(const char *format, ...)
     if (!isatty(STDERR_FILENO)) {
         return;
     }
+    flockfile(stderr);
     clear_progress();
     va_list arguments;
     va_start(arguments, format);
     progress_shown = vfprintf(stderr, format, arguments) > 0;
     va_end(arguments);
     fflush(stderr);
+    funlockfile(stderr);
 }
 
 OzStatus oz_log_open(const char *path)

@@ -1,5 +1,6 @@
 /* Quiet lines for people: to stderr, and to the run's log.txt once that is open. A progress line is
- * drawn on a terminal only and never reaches the file. One log per process. */
+ * drawn on a terminal only and never reaches the file. One log per process,
+ * whose lines may come from any thread. */
 #ifndef OZ_BASE_LOG_H
 #define OZ_BASE_LOG_H
 

@@ -60,6 +60,35 @@ void oz_snapshot_free(OzSnapshot *snapshot)
     memset(snapshot, 0, sizeof *snapshot);
 }
 
+static void copy_words(double *to, const double *from, int64_t count)
+{
+    if (count > 0) {
+        memcpy(to, from, (size_t)count * sizeof *to);
+    }
+}
+
+OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    int64_t count = snapshot->count, walls = snapshot->scene->wall_count;
+    OZ_TRY(oz_snapshot_create(copy, snapshot->scene, snapshot->grains));
+    copy_words(copy->position, snapshot->position, 3 * count);
+    copy_words(copy->quaternion, snapshot->quaternion, 4 * count);
+    copy_words(copy->axis, snapshot->axis, 3 * count);
+    copy_words(copy->velocity, snapshot->velocity, 3 * count);
+    copy_words(copy->spin, snapshot->spin, 3 * count);
+    copy_words(copy->wall_offset, snapshot->wall_offset, walls);
+    copy_words(copy->wall_velocity, snapshot->wall_velocity, walls);
+    copy->step = snapshot->step;
+    copy->time = snapshot->time;
+    copy->has_contacts = snapshot->has_contacts;
+    copy->contacts = snapshot->contacts;
+    copy->has_ledger = snapshot->has_ledger;
+    copy->ledger = snapshot->ledger;
+done:
+    return status;
+}
+
 void oz_snapshot_move_walls(OzSnapshot *snapshot)
 {
     const OzScene *scene = snapshot->scene;

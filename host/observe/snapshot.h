@@ -92,6 +92,9 @@ typedef struct OzSnapshot {
 OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const OzGrains *grains);
 void oz_snapshot_free(OzSnapshot *snapshot);
 
+/* A snapshot of its own with the same state; scene and grains stay borrowed. Frees as above. */
+OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot);
+
 /* Fills wall_offset and wall_velocity for snapshot->time. */
 void oz_snapshot_move_walls(OzSnapshot *snapshot);
 

@@ -1,0 +1,42 @@
+/* Pictures drawn beside the simulation: one thread that owns the GL context and the encoders of all
+ * its galleries, and before it a short queue of copied snapshots. Everything here is called from
+ * one thread, the simulation's. */
+#ifndef OZ_DRAW_STUDIO_H
+#define OZ_DRAW_STUDIO_H
+
+#include "draw/gallery.h"
+
+enum { OZ_STUDIO_JOBS = 16 }; /* pictures that may wait or be in hand: a second or two of drawing */
+
+typedef struct OzStudio OzStudio;
+
+/* Seconds. */
+typedef struct OzStudioTimes {
+    double drawing, encoding; /* of the studio's thread, of galleries that are finished  */
+    double waited;            /* of the caller of oz_studio_add, the copying included    */
+} OzStudioTimes;
+
+/* Starts no thread: the first picture does. */
+OzStatus oz_studio_create(OzStudio **studio);
+
+/* For the settings of the galleries; the studio makes, uses and frees what stands there. */
+OzRenderer **oz_studio_renderer(OzStudio *studio);
+
+/* oz_gallery_add of a copy, later; the bits do not depend on when. From the first call on the
+ * gallery belongs to the studio's thread until oz_studio_finish. Waits while OZ_STUDIO_JOBS
+ * pictures wait, or fewer large ones. Fails with the first failure of any picture so far; those
+ * that still wait after one are left out. */
+OzStatus oz_studio_add(OzStudio *studio, OzGallery *gallery, const OzSnapshot *snapshot,
+                       int purpose);
+
+/* oz_gallery_finish after every picture that waits; NULL for either is fine. Fails with the first
+ * failure so far, and the movie holds the frames before it. */
+OzStatus oz_studio_finish(OzStudio *studio, OzGallery *gallery);
+
+/* The times since the last call. */
+OzStudioTimes oz_studio_take_times(OzStudio *studio);
+
+/* Every gallery must be finished; NULL is fine. */
+void oz_studio_free(OzStudio *studio);
+
+#endif
