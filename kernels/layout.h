@@ -98,9 +98,6 @@ enum {
 /* Words of a pair's result: force on b and overlap, torque on a, torque on b. */
 enum { OZ_F_FORCE = 0, OZ_F_OVERLAP = 3, OZ_F_TORQUE_A = 4, OZ_F_TORQUE_B = 8, OZ_PAIR_FORCE = 12 };
 
-/* Words of a slot's load: force and torque, each with one word to spare. */
-enum { OZ_LOAD = 8 };
-
 /* Words of a block's state, each a real with one lane per grain. */
 enum {
     OZ_S_PLACE = 0,
