@@ -7,9 +7,7 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "compute/capture.h"
-#include "compute/company.h"
-#include "compute/settle.h"
+#include "compute/drive.h"
 #include "ensemble.h"
 #include "observe/schedule.h"
 #include "outputs.h"
@@ -36,7 +34,7 @@ typedef struct Run {
     OzOutputs *loaded;          /* the next group's first, NULL at the end           */
     int64_t loaded_count;       /* members of the plan that were loaded or could not be */
     Outcome *outcomes;          /* of each member of the plan                        */
-    OzSim *sim;
+    OzDrive *drive;
     OzSchedule schedule;
     double started, first_step, spent; /* wall clock; spent: from the first step to the last */
     OzStatus loss;                     /* why the first member that did not end well did not */
@@ -148,7 +146,7 @@ static bool joins(const Run *run, const OzOutputs *member)
     const OzOutputs *first = run->members[0];
     OzMember a = {&first->scene, &first->grains}, b = {&member->scene, &member->grains};
     OzSchedule events = oz_schedule_create(&member->scene, run->options->until);
-    return oz_schedule_agrees(&run->schedule, &events) && oz_company_fits(&run->device, &a, &b);
+    return oz_schedule_agrees(&run->schedule, &events) && oz_drive_fits(&run->device, &a, &b);
 }
 
 /* The loaded member and those after it that can join it; the one that cannot begins the next group.
@@ -178,8 +176,8 @@ static OzStatus create_sim(Run *run)
     for (int64_t m = 0; m < run->member_count; m++) {
         members[m] = (OzMember){&run->members[m]->scene, &run->members[m]->grains};
     }
-    OZ_TRY(oz_sim_create(&run->sim, &run->device, members, (int)run->member_count,
-                         run->options->source_dir));
+    OZ_TRY(oz_drive_create(&run->drive, &run->device, members, (int)run->member_count,
+                           run->options->source_dir));
 done:
     free(members);
     return status;
@@ -218,7 +216,7 @@ static OzStatus drop_stopped(Run *run)
     OzStatus status = OZ_OK;
     for (int64_t m = 0; run->plan.is_ensemble && m < run->member_count; m++) {
         OzOutputs *member = run->members[m];
-        const char *why = oz_sim_stopped(run->sim, (int)m);
+        const char *why = oz_drive_stopped(run->drive, (int)m);
         if (why && member->is_open) {
             lose(run, member->number, OZ_ERR_BLOWUP, why);
             OZ_TRY(oz_outputs_close(member));
@@ -231,7 +229,7 @@ done:
 static OzStatus settle(Run *run)
 {
     double seconds = 0, start = oz_clock_now();
-    OzStatus status = oz_settle_run(run->sim, &seconds, show_settling, NULL);
+    OzStatus status = oz_drive_settle(run->drive, &seconds, show_settling, NULL);
     oz_log_progress(" ");
     AFTER(status, drop_stopped(run));
     if (status == OZ_OK && seconds > 0) {
@@ -244,7 +242,7 @@ static OzStatus look_at(Run *run, int64_t m, int due)
 {
     OzStatus status = OZ_OK;
     OzOutputs *member = run->members[m];
-    OZ_TRY(oz_capture_snapshot(run->sim, (int)m, &member->now, (due & OZ_DUE_ROW) != 0));
+    OZ_TRY(oz_drive_capture(run->drive, (int)m, &member->now, (due & OZ_DUE_ROW) != 0));
     OZ_TRY(oz_outputs_look(member, due));
 done:
     if (status == OZ_ERR_BLOWUP && run->plan.is_ensemble) {
@@ -271,7 +269,7 @@ done:
 
 static void show_progress(const Run *run)
 {
-    double step = (double)oz_sim_step(run->sim), last = (double)run->schedule.last_step;
+    double step = (double)oz_drive_step(run->drive), last = (double)run->schedule.last_step;
     double spent = oz_clock_now() - run->first_step, rate = spent > 0 ? step / spent : 0;
     oz_log_progress("%5.1f %%  %.4f s  %.0f steps/s  %.0f s left",
                     last > 0 ? 100 * step / last : 100, step * run->schedule.scene->step, rate,
@@ -280,7 +278,7 @@ static void show_progress(const Run *run)
 
 static OzStatus launch(Run *run, int64_t step, double *shown)
 {
-    OzStatus status = oz_sim_launch(run->sim, step);
+    OzStatus status = oz_drive_launch(run->drive, step);
     AFTER(status, drop_stopped(run));
     if (status == OZ_OK && oz_clock_now() - *shown > 0.2) {
         show_progress(run);
@@ -288,8 +286,8 @@ static OzStatus launch(Run *run, int64_t step, double *shown)
     }
     if (status == OZ_OK && oz_interrupt_asked()) {
         status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at step %lld, time %.9g s",
-                                (long long)oz_sim_step(run->sim),
-                                (double)oz_sim_step(run->sim) * run->schedule.scene->step);
+                                (long long)oz_drive_step(run->drive),
+                                (double)oz_drive_step(run->drive) * run->schedule.scene->step);
     }
     return status;
 }
@@ -303,7 +301,7 @@ static OzStatus walk(Run *run)
     run->first_step = oz_clock_now();
     oz_log_line("first step %.2f s after start", run->first_step - run->started);
     while (open > 0 && oz_schedule_next(&run->schedule, &step, &due)) {
-        while (oz_sim_step(run->sim) < step) {
+        while (oz_drive_step(run->drive) < step) {
             OZ_TRY(launch(run, step, &shown));
         }
         OZ_TRY(look(run, due, &open));
@@ -316,7 +314,7 @@ done:
 
 static void log_costs(const Run *run)
 {
-    OzSimCounts counts = oz_sim_counts(run->sim);
+    OzSimCounts counts = oz_drive_counts(run->drive);
     double steps = counts.steps > 0 ? (double)counts.steps : 1;
     OzStudioTimes pictures = oz_studio_take_times(run->studio);
     oz_log_line("%lld steps in %.2f s, %.2f s of them waiting for pictures: %.1f us a step without "
@@ -339,7 +337,7 @@ static OzStatus end_member(Run *run, int64_t m, OzStatus so_far)
     OzOutputs *member = run->members[m];
     bool whole = member->series && (so_far == OZ_OK || so_far == OZ_ERR_INTERRUPTED);
     if (whole) {
-        OZ_TRY(oz_capture_snapshot(run->sim, (int)m, &member->now, false));
+        OZ_TRY(oz_drive_capture(run->drive, (int)m, &member->now, false));
         OZ_TRY(oz_outputs_write_final(member));
     }
 done:
@@ -358,13 +356,13 @@ static OzStatus end_group(Run *run, OzStatus status)
         }
         oz_outputs_free(run->members[m]);
     }
-    if (run->sim && run->first_step > 0) {
+    if (run->drive && run->first_step > 0) {
         log_costs(run);
     }
     run->member_count = 0;
     run->first_step = 0;
-    oz_sim_free(run->sim);
-    run->sim = NULL;
+    oz_drive_free(run->drive);
+    run->drive = NULL;
     /* All its members were stopped: the next group may do better. */
     return status == OZ_ERR_BLOWUP && run->plan.is_ensemble ? OZ_OK : status;
 }

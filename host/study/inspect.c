@@ -2,7 +2,7 @@
 #include "study/inspect.h"
 
 #include "base/log.h"
-#include "compute/sim.h"
+#include "compute/drive.h"
 #include "model/place.h"
 #include "model/predict.h"
 #include "scene/keys.h"
@@ -108,7 +108,7 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     print_motion(file, &scene);
     OZ_TRY(print_contacts(file, &scene, &grains));
     OZ_TRY(oz_device_open(&device, options->device, options->threads));
-    OZ_TRY(oz_sim_describe(&device, &scene, &grains, file));
+    OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
     if (!scene.movie.present && scene.snapshots.count == 0) {
         fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
     }
