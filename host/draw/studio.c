@@ -4,13 +4,15 @@
 #include "base/clock.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <pthread.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* Copies that wait take no more than this, but one may always wait, bytes. */
+/* Copies in the queue take no more than this, unless two do, bytes. */
 static const double WAITING_MOST = 64e6;
 
 /* A picture to draw, or with purpose 0 a gallery to finish. */
@@ -22,12 +24,12 @@ typedef struct Job {
 
 struct OzStudio {
     pthread_t thread;
-    bool started, closing;
     pthread_mutex_t lock;   /* of everything below, but for the renderer */
-    pthread_cond_t changed; /* the queue, or closing */
-    Job jobs[OZ_STUDIO_JOBS];
-    int first, count; /* the job in hand is still counted */
-    OzStatus failure; /* the first, with its text */
+    pthread_cond_t changed; /* what was added or done, or closing */
+    bool started, closing;
+    Job jobs[OZ_STUDIO_JOBS]; /* number n is in place n % OZ_STUDIO_JOBS */
+    int64_t added, done;      /* so many so far; the difference waits or is in hand */
+    OzStatus failure;         /* the first, with its text */
     char text[2048];
     OzStudioTimes times;
     OzRenderer *renderer; /* of the thread alone */
@@ -48,31 +50,41 @@ OzRenderer **oz_studio_renderer(OzStudio *studio)
     return &studio->renderer;
 }
 
-/* The oldest job, which stays in the queue; NULL when there is no more to come. */
-static Job *take(OzStudio *studio)
+static void lock(OzStudio *studio)
 {
     pthread_mutex_lock(&studio->lock);
-    while (studio->count == 0 && !studio->closing) {
+}
+
+static void unlock(OzStudio *studio)
+{
+    pthread_mutex_unlock(&studio->lock);
+}
+
+/* The oldest job, which stays in its place; NULL when there is no more to come. */
+static Job *take(OzStudio *studio)
+{
+    lock(studio);
+    while (studio->added == studio->done && !studio->closing) {
         pthread_cond_wait(&studio->changed, &studio->lock);
     }
-    Job *job = studio->count > 0 ? &studio->jobs[studio->first] : NULL;
-    pthread_mutex_unlock(&studio->lock);
+    bool any = studio->added > studio->done;
+    Job *job = any ? &studio->jobs[studio->done % OZ_STUDIO_JOBS] : NULL;
+    unlock(studio);
     return job;
 }
 
-/* Takes the job in hand out of the queue. */
+/* Gives up the place of the job in hand. */
 static void put_away(OzStudio *studio, Job *job, OzStatus status)
 {
     oz_snapshot_free(&job->snapshot);
-    pthread_mutex_lock(&studio->lock);
+    lock(studio);
     if (status != OZ_OK && studio->failure == OZ_OK) {
         studio->failure = status;
         snprintf(studio->text, sizeof studio->text, "%s", oz_status_text());
     }
-    studio->first = (studio->first + 1) % OZ_STUDIO_JOBS;
-    studio->count--;
+    studio->done++;
     pthread_cond_broadcast(&studio->changed);
-    pthread_mutex_unlock(&studio->lock);
+    unlock(studio);
 }
 
 static OzStatus finish(OzStudio *studio, OzGallery *gallery)
@@ -80,10 +92,10 @@ static OzStatus finish(OzStudio *studio, OzGallery *gallery)
     double drawing = 0, encoding = 0, start = oz_clock_now();
     oz_gallery_times(gallery, &drawing, &encoding);
     OzStatus status = oz_gallery_finish(gallery);
-    pthread_mutex_lock(&studio->lock);
+    lock(studio);
     studio->times.drawing += drawing;
     studio->times.encoding += encoding + oz_clock_now() - start;
-    pthread_mutex_unlock(&studio->lock);
+    unlock(studio);
     return status;
 }
 
@@ -106,6 +118,7 @@ static void *work(void *argument)
     return NULL;
 }
 
+/* This and what follows down to wait_for_all want the lock held. */
 static OzStatus start(OzStudio *studio)
 {
     int code = studio->started ? 0 : pthread_create(&studio->thread, NULL, work, studio);
@@ -117,33 +130,36 @@ static OzStatus start(OzStudio *studio)
     return OZ_OK;
 }
 
-/* Waits until there is no more than this in the queue; fails with what failed so far. */
-static OzStatus wait_until(OzStudio *studio, int count)
+static OzStatus tell_failure(const OzStudio *studio)
 {
-    pthread_mutex_lock(&studio->lock);
-    while (studio->count > count) {
+    return studio->failure == OZ_OK ? OZ_OK : oz_status_fail(studio->failure, "%s", studio->text);
+}
+
+/* Waits while there are this many or more. */
+static void push(OzStudio *studio, const Job *job, int most)
+{
+    while (studio->added - studio->done >= most) {
         pthread_cond_wait(&studio->changed, &studio->lock);
     }
-    OzStatus failure = studio->failure;
-    pthread_mutex_unlock(&studio->lock);
-    return failure == OZ_OK ? OZ_OK : oz_status_fail(failure, "%s", studio->text);
-}
-
-/* There is room: only the calling thread fills the queue. */
-static void push(OzStudio *studio, const Job *job)
-{
-    pthread_mutex_lock(&studio->lock);
-    studio->jobs[(studio->first + studio->count) % OZ_STUDIO_JOBS] = *job;
-    studio->count++;
+    studio->jobs[studio->added++ % OZ_STUDIO_JOBS] = *job;
     pthread_cond_broadcast(&studio->changed);
-    pthread_mutex_unlock(&studio->lock);
 }
 
-static int jobs_before(const OzSnapshot *snapshot)
+/* Until all that was added so far is done. */
+static void wait_for_all(OzStudio *studio)
+{
+    int64_t added = studio->added;
+    while (studio->done < added) {
+        pthread_cond_wait(&studio->changed, &studio->lock);
+    }
+}
+
+/* How many such snapshots may be in the queue. */
+static int jobs_most(const OzSnapshot *snapshot)
 {
     double bytes = 16.0 * sizeof(double) * (double)snapshot->count; /* the arrays of a snapshot */
-    double most = WAITING_MOST / (bytes + 1);
-    return most < 2 ? 1 : most < OZ_STUDIO_JOBS ? (int)most - 1 : OZ_STUDIO_JOBS - 1;
+    double most = fmin(WAITING_MOST / (bytes + 1), OZ_STUDIO_JOBS);
+    return most < 2 ? 2 : (int)most;
 }
 
 OzStatus oz_studio_add(OzStudio *studio, OzGallery *gallery, const OzSnapshot *snapshot,
@@ -152,37 +168,42 @@ OzStatus oz_studio_add(OzStudio *studio, OzGallery *gallery, const OzSnapshot *s
     OzStatus status = OZ_OK;
     Job job = {.gallery = gallery, .purpose = purpose};
     double begin = oz_clock_now();
+    lock(studio);
+    OZ_TRY(tell_failure(studio));
     OZ_TRY(start(studio));
-    OZ_TRY(wait_until(studio, jobs_before(snapshot)));
     OZ_TRY(oz_snapshot_copy(&job.snapshot, snapshot));
-    push(studio, &job);
+    push(studio, &job, jobs_most(snapshot));
 done:
-    pthread_mutex_lock(&studio->lock);
     studio->times.waited += oz_clock_now() - begin;
-    pthread_mutex_unlock(&studio->lock);
+    unlock(studio);
     return status;
 }
 
 OzStatus oz_studio_finish(OzStudio *studio, OzGallery *gallery)
 {
     Job job = {.gallery = gallery};
+    OzStatus status = OZ_OK;
     if (!studio || !gallery) {
         return OZ_OK;
     }
-    if (!studio->started) {
-        return oz_gallery_finish(gallery);
+    lock(studio);
+    if (studio->started) {
+        push(studio, &job, OZ_STUDIO_JOBS);
+        wait_for_all(studio);
+        status = tell_failure(studio);
+    } else {
+        status = oz_gallery_finish(gallery);
     }
-    (void)wait_until(studio, OZ_STUDIO_JOBS - 1); /* its failure is told below */
-    push(studio, &job);
-    return wait_until(studio, 0);
+    unlock(studio);
+    return status;
 }
 
 OzStudioTimes oz_studio_take_times(OzStudio *studio)
 {
-    pthread_mutex_lock(&studio->lock);
+    lock(studio);
     OzStudioTimes times = studio->times;
     memset(&studio->times, 0, sizeof studio->times);
-    pthread_mutex_unlock(&studio->lock);
+    unlock(studio);
     return times;
 }
 
@@ -191,10 +212,10 @@ void oz_studio_free(OzStudio *studio)
     if (!studio) {
         return;
     }
-    pthread_mutex_lock(&studio->lock);
+    lock(studio);
     studio->closing = true;
     pthread_cond_broadcast(&studio->changed);
-    pthread_mutex_unlock(&studio->lock);
+    unlock(studio);
     if (studio->started) {
         pthread_join(studio->thread, NULL);
     }

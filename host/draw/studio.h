@@ -1,6 +1,6 @@
 /* Pictures drawn beside the simulation: one thread that owns the GL context and the encoders of all
- * its galleries, and before it a short queue of copied snapshots. Everything here is called from
- * one thread, the simulation's. */
+ * its galleries, and before it a short queue of copied snapshots. Several
+ * threads may hand in pictures, each those of its own galleries. */
 #ifndef OZ_DRAW_STUDIO_H
 #define OZ_DRAW_STUDIO_H
 
@@ -13,7 +13,7 @@ typedef struct OzStudio OzStudio;
 /* Seconds. */
 typedef struct OzStudioTimes {
     double drawing, encoding; /* of the studio's thread, of galleries that are finished  */
-    double waited;            /* of the caller of oz_studio_add, the copying included    */
+    double waited;            /* in oz_studio_add, all its callers together              */
 } OzStudioTimes;
 
 /* Starts no thread: the first picture does. */
@@ -24,8 +24,8 @@ OzRenderer **oz_studio_renderer(OzStudio *studio);
 
 /* oz_gallery_add of a copy, later; the bits do not depend on when. From the first call on the
  * gallery belongs to the studio's thread until oz_studio_finish. Waits while OZ_STUDIO_JOBS
- * pictures wait, or fewer large ones. Fails with the first failure of any picture so far; those
- * that still wait after one are left out. */
+ * pictures, or fewer large ones, wait or are in hand. Fails with the first failure of any picture
+ * so far; those that still wait after one are left out. */
 OzStatus oz_studio_add(OzStudio *studio, OzGallery *gallery, const OzSnapshot *snapshot,
                        int purpose);
 
