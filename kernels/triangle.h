@@ -7,7 +7,7 @@
  *        from which the other has the shortest way out
  *   iv, v, vi  along the normals of edges with two crossings, in shares of the lengths between
  *        them: of the triangle that has two such edges (iv), of all six (v), of one each (vi)
- * Kinds pass into each other without a jump from none to i, i to ii, i to iv and i to vi.
+ * The push does not jump where kinds change from none to i, i to ii and i to iv.
  * Under OZ_FORCE_POINT 0 the force acts at the overlap's centroid, which for kind i makes it the
  * gradient of the integral of depth; under 1 in the middle between crossings, as in the paper. */
 #ifndef OZ_KERNELS_TRIANGLE_H
