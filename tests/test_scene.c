@@ -263,7 +263,9 @@ static void rows_are_complete(void **state)
     oz_keys_print(file);
     fclose(file);
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
-        assert_ptr_equal(oz_keys_find(key->path), key);
+        for (int model = 0; model < 2; model++) {
+            assert_true(!oz_keys_serves(key, model) || oz_keys_of(key->path, model) == key);
+        }
         assert_non_null(key->help);
         assert_non_null(key->unit);
         assert_true(!key->rival || key->write != OZ_WRITE_ALWAYS);
@@ -275,7 +277,8 @@ static void rows_are_complete(void **state)
     free(text);
     assert_string_equal(oz_keys_choice_name("integrator", OZ_INTEGRATOR_VELOCITY_VERLET),
                         "velocity-verlet");
-    assert_string_equal(oz_keys_choice_name("integrator", 3), "?");
+    assert_string_equal(oz_keys_choice_name("integrator", OZ_INTEGRATOR_GEAR4), "gear4");
+    assert_string_equal(oz_keys_choice_name("integrator", 99), "?");
     assert_string_equal(oz_keys_choice_name("seed", 0), "?");
 }
 

@@ -2,11 +2,11 @@
 #include "scene/check.h"
 
 #include "base/memory.h"
+#include "scene/check_flat.h"
 #include "scene/keys.h"
 #include "scene/value.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,18 +19,7 @@ typedef struct Checker {
     OzFaults *faults;
 } Checker;
 
-/* Adds a fault where path was written, or at the deepest group on the way to it. */
-__attribute__((format(printf, 3, 4))) static void fault(Checker *checker, const char *path,
-                                                        const char *format, ...)
-{
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    const OzNode *node = oz_tree_nearest(checker->root, path);
-    oz_faults_add(checker->faults, node->source, node->line, "%s", text);
-}
+#define fault(checker, ...) oz_tree_fault((checker)->root, (checker)->faults, __VA_ARGS__)
 
 static bool is_written(const Checker *checker, const char *path)
 {
@@ -84,7 +73,7 @@ static void derive_walls(Checker *checker)
     OzScene *scene = checker->scene;
     for (int i = 0; i < scene->wall_count; i++) {
         OzWall *wall = &scene->walls[i];
-        if (wall->kind == OZ_WALL_PLANE) {
+        if (wall->kind == OZ_WALL_PLANE && scene->model == OZ_MODEL_RODS) {
             make_unit(checker, wall->normal, "walls", i, "normal");
         }
         derive_motion(checker, &wall->motion, i);
@@ -170,7 +159,8 @@ static void derive_populations(Checker *checker)
     OzScene *scene = checker->scene;
     for (int i = 0; i < scene->population_count; i++) {
         OzPopulation *grains = &scene->populations[i];
-        if (grains->kind == OZ_GRAINS_SINGLE || grains->kind == OZ_GRAINS_LATTICE) {
+        bool told = grains->kind == OZ_GRAINS_SINGLE || grains->kind == OZ_GRAINS_LATTICE;
+        if (told && scene->model == OZ_MODEL_RODS) {
             make_unit(checker, grains->axis, "grains", i, "axis");
         }
         if (grains->kind == OZ_GRAINS_SINGLE) {
@@ -179,7 +169,7 @@ static void derive_populations(Checker *checker)
             grains->count = -1;
         } else if (grains->kind == OZ_GRAINS_LATTICE) {
             double product = 1;
-            for (int axis = 0; axis < 3; axis++) {
+            for (int axis = 0; axis < (scene->model == OZ_MODEL_RODS ? 3 : 2); axis++) {
                 product *= (double)grains->cells[axis];
             }
             /* Far beyond the limit the exact number no longer matters, only that it fits. */
@@ -348,7 +338,8 @@ static void check_laws(Checker *checker)
 {
     const OzScene *scene = checker->scene;
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
-        if (!key->laws || key->laws >> scene->contact.law & 1) {
+        if (!key->laws || key->laws >> scene->contact.law & 1 ||
+            !oz_keys_serves(key, (int)scene->model)) {
             continue;
         }
         for (int i = -1; i < scene->wall_count; i++) {
@@ -372,7 +363,7 @@ static void check_wall_choices(Checker *checker)
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         const char *name = key->path + strlen(prefix);
         bool choice = strncmp(key->path, prefix, strlen(prefix)) == 0 && key->inherits &&
-                      key->type == OZ_KEY_CHOICE;
+                      key->type == OZ_KEY_CHOICE && oz_keys_serves(key, (int)checker->scene->model);
         for (int i = 0; choice && i < checker->scene->wall_count; i++) {
             int own = *(const int *)oz_value_at(key, &checker->scene->walls[i]);
             int common = *(const int *)oz_value_at(oz_keys_find(key->inherits), checker->scene);
@@ -417,7 +408,11 @@ OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
     check_grain_count(&checker);
     check_run_length(&checker);
     check_movie(&checker);
-    check_room(&checker);
-    check_singles(&checker);
+    if (scene->model == OZ_MODEL_TRIGRAINS) {
+        oz_check_flat_scene(scene, root, faults);
+    } else {
+        check_room(&checker);
+        check_singles(&checker);
+    }
     return status;
 }

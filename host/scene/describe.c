@@ -9,8 +9,12 @@ enum { LONGEST_NAME = 40 };
 
 static void print_choices(const OzKey *key, FILE *file)
 {
+    const char *lead = "";
     for (int i = 0; key->choices[i]; i++) {
-        fprintf(file, "%s%s", i ? ", " : "", key->choices[i]);
+        if (key->choices[i][0]) {
+            fprintf(file, "%s%s", lead, key->choices[i]);
+            lead = ", ";
+        }
     }
 }
 
@@ -172,7 +176,7 @@ static int how_far(const OzKey *key, const char *path, size_t group, size_t *len
     return distance(path + group, name);
 }
 
-bool oz_describe_nearest(const char *path, char *nearest, size_t size)
+bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size)
 {
     size_t group = group_length(path);
     size_t letters = strlen(path + group);
@@ -184,7 +188,7 @@ bool oz_describe_nearest(const char *path, char *nearest, size_t size)
     bool found = false;
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         size_t length = 0;
-        int away = how_far(key, path, group, &length);
+        int away = oz_keys_serves(key, model) ? how_far(key, path, group, &length) : best;
         if (away < best) {
             best = away;
             found = true;
@@ -194,18 +198,30 @@ bool oz_describe_nearest(const char *path, char *nearest, size_t size)
     return found;
 }
 
-void oz_describe_names(const char *group, char *text, size_t size)
+void oz_describe_names(const char *group, int model, char *text, size_t size)
 {
     size_t start = strlen(group) + (group[0] != '\0'), used = 0;
     char last[LONGEST_NAME + 1] = "";
     text[0] = '\0';
     for (const OzKey *key = oz_keys_all(); key->path && used < size; key++) {
         char name[LONGEST_NAME + 1];
-        bool below = strncmp(key->path, group, strlen(group)) == 0 &&
+        bool below = oz_keys_serves(key, model) && strncmp(key->path, group, strlen(group)) == 0 &&
                      (start == 0 || key->path[start - 1] == '.');
         if (below && name_at(key->path + start, name) && strcmp(name, last) != 0) {
             used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
             strcpy(last, name);
+        }
+    }
+}
+
+void oz_describe_bits(unsigned bits, const char *path, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < 32 && used < size; i++) {
+        if (bits >> i & 1) {
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " or " : "",
+                                     oz_keys_choice_name(path, i));
         }
     }
 }

@@ -11,10 +11,13 @@ void oz_describe_expected(const OzKey *key, char *text, size_t size);
 /* What a node is, as in "'fast'", "empty" or "a list of 2"; cut to size. */
 void oz_describe_node(const OzNode *node, char *text, size_t size);
 
-/* The known path that an unknown one was probably meant to be; false when none is near. */
-bool oz_describe_nearest(const char *path, char *nearest, size_t size);
+/* The model's known path that an unknown one was probably meant to be; false when none is near. */
+bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size);
 
-/* The names directly below a group ("" is the scene itself), with commas. */
-void oz_describe_names(const char *group, char *text, size_t size);
+/* The model's names directly below a group ("" is the scene itself), with commas. */
+void oz_describe_names(const char *group, int model, char *text, size_t size);
+
+/* The names of the choice at path whose bits are set, as in "single or lattice"; cut to size. */
+void oz_describe_bits(unsigned bits, const char *path, char *text, size_t size);
 
 #endif

@@ -1,6 +1,7 @@
 /* THE list of scene keys. A row says where a key's value lives, what it may be, what it is when not
  * written and what it means; loading, unknown-key hints, `--set`, writing a scene back and
- * `orzo keys` all walk the rows. A new key is a new row. */
+ * `orzo keys` all walk the rows. A new key is a new row in rows.c. A key that means different
+ * things to different models has a row for each. */
 #ifndef OZ_SCENE_KEYS_H
 #define OZ_SCENE_KEYS_H
 
@@ -34,8 +35,9 @@ typedef enum OzReload { OZ_RELOAD_REFUSE, OZ_RELOAD_APPLY, OZ_RELOAD_REBUILD } O
 /* When a row is written back. */
 typedef enum OzKeyWrite {
     OZ_WRITE_ALWAYS,
-    OZ_WRITE_NONZERO,     /* only when it holds something              */
-    OZ_WRITE_UNLESS_RIVAL /* only when its rival row holds nothing     */
+    OZ_WRITE_NONZERO,      /* only when it holds something              */
+    OZ_WRITE_UNLESS_RIVAL, /* only when its rival row holds nothing     */
+    OZ_WRITE_MARKED        /* only when written: the bool at count_offset says so */
 } OzKeyWrite;
 
 typedef struct OzKey {
@@ -47,12 +49,17 @@ typedef struct OzKey {
     const char *fallback;      /* the default as YAML, or NULL                            */
     const char *fallback_help; /* the default in words, where no constant says it         */
     const char *help;
-    const char *const *choices;    /* names in the enum's order, ending with NULL             */
-    size_t offset, count_offset;   /* in OzScene or in the list's item                        */
+    const char *const *choices;    /* names in the enum's order, "" where the model has none,
+                                      ending with NULL                                        */
+    size_t offset, count_offset;   /* in OzScene or in the list's item; the latter of a list's int
+                                      count, or of an OZ_WRITE_MARKED row's bool              */
     size_t item_size, line_offset; /* OZ_KEY_ITEMS: of one item, and of its int line        */
     int width;
+    double scale;         /* NUMBER: what is stored over what is written; 0: 1       */
+    unsigned models;      /* bit i: belongs to the model i; 0: to all                */
     bool required;        /* this or its rival; where kind, law and section ask      */
     unsigned kinds;       /* bit i: belongs to items whose kind is i; 0: to all      */
+    unsigned shapes;      /* bit i: to grains whose shape is i; 0: to all             */
     unsigned laws;        /* bit i: belongs to the contact law i; 0: to all          */
     const char *rival;    /* the neighbouring key that says the same otherwise       */
     const char *inherits; /* the key whose value it takes when not written           */
@@ -63,19 +70,26 @@ typedef struct OzKey {
 /* The rows, ending with one whose path is NULL; rows of one group are neighbours. */
 const OzKey *oz_keys_all(void);
 
-/* The row with this path, or NULL. */
+/* The first row with this path, or NULL. */
 const OzKey *oz_keys_find(const char *path);
+
+/* The row with this path that belongs to the model (an OzModelKind), or NULL. */
+const OzKey *oz_keys_of(const char *path, int model);
+
+/* True when the row belongs to the model. */
+bool oz_keys_serves(const OzKey *key, int model);
 
 /* True when rows live below this path. */
 bool oz_keys_is_group(const char *path);
 
-/* The name of a choice's value ("symplectic-euler" of "integrator" 1), "?" when there is none. */
+/* The name of a choice's value ("symplectic-euler" of "integrator" 1) in any model, "?" when there
+ * is none. */
 const char *oz_keys_choice_name(const char *path, int value);
 
 /* The bytes that a row's value takes at its offset, without what it points to. */
 size_t oz_keys_size(const OzKey *key);
 
-/* Every key: meaning, type, range, unit, default and, for items, its kinds. */
+/* Every key: meaning, type, range, unit, default and what it belongs to. */
 void oz_keys_print(FILE *file);
 
 #endif

@@ -1,5 +1,6 @@
 /* Walks a tree along the list of keys. Knows the shape of scenes (groups, lists of groups with a
- * kind, inherited values, rivals) and no key by name but `kind` and `contact.law`. */
+ * kind and a shape, inherited values, rivals) and few keys by name: `model`, `kind`, `shape` and
+ * `contact.law`. */
 #include "scene/read.h"
 
 #include "base/memory.h"
@@ -24,18 +25,22 @@ typedef struct Place {
     const char *prefix; /* of its rows' paths: "" or "grains[]."                    */
     const OzNode *node; /* what was written of it                                   */
     unsigned kind;      /* one bit of the rows' kinds; 0 when unknown, ~0 for none   */
+    unsigned shape;     /* the same for the rows' shapes                             */
 } Place;
 
 typedef struct Reader {
     OzScene *scene;
     OzFaults *faults;
     const OzNode *root;
+    int model;     /* what the scene is, or rods while that is unknown  */
+    bool contacts; /* some grains touch by the laws of `contact`        */
 } Reader;
 
-static bool belongs(const OzKey *key, const char *prefix)
+static bool belongs(const Reader *reader, const OzKey *key, const char *prefix)
 {
     size_t length = strlen(prefix);
-    return strncmp(key->path, prefix, length) == 0 && !strstr(key->path + length, "[]");
+    return oz_keys_serves(key, reader->model) && strncmp(key->path, prefix, length) == 0 &&
+           !strstr(key->path + length, "[]");
 }
 
 static const OzNode *written(const Place *place, const OzKey *key)
@@ -59,11 +64,11 @@ done:
 }
 
 /* Fills base with the constant defaults. */
-static OzStatus read_defaults(const char *prefix, void *base)
+static OzStatus read_defaults(const Reader *reader, const char *prefix, void *base)
 {
     OzStatus status = OZ_OK;
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
-        if (key->fallback && belongs(key, prefix)) {
+        if (key->fallback && belongs(reader, key, prefix)) {
             OZ_TRY(read_default(key, base));
         }
     }
@@ -75,13 +80,13 @@ static void report_unknown(const Reader *reader, const OzNode *node, const char 
 {
     char shown[LONGEST_PATH], near[LONGEST_PATH], group[LONGEST_PATH], names[1024];
     oz_tree_path(node, false, shown, sizeof shown);
-    if (oz_describe_nearest(path, near, sizeof near)) {
+    if (oz_describe_nearest(path, reader->model, near, sizeof near)) {
         oz_faults_add(reader->faults, node->source, node->line,
                       "unknown key %.100s; did you mean %s?", shown, near);
         return;
     }
     oz_tree_path(node->parent, true, group, sizeof group);
-    oz_describe_names(group, names, sizeof names);
+    oz_describe_names(group, reader->model, names, sizeof names);
     oz_faults_add(reader->faults, node->source, node->line,
                   "unknown key %.100s; expected one of %s", shown, names);
 }
@@ -109,24 +114,28 @@ static bool is_group(const Reader *reader, const OzNode *node, bool may_be_empty
     return false;
 }
 
-static void report_foreign_kind(const Reader *reader, const OzKey *key, const OzNode *node,
-                                const Place *place)
+/* name is "kind" or "shape"; owners and own are bits of that choice. */
+static void report_foreign(const Reader *reader, const char *name, unsigned owners, unsigned own,
+                           const OzNode *node, const Place *place)
 {
-    char path[LONGEST_PATH], kind_path[LONGEST_PATH], owners[128] = "";
+    char path[LONGEST_PATH], choice[LONGEST_PATH], is[32], expected[128];
     oz_tree_path(node, false, path, sizeof path);
-    snprintf(kind_path, sizeof kind_path, "%skind", place->prefix);
-    const char *own = "?";
-    for (int i = 0; i < 32; i++) {
-        const char *name = oz_keys_choice_name(kind_path, i);
-        own = place->kind >> i & 1 ? name : own;
-        if (key->kinds >> i & 1) {
-            size_t used = strlen(owners);
-            snprintf(owners + used, sizeof owners - used, "%s%s", used ? " or " : "", name);
-        }
-    }
+    snprintf(choice, sizeof choice, "%s%s", place->prefix, name);
+    oz_describe_bits(own, choice, is, sizeof is);
+    oz_describe_bits(owners, choice, expected, sizeof expected);
     oz_faults_add(reader->faults, node->source, node->line,
-                  "%s makes no sense for kind %s; expected it with kind %s only", path, own,
-                  owners);
+                  "%s makes no sense for %s %s; expected it with %s %s only", path, name, is, name,
+                  expected);
+}
+
+static void report_foreign_model(const Reader *reader, const OzKey *key, const OzNode *node)
+{
+    char path[LONGEST_PATH], owners[64];
+    oz_tree_path(node, false, path, sizeof path);
+    oz_describe_bits(key->models, "model", owners, sizeof owners);
+    oz_faults_add(reader->faults, node->source, node->line,
+                  "%s makes no sense for model %s; expected it with model %s only", path,
+                  oz_keys_choice_name("model", reader->model), owners);
 }
 
 static void report_shared(const Reader *reader, const OzKey *key, const OzNode *node)
@@ -154,11 +163,11 @@ static void check_rival(const Reader *reader, const OzKey *key, const OzNode *no
 static void inherit_item(const Reader *reader, const OzKey *key, const Place *place)
 {
     char path[LONGEST_PATH];
-    const OzKey *from = oz_keys_find(key->inherits);
+    const OzKey *from = oz_keys_of(key->inherits, reader->model);
     const void *base = reader->scene;
     if (from->inherits && !oz_tree_at((OzNode *)(uintptr_t)reader->root, from->path)) {
         snprintf(path, sizeof path, "%s%s", place->prefix, from->inherits);
-        from = oz_keys_find(path);
+        from = oz_keys_of(path, reader->model);
         base = place->base;
     }
     memcpy(oz_value_at(key, place->base), oz_value_at(from, base), oz_keys_size(key));
@@ -167,14 +176,15 @@ static void inherit_item(const Reader *reader, const OzKey *key, const Place *pl
 static void inherit(const Reader *reader, const Place *place)
 {
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
-        if (!key->inherits || !belongs(key, place->prefix) || written(place, key)) {
+        if (!key->inherits || !belongs(reader, key, place->prefix) || written(place, key)) {
             continue;
         }
         if (place->prefix[0]) {
             inherit_item(reader, key, place);
         } else {
             memcpy(oz_value_at(key, place->base),
-                   oz_value_at(oz_keys_find(key->inherits), place->base), oz_keys_size(key));
+                   oz_value_at(oz_keys_of(key->inherits, reader->model), place->base),
+                   oz_keys_size(key));
         }
     }
 }
@@ -185,7 +195,11 @@ static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, 
 static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, const Place *place)
 {
     if (key->kinds && place->kind && !(key->kinds & place->kind)) {
-        report_foreign_kind(reader, key, node, place);
+        report_foreign(reader, "kind", key->kinds, place->kind, node, place);
+        return OZ_OK;
+    }
+    if (key->shapes && place->shape && !(key->shapes & place->shape)) {
+        report_foreign(reader, "shape", key->shapes, place->shape, node, place);
         return OZ_OK;
     }
     if (key->shared) {
@@ -202,7 +216,7 @@ static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, c
     case OZ_KEY_ITEMS:
         return read_items(reader, key, node);
     case OZ_KEY_SWEEP:
-        return oz_sweep_read(oz_value_at(key, place->base), node, reader->faults);
+        return oz_sweep_read(oz_value_at(key, place->base), node, reader->model, reader->faults);
     case OZ_KEY_EXTENDS:
         oz_faults_add(reader->faults, node->source, node->line,
                       "extends cannot be set; expected it in the scene file");
@@ -221,12 +235,14 @@ static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, 
         const OzNode *node = map->items[i];
         char path[LONGEST_PATH];
         oz_tree_path(node, true, path, sizeof path);
-        const OzKey *key = oz_keys_find(path);
+        const OzKey *key = oz_keys_of(path, reader->model);
         if (lists != (key && key->type == OZ_KEY_ITEMS)) {
             continue;
         }
         if (key) {
             OZ_TRY(read_key(reader, key, node, place));
+        } else if (oz_keys_find(path)) {
+            report_foreign_model(reader, oz_keys_find(path), node);
         } else if (!oz_keys_is_group(path)) {
             report_unknown(reader, node, path);
         } else if (is_group(reader, node, true)) {
@@ -271,9 +287,10 @@ static bool is_asked_for(const OzKey *key, const Place *place)
 static void check_required(const Reader *reader, const Place *place)
 {
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
-        if (!key->required || !belongs(key, place->prefix) || written(place, key) ||
+        if (!key->required || !belongs(reader, key, place->prefix) || written(place, key) ||
             (key->kinds && !(key->kinds & place->kind)) ||
-            (key->laws && !(key->laws >> reader->scene->contact.law & 1)) ||
+            (key->shapes && !(key->shapes & place->shape)) ||
+            (key->laws && (!reader->contacts || !(key->laws >> reader->scene->contact.law & 1))) ||
             !is_asked_for(key, place)) {
             continue;
         }
@@ -288,14 +305,15 @@ static void check_required(const Reader *reader, const Place *place)
     }
 }
 
-static unsigned read_kind(const char *prefix, const OzNode *item)
+/* The bit of what the choice of that name says; 0 when it is not written or unknown. */
+static unsigned read_bit(int model, const char *prefix, const char *name, const OzNode *group)
 {
     char path[LONGEST_PATH + 8];
-    snprintf(path, sizeof path, "%skind", prefix);
-    const OzKey *key = oz_keys_find(path);
-    const OzNode *node = oz_tree_child(item, "kind");
+    snprintf(path, sizeof path, "%s%s", prefix, name);
+    const OzKey *key = oz_keys_of(path, model);
+    const OzNode *node = oz_tree_child(group, name);
     for (int i = 0; key && node && node->text && key->choices[i]; i++) {
-        if (strcmp(key->choices[i], node->text) == 0) {
+        if (key->choices[i][0] && strcmp(key->choices[i], node->text) == 0) {
             return 1u << i;
         }
     }
@@ -309,7 +327,8 @@ static OzStatus read_item(Reader *reader, const OzKey *list, const char *prefix,
     if (!is_group(reader, node, false)) {
         return OZ_OK;
     }
-    Place place = {item, prefix, node, read_kind(prefix, node)};
+    Place place = {item, prefix, node, read_bit(reader->model, prefix, "kind", node),
+                   read_bit(reader->model, prefix, "shape", node)};
     OzStatus status = read_map(reader, node, &place, false);
     inherit(reader, &place);
     check_required(reader, &place);
@@ -334,7 +353,7 @@ static OzStatus read_items(Reader *reader, const OzKey *list, const OzNode *node
     snprintf(prefix, sizeof prefix, "%s[].", list->path);
     for (int i = 0; i < node->count; i++) {
         if (i == 0) {
-            OZ_TRY(read_defaults(prefix, items));
+            OZ_TRY(read_defaults(reader, prefix, items));
         } else {
             memcpy(items + (size_t)i * list->item_size, items, list->item_size);
         }
@@ -350,9 +369,15 @@ done:
 OzStatus oz_read_scene(OzScene *scene, const OzNode *root, bool whole, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
-    Reader reader = {scene, faults, root};
-    Place place = {scene, "", root, ~0u};
-    OZ_TRY(read_defaults("", scene));
+    const OzNode *grains = oz_tree_child(root, "grains");
+    Place place = {scene, "", root, ~0u, ~0u};
+    bool flat = read_bit(OZ_MODEL_RODS, "", "model", root) == 1u << OZ_MODEL_TRIGRAINS;
+    Reader reader = {scene, faults, root, flat ? OZ_MODEL_TRIGRAINS : OZ_MODEL_RODS, !flat};
+    for (int i = 0; flat && grains && i < grains->count; i++) {
+        unsigned shape = read_bit(reader.model, "grains[].", "shape", grains->items[i]);
+        reader.contacts |= shape == 1u << OZ_SHAPE_DISC;
+    }
+    OZ_TRY(read_defaults(&reader, "", scene));
     OZ_TRY(read_map(&reader, root, &place, false));
     inherit(&reader, &place);
     OZ_TRY(read_map(&reader, root, &place, true));

@@ -26,17 +26,17 @@ static void as_key(const char *path, char *key, size_t size)
     }
 }
 
-static void check_key(const OzNode *entry, OzFaults *faults)
+static void check_key(const OzNode *entry, int model, OzFaults *faults)
 {
     char path[256], near[256];
     as_key(entry->key, path, sizeof path);
-    const OzKey *key = oz_keys_find(path);
+    const OzKey *key = oz_keys_of(path, model);
     bool vector = strlen(path) > 2 && strcmp(path + strlen(path) - 2, "[]") == 0;
     if (vector) { /* an element of a vector, such as gravity.2 */
         path[strlen(path) - 2] = '\0';
-        key = oz_keys_find(path);
+        key = oz_keys_of(path, model);
     }
-    if (!key && oz_describe_nearest(path, near, sizeof near)) {
+    if (!key && oz_describe_nearest(path, model, near, sizeof near)) {
         oz_faults_add(faults, entry->source, entry->line,
                       "sweep of an unknown key %.100s; did you mean %s?", entry->key, near);
     } else if (!key || key->type == OZ_KEY_SWEEP || key->type == OZ_KEY_EXTENDS) {
@@ -80,7 +80,7 @@ done:
     return status;
 }
 
-OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, OzFaults *faults)
+OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, int model, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
     const OzNode *entry = node->kind == OZ_NODE_MAP && node->count == 1 ? node->items[0] : NULL;
@@ -97,7 +97,7 @@ OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, OzFaults *faults)
         }
         return OZ_OK;
     }
-    check_key(entry, faults);
+    check_key(entry, model, faults);
     OZ_TRY(oz_memory_text(&sweep->key, entry->key));
     OZ_TRY(read_values(sweep, entry, faults));
 done:

@@ -9,7 +9,7 @@
 /* Takes the group's one entry into sweep. Adds faults for more than one key, one that does not
  * exist, and values that are no different numbers or words; whether the key may have them shows
  * when a member is loaded. */
-OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, OzFaults *faults);
+OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, int model, OzFaults *faults);
 
 /* {key: [value, ...]}, as read. */
 void oz_sweep_write(const OzSweep *sweep, FILE *file);

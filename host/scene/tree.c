@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,6 +133,17 @@ void oz_tree_path(const OzNode *node, bool as_key, char *path, size_t size)
     } else {
         snprintf(path + used, size - used, "%s%d", dot, node->index);
     }
+}
+
+void oz_tree_fault(OzNode *root, OzFaults *faults, const char *path, const char *format, ...)
+{
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    const OzNode *node = oz_tree_nearest(root, path);
+    oz_faults_add(faults, node->source, node->line, "%s", text);
 }
 
 bool oz_tree_is_empty(const OzNode *node)

@@ -46,6 +46,10 @@ OzNode *oz_tree_nearest(OzNode *root, const char *path);
 /* `walls.0.motion`, or as a key's path `walls[].motion`; cut to size. */
 void oz_tree_path(const OzNode *node, bool as_key, char *path, size_t size);
 
+/* Adds a fault where path was written, or at the deepest group on the way to it. */
+void oz_tree_fault(OzNode *root, OzFaults *faults, const char *path, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
 /* True for a value left empty: `key:`, `~` or `null`. */
 bool oz_tree_is_empty(const OzNode *node);
 

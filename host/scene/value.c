@@ -62,7 +62,7 @@ static bool read_number(const OzKey *key, const OzNode *node, double *number, Oz
     if (!good) {
         return complain(key, node, faults);
     }
-    *number = value;
+    *number = key->scale != 0 ? value * key->scale : value;
     return true;
 }
 
@@ -108,7 +108,7 @@ static bool read_bool(const OzKey *key, const OzNode *node, bool *flag, OzFaults
 static bool read_choice(const OzKey *key, const OzNode *node, int *choice, OzFaults *faults)
 {
     for (int i = 0; node->kind == OZ_NODE_SCALAR && !node->refused && key->choices[i]; i++) {
-        if (strcmp(node->text, key->choices[i]) == 0) {
+        if (key->choices[i][0] && strcmp(node->text, key->choices[i]) == 0) {
             *choice = i;
             return true;
         }
@@ -264,6 +264,9 @@ OzStatus oz_value_read(const OzKey *key, const OzNode *node, void *base, OzFault
     switch (key->type) {
     case OZ_KEY_NUMBER:
         read_number(key, node, place, faults);
+        if (key->write == OZ_WRITE_MARKED) {
+            *(bool *)((char *)base + key->count_offset) = true;
+        }
         break;
     case OZ_KEY_INTEGER:
         read_whole(key, node, place, faults);

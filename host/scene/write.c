@@ -6,6 +6,7 @@
 #include "scene/value.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,15 +19,32 @@ typedef struct Writer {
     bool dash; /* the next line begins a list's item */
 } Writer;
 
-/* The shortest of the usual spellings that reads back to the same bits. */
-static void print_number(double number, FILE *file)
+/* The shortest of the usual spellings that reads back to number, which is stored after
+ * multiplication by scale. */
+static bool spell(double written, double number, double scale, char *text, size_t size)
 {
-    char text[32];
     for (int digits = 6; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, number);
-        if (strtod(text, NULL) == number) {
-            break;
+        snprintf(text, size, "%.*g", digits, written);
+        if (strtod(text, NULL) * scale == number) {
+            return true;
         }
+    }
+    return false;
+}
+
+/* The quotient may miss what was written by its last bits, so its neighbours are tried too. */
+static void print_number(double number, double scale, FILE *file)
+{
+    enum { NEIGHBOURS = 4 };
+    char text[32];
+    double written = number / scale;
+    double below = written, above = written;
+    bool found = spell(written, number, scale, text, sizeof text);
+    for (int i = 0; i < NEIGHBOURS && !found; i++) {
+        below = nextafter(below, -INFINITY);
+        above = nextafter(above, INFINITY);
+        found = spell(below, number, scale, text, sizeof text) ||
+                spell(above, number, scale, text, sizeof text);
     }
     fputs(text, file);
 }
@@ -90,7 +108,7 @@ static void print_element(const OzKey *key, const void *place, int i, FILE *file
         print_text(*(char *const *)place, file);
         break;
     default:
-        print_number(((const double *)place)[i], file);
+        print_number(((const double *)place)[i], key->scale != 0 ? key->scale : 1, file);
         break;
     }
 }
@@ -126,7 +144,7 @@ static void print_value(const OzKey *key, const void *base, FILE *file)
             print_list(key, place, 2, file);
             break;
         }
-        print_number(range->low, file);
+        print_number(range->low, 1, file);
         break;
     case OZ_KEY_SWEEP:
         oz_sweep_write(place, file);
@@ -145,21 +163,35 @@ static const OzKey *neighbour(const OzKey *key, const char *name)
     return oz_keys_find(path);
 }
 
-/* The kind of the list's item that base is; prefix ends with "[]." */
-static int kind_of(const OzKey *key, const void *base)
+/* True when bits is 0, or the item's choice of that name ("kind", "shape") is one of bits. */
+static bool is_of(const OzKey *key, unsigned bits, const char *name, const void *base)
 {
     char path[128];
     const char *brackets = strstr(key->path, "[]");
-    snprintf(path, sizeof path, "%.*s[].kind", (int)(brackets - key->path), key->path);
-    const OzKey *kind = oz_keys_find(path);
-    return kind ? *(const int *)oz_value_at(kind, base) : 0;
+    if (!bits || !brackets) {
+        return !bits;
+    }
+    snprintf(path, sizeof path, "%.*s[].%s", (int)(brackets - key->path), key->path, name);
+    const OzKey *choice = oz_keys_find(path);
+    return !choice || bits >> *(const int *)oz_value_at(choice, base) & 1;
+}
+
+/* A law's values: of that law alone, and where nothing asks for them only when there. */
+static bool is_of_law(const Writer *writer, const OzKey *key, const void *base)
+{
+    if (!key->laws) {
+        return true;
+    }
+    return key->laws >> writer->scene->contact.law & 1 &&
+           (writer->scene->model == OZ_MODEL_RODS || oz_value_holds(key, base));
 }
 
 static bool is_written(const Writer *writer, const OzKey *key, const void *base)
 {
     bool in_item = strstr(key->path, "[]") != NULL;
-    if (key->type == OZ_KEY_EXTENDS || (key->kinds && !(key->kinds >> kind_of(key, base) & 1)) ||
-        (key->laws && !(key->laws >> writer->scene->contact.law & 1))) {
+    if (key->type == OZ_KEY_EXTENDS || !oz_keys_serves(key, (int)writer->scene->model) ||
+        !is_of(key, key->kinds, "kind", base) || !is_of(key, key->shapes, "shape", base) ||
+        !is_of_law(writer, key, base)) {
         return false;
     }
     if (key->type == OZ_KEY_SECTION) {
@@ -173,7 +205,10 @@ static bool is_written(const Writer *writer, const OzKey *key, const void *base)
     case OZ_WRITE_NONZERO:
         return oz_value_holds(key, base);
     case OZ_WRITE_UNLESS_RIVAL:
-        return !oz_value_holds(neighbour(key, key->rival), base);
+        return !oz_value_holds(neighbour(key, key->rival), base) &&
+               (key->required || oz_value_holds(key, base));
+    case OZ_WRITE_MARKED:
+        return *(const bool *)((const char *)base + key->count_offset);
     default:
         return true;
     }

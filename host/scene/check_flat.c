@@ -1,0 +1,122 @@
+/* The checks of trigrains that need more than one value. Whether a polygon can be cut into
+ * triangles, and whether grains find room, is seen when grains are made. */
+#include "scene/check_flat.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct Checker {
+    OzScene *scene;
+    OzNode *root;
+    OzFaults *faults;
+    const char *list; /* "walls" or "grains" */
+    int index;
+} Checker;
+
+/* A fault at a key of the item that is being checked. */
+#define FAULT(checker, name, ...)                                                                  \
+    do {                                                                                           \
+        char path_[64];                                                                            \
+        snprintf(path_, sizeof path_, "%s.%d.%s", (checker)->list, (checker)->index, name);        \
+        oz_tree_fault((checker)->root, (checker)->faults, path_, __VA_ARGS__);                     \
+    } while (0)
+
+static void check_corners(const Checker *checker, const OzPopulation *grains)
+{
+    const OzRange *corners = &grains->corners;
+    bool asked = grains->shape == OZ_SHAPE_POLYGON || grains->shape == OZ_SHAPE_STAR;
+    if (asked && (corners->low != floor(corners->low) || corners->high != floor(corners->high))) {
+        FAULT(checker, "corners", "corners are [%g, %g]; expected whole numbers", corners->low,
+              corners->high);
+    }
+}
+
+static void check_vertices(const Checker *checker, const OzPopulation *grains)
+{
+    int count = grains->vertex_count;
+    if (grains->shape == OZ_SHAPE_VERTICES && grains->vertices && (count < 6 || count % 2)) {
+        FAULT(checker, "vertices",
+              "vertices are %d numbers; expected x and y of at least three corners", count);
+    }
+}
+
+static void check_motion(const Checker *checker, const OzWall *wall)
+{
+    const OzMotion *motion = &wall->motion;
+    if (!motion->present) {
+        return;
+    }
+    bool shaken = motion->written_amplitude > 0 || motion->acceleration_ratio > 0;
+    if (shaken && motion->frequency == 0) {
+        FAULT(checker, "motion", "a wall moves up and down without a frequency; expected both");
+    } else if (!shaken && motion->frequency > 0) {
+        FAULT(checker, "motion.frequency",
+              "a wall has a frequency alone; expected acceleration_ratio or amplitude with it");
+    } else if (!shaken && motion->angular_velocity == 0) {
+        FAULT(checker, "motion",
+              "motion says nothing; expected angular_velocity, or frequency "
+              "with acceleration_ratio or amplitude");
+    }
+}
+
+static void check_teeth(const Checker *checker, const OzWall *wall)
+{
+    if ((wall->tooth_count > 0) != (wall->tooth_depth > 0)) {
+        FAULT(checker, wall->tooth_count > 0 ? "teeth" : "tooth_depth",
+              "%lld teeth of depth %g m; expected both or neither", (long long)wall->tooth_count,
+              wall->tooth_depth);
+    }
+    if (wall->kind == OZ_WALL_DRUM && wall->tooth_depth >= wall->diameter / 2) {
+        FAULT(checker, "tooth_depth", "teeth of %g m fill the drum; expected less than %g m",
+              wall->tooth_depth, wall->diameter / 2);
+    }
+    if (wall->kind == OZ_WALL_DRUM && wall->tooth_count > 0 && wall->tooth_count < 3) {
+        FAULT(checker, "teeth", "a drum of %lld teeth is not round; expected at least 3",
+              (long long)wall->tooth_count);
+    }
+}
+
+static void check_hopper(const Checker *checker, const OzWall *wall)
+{
+    double rise = (wall->width - wall->opening) / 2 * tan(wall->slope);
+    if (wall->opening >= wall->width) {
+        FAULT(checker, "opening", "the opening is %g m wide; expected less than the hopper's %g m",
+              wall->opening, wall->width);
+    } else if (rise > wall->height) {
+        FAULT(checker, "height",
+              "the hopper is %g m high and its slopes rise %g m; expected at least that",
+              wall->height, rise);
+    }
+}
+
+static void check_wall(const Checker *checker, const OzWall *wall)
+{
+    check_motion(checker, wall);
+    check_teeth(checker, wall);
+    if (wall->kind == OZ_WALL_HOPPER && wall->width > 0) {
+        check_hopper(checker, wall);
+    }
+    if (wall->kind == OZ_WALL_SEGMENT && wall->from[0] == wall->to[0] &&
+        wall->from[1] == wall->to[1]) {
+        FAULT(checker, "to", "the segment has length zero; expected two points");
+    }
+}
+
+void oz_check_flat_scene(OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    Checker checker = {scene, root, faults, "grains", 0};
+    for (; checker.index < scene->population_count; checker.index++) {
+        check_corners(&checker, &scene->populations[checker.index]);
+        check_vertices(&checker, &scene->populations[checker.index]);
+    }
+    checker.list = "walls";
+    for (checker.index = 0; checker.index < scene->wall_count; checker.index++) {
+        scene->walls[checker.index].contact = scene->contact;
+        check_wall(&checker, &scene->walls[checker.index]);
+    }
+    if (scene->beams.substeps > 1 && scene->integrator != OZ_INTEGRATOR_VELOCITY_VERLET) {
+        oz_tree_fault(root, faults, "beams.substeps",
+                      "beams.substeps is %lld; expected 1, or integrator velocity-verlet",
+                      (long long)scene->beams.substeps);
+    }
+}

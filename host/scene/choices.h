@@ -1,0 +1,84 @@
+/* The names of choices, for the rows of the list of scene keys alone. FLAT_ ones are those of
+ * trigrains where they differ from those of rods. */
+#ifndef OZ_SCENE_CHOICES_H
+#define OZ_SCENE_CHOICES_H
+
+#include "scene/scene.h"
+
+/* Named choices, in the order of their enums; "": not for this model. */
+static const char *const MODELS[] = {
+    [OZ_MODEL_RODS] = "rods", [OZ_MODEL_TRIGRAINS] = "trigrains", NULL};
+static const char *const INTEGRATORS[] = {[OZ_INTEGRATOR_EULER] = "euler",
+                                          [OZ_INTEGRATOR_SYMPLECTIC_EULER] = "symplectic-euler",
+                                          [OZ_INTEGRATOR_VELOCITY_VERLET] = "velocity-verlet",
+                                          NULL};
+static const char *const FLAT_INTEGRATORS[] = {"",
+                                               "",
+                                               [OZ_INTEGRATOR_VELOCITY_VERLET] = "velocity-verlet",
+                                               [OZ_INTEGRATOR_GEAR4] = "gear4",
+                                               [OZ_INTEGRATOR_RK4] = "rk4",
+                                               NULL};
+static const char *const PRECISIONS[] = {
+    [OZ_PRECISION_FLOAT] = "float", [OZ_PRECISION_DOUBLE] = "double", NULL};
+static const char *const BROADPHASES[] = {[OZ_BROADPHASE_HASH] = "hash",
+                                          [OZ_BROADPHASE_ALL_PAIRS] = "all_pairs",
+                                          [OZ_BROADPHASE_SORT_AXIS] = "sort_axis",
+                                          NULL};
+static const char *const FLAT_BROADPHASES[] = {
+    [OZ_BROADPHASE_HASH] = "hash", [OZ_BROADPHASE_ALL_PAIRS] = "all_pairs", NULL};
+static const char *const LAWS[] = {[OZ_LAW_HOOKE] = "hooke",
+                                   [OZ_LAW_HERTZ] = "hertz",
+                                   [OZ_LAW_HERTZ_MINDLIN] = "hertz-mindlin",
+                                   NULL};
+static const char *const FLAT_LAWS[] = {[OZ_LAW_HOOKE] = "hooke", [OZ_LAW_HERTZ] = "hertz", NULL};
+static const char *const SLIPS[] = {[OZ_SLIP_CUT] = "cut", [OZ_SLIP_SCALE] = "scale", NULL};
+static const char *const ATTRACTIONS[] = {
+    [OZ_ATTRACTION_ALLOW] = "allow", [OZ_ATTRACTION_CLAMP] = "clamp", NULL};
+static const char *const DAMPINGS[] = {
+    [OZ_DAMPING_CONSTANT] = "constant", [OZ_DAMPING_SMOOTH] = "smooth", NULL};
+static const char *const PARALLELS[] = {
+    [OZ_PARALLEL_SINGLE] = "single", [OZ_PARALLEL_LINE] = "line", NULL};
+static const char *const CONTACT_POINTS[] = {
+    [OZ_POINT_MIDPOINT] = "midpoint", [OZ_POINT_SURFACES] = "surfaces", NULL};
+static const char *const RESTITUTIONS_AT[] = {
+    [OZ_RESTITUTION_CENTRE] = "centre", [OZ_RESTITUTION_CONTACT] = "contact", NULL};
+static const char *const CALIBRATIONS[] = {
+    [OZ_CALIBRATION_NONE] = "none", [OZ_CALIBRATION_DISCRETE] = "discrete", NULL};
+static const char *const WALL_KINDS[] = {
+    [OZ_WALL_PLANE] = "plane", [OZ_WALL_CYLINDER] = "cylinder", NULL};
+static const char *const FLAT_WALL_KINDS[] = {"",
+                                              "",
+                                              [OZ_WALL_SEGMENT] = "segment",
+                                              [OZ_WALL_FLOOR] = "floor",
+                                              [OZ_WALL_HOPPER] = "hopper",
+                                              [OZ_WALL_DRUM] = "drum",
+                                              [OZ_WALL_VESSEL] = "vessel",
+                                              NULL};
+static const char *const GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
+                                          [OZ_GRAINS_LATTICE] = "lattice",
+                                          [OZ_GRAINS_SINGLE] = "single",
+                                          [OZ_GRAINS_FILE] = "file",
+                                          NULL};
+static const char *const FLAT_GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
+                                               [OZ_GRAINS_LATTICE] = "lattice",
+                                               [OZ_GRAINS_SINGLE] = "single",
+                                               NULL};
+static const char *const SHAPES[] = {
+    [OZ_SHAPE_SQUARE] = "square",     [OZ_SHAPE_POLYGON] = "polygon", [OZ_SHAPE_STAR] = "star",
+    [OZ_SHAPE_VERTICES] = "vertices", [OZ_SHAPE_DISC] = "disc",       NULL};
+static const char *const FORCE_POINTS[] = {
+    [OZ_FORCE_CENTROID] = "centroid", [OZ_FORCE_MIDPOINT] = "midpoint", NULL};
+static const char *const DAMPING_SHEARS[] = {
+    [OZ_SHEAR_NONE] = "none", [OZ_SHEAR_BALANCED] = "balanced", NULL};
+static const char *const FLAT_VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", NULL};
+static const char *const VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", [OZ_VIEW_CUT] = "cut", NULL};
+static const char *const COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
+                                      [OZ_COLOUR_AZIMUTH] = "azimuth",
+                                      [OZ_COLOUR_SPEED] = "speed",
+                                      [OZ_COLOUR_TYPE] = "type",
+                                      NULL};
+static const char *const FLAT_COLOURS[] = {
+    [OZ_COLOUR_ANGLE] = "angle", "",  [OZ_COLOUR_SPEED] = "speed", [OZ_COLOUR_TYPE] = "type",
+    [OZ_COLOUR_GREY] = "grey",   NULL};
+
+#endif

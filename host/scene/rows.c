@@ -1,0 +1,397 @@
+/* The rows. What is a constant of the physics rather than a choice of the person is not here.
+ * Ranges are wider than any sense, and narrow enough that products of a few values stay finite in
+ * double. */
+#include "scene/rows.h"
+
+#include "scene/choices.h"
+#include "scene/scene.h"
+
+enum {
+    RANDOM = 1 << OZ_GRAINS_RANDOM,
+    LATTICE = 1 << OZ_GRAINS_LATTICE,
+    SINGLE = 1 << OZ_GRAINS_SINGLE,
+    FROM_FILE = 1 << OZ_GRAINS_FILE,
+    MADE = RANDOM | LATTICE | SINGLE,
+    PLANE = 1 << OZ_WALL_PLANE,
+    CYLINDER = 1 << OZ_WALL_CYLINDER,
+    SEGMENT = 1 << OZ_WALL_SEGMENT,
+    FLOOR = 1 << OZ_WALL_FLOOR,
+    HOPPER = 1 << OZ_WALL_HOPPER,
+    DRUM = 1 << OZ_WALL_DRUM,
+    VESSEL = 1 << OZ_WALL_VESSEL,
+    TOOTHED = FLOOR | HOPPER | DRUM,
+    SQUARE = 1 << OZ_SHAPE_SQUARE,
+    POLYGON = 1 << OZ_SHAPE_POLYGON,
+    STAR = 1 << OZ_SHAPE_STAR,
+    VERTICES = 1 << OZ_SHAPE_VERTICES,
+    DISC = 1 << OZ_SHAPE_DISC,
+    HOOKE = 1 << OZ_LAW_HOOKE,
+    HERTZ = 1 << OZ_LAW_HERTZ,
+    MINDLIN = 1 << OZ_LAW_HERTZ_MINDLIN
+};
+
+/* The models a row belongs to; without one of these it belongs to all. */
+#define SOLID .models = 1 << OZ_MODEL_RODS
+#define FLAT  .models = 1 << OZ_MODEL_TRIGRAINS
+
+/* Written in degrees, kept in radians. */
+#define DEGREES .scale = 3.14159265358979323846 / 180
+
+#define REFUSE  OZ_RELOAD_REFUSE
+#define APPLY   OZ_RELOAD_APPLY
+#define REBUILD OZ_RELOAD_REBUILD
+
+/* The first columns of a row: path, reload class, type with its limits, place, help. */
+#define NUMBER(low_, high_, unit_) .type = OZ_KEY_NUMBER, .low = low_, .high = high_, .unit = unit_
+#define INTEGER(low_, high_)       .type = OZ_KEY_INTEGER, .low = low_, .high = high_, .unit = ""
+#define RANGE(low_, high_, unit_)  .type = OZ_KEY_RANGE, .low = low_, .high = high_, .unit = unit_
+#define VECTOR(limit, unit_)                                                                       \
+    .type = OZ_KEY_VECTOR, .width = 3, .low = -(limit), .high = limit, .unit = unit_
+#define PAIR(limit, unit_)                                                                         \
+    .type = OZ_KEY_VECTOR, .width = 2, .low = -(limit), .high = limit, .unit = unit_
+#define CHOICE(names) .type = OZ_KEY_CHOICE, .choices = names, .unit = ""
+#define OF(type_)     .unit = "", .type = OZ_KEY_##type_
+#define AT(field)     .offset = offsetof(OzScene, field)
+#define GRAIN(field)  .offset = offsetof(OzPopulation, field)
+#define WALL(field)   .offset = offsetof(OzWall, field)
+
+/* A contact key twice: of the scene, and of a wall that may have its own. */
+#define CONTACT(name, reload_, spec, fallback_, help_)                                             \
+    {                                                                                              \
+        "contact." #name, .reload = reload_, spec, AT(contact.name), fallback_, SOLID,             \
+                          .help = help_                                                            \
+    }
+#define WALL_CONTACT(name, reload_, spec, help_)                                                   \
+    {                                                                                              \
+        "walls[].contact." #name, .reload = reload_, spec, WALL(contact.name),                     \
+                                  .inherits = "contact." #name, SOLID,                             \
+                                  .help = help_ " (this wall)"                                     \
+    }
+
+/* A choice that the kernels make once for all bodies. */
+#define WALL_SHARED(name, choices_)                                                                \
+    {                                                                                              \
+        "walls[].contact." #name, CHOICE(choices_), WALL(contact.name),                            \
+            .inherits = "contact." #name, .shared = true, SOLID, .help = "the whole scene's"       \
+    }
+
+/* Arguments with commas in them. */
+#define CONTACT_TIME  NUMBER(1e-12, 100, "s")
+#define MODULUS       NUMBER(1, 1e18, "Pa")
+#define POISSON       NUMBER(0, 0.5, "")
+#define DAMPING_RATE  NUMBER(0, 1e15, "1/s")
+#define FRACTION      NUMBER(0, 1, "")
+#define COEFFICIENT   NUMBER(0, 1e6, "")
+#define RATIO         NUMBER(0, 100, "")
+#define REQUIRED      .required = true
+#define DEFAULT(text) .fallback = text
+
+/* clang-format off: a row is a sentence of two or three lines. */
+static const OzKey KEYS[] = {
+    {"extends", OF(EXTENDS),
+     .help = "another scene file, whose keys hold where this one is silent"},
+    {"title", OF(TEXT), AT(title), .reload = APPLY, .help = "shown in the movie's metadata",
+     .write = OZ_WRITE_NONZERO},
+    {"model", CHOICE(MODELS), AT(model), REQUIRED, .help = "what grains are"},
+    {"seed", INTEGER(0, 9.2e18), AT(seed), DEFAULT("1"), .help = "of every random number"},
+    {"gravity", VECTOR(1e6, "m/s^2"), AT(gravity), .reload = APPLY, DEFAULT("[0, 0, -9.81]"), SOLID,
+     .help = "acceleration of free fall"},
+    {"gravity", PAIR(1e6, "m/s^2"), AT(gravity), .reload = APPLY, DEFAULT("[0, -9.81]"), FLAT,
+     .help = "acceleration of free fall"},
+    {"time.step", NUMBER(1e-12, 1, "s"), AT(step), .reload = APPLY, REQUIRED,
+     .help = "time step of the simulation"},
+    {"time.duration", NUMBER(0, 1e9, "s"), AT(duration), .reload = APPLY, REQUIRED, .rival = "taps",
+     .write = OZ_WRITE_UNLESS_RIVAL, .help = "simulated time after settling"},
+    {"time.taps", NUMBER(0, 1e9, "periods"), AT(taps), .reload = APPLY, .rival = "duration",
+     .write = OZ_WRITE_NONZERO, .help = "the same in periods of the first moving wall"},
+    {"integrator", CHOICE(INTEGRATORS), AT(integrator), .reload = REBUILD,
+     DEFAULT("symplectic-euler"), SOLID, .help = "how a step is made"},
+    {"integrator", CHOICE(FLAT_INTEGRATORS), AT(integrator), .reload = REBUILD, DEFAULT("gear4"),
+     FLAT, .help = "how a step is made; rk4 is for comparison, on the host alone"},
+    {"precision", CHOICE(PRECISIONS), AT(precision), DEFAULT("float"), SOLID,
+     .help = "of numbers on the device"},
+    {"precision", CHOICE(PRECISIONS), AT(precision), DEFAULT("double"), FLAT,
+     .help = "of numbers on the device: a float cannot hold what slow grains move in a step"},
+    {"broadphase", CHOICE(BROADPHASES), AT(broadphase), DEFAULT("hash"), SOLID,
+     .help = "how near pairs are found; all but hash are for tests and comparison"},
+    {"broadphase", CHOICE(FLAT_BROADPHASES), AT(broadphase), DEFAULT("hash"), FLAT,
+     .help = "how near pairs are found; all_pairs is for tests"},
+    {"skin", NUMBER(0, 1e3, "m"), AT(skin), .reload = REBUILD, .write = OZ_WRITE_NONZERO,
+     .fallback_help = "chosen by orzo", .help = "reach of the neighbour lists beyond contact"},
+    {"gyroscopic", OF(BOOL), AT(gyroscopic), .reload = REBUILD, DEFAULT("true"), SOLID,
+     .help = "full Euler equations; false drops the gyroscopic term"},
+
+    {"triangles.stiffness", NUMBER(1e-6, 1e15, "N/m^2"), AT(triangles.stiffness), .reload = APPLY,
+     DEFAULT("2e6"), FLAT, .help = "Y: force over overlap area"},
+    {"triangles.force_point", CHOICE(FORCE_POINTS), AT(triangles.force_point), .reload = REBUILD,
+     DEFAULT("centroid"), FLAT,
+     .help = "where it acts: the overlap's centroid (conservative), or its chord's midpoint"},
+    {"beams.stiffness", NUMBER(0, 1e15, "N/m"), AT(beams.stiffness), .reload = APPLY,
+     DEFAULT("100"), FLAT, .help = "E: force over elongation"},
+    {"beams.second_moment", NUMBER(0, 1, "m^3"), AT(beams.second_moment), .reload = APPLY,
+     DEFAULT("1e-10"), FLAT, .help = "I: E I over length is the bending stiffness"},
+    {"beams.damping", NUMBER(0, 1e9, "kg/s"), AT(beams.damping), .reload = APPLY, DEFAULT("9e-3"),
+     FLAT, .help = "gamma: force over rate of elongation; gamma I over length of bending"},
+    {"beams.damping_shear", CHOICE(DAMPING_SHEARS), AT(beams.damping_shear), .reload = REBUILD,
+     DEFAULT("none"), FLAT,
+     .help = "balanced: damping moments come with the shear force that conserves angular momentum"},
+    {"beams.substeps", INTEGER(1, 1000), AT(beams.substeps), .reload = REBUILD, DEFAULT("1"), FLAT,
+     .help = "steps of the beams in one of the contacts (velocity-verlet)"},
+    {"beams.length_min", NUMBER(0, 1e3, "m"), AT(beams.length_min), DEFAULT("6e-4"), FLAT,
+     .help = "no grain with a shorter beam is made: it would need tiny steps"},
+    {"beams.area_min", NUMBER(0, 1e6, "m^2"), AT(beams.area_min), DEFAULT("4e-7"), FLAT,
+     .help = "nor one with a smaller triangle"},
+
+    CONTACT(law, REBUILD, CHOICE(LAWS), DEFAULT("hooke"), "normal force from overlap"),
+    {"contact.law", CHOICE(FLAT_LAWS), AT(contact.law), .reload = REBUILD, DEFAULT("hooke"), FLAT,
+     .help = "normal force of discs from overlap"},
+    {"contact.contact_time", CONTACT_TIME, AT(contact.contact_time), .reload = APPLY, REQUIRED,
+     .laws = HOOKE, .help = "duration of a free binary hit of two centres"},
+    {"contact.restitution", FRACTION, AT(contact.restitution), .reload = APPLY, REQUIRED,
+     .laws = HOOKE | MINDLIN, .help = "speed after over speed before a central hit"},
+    {"contact.youngs_modulus", MODULUS, AT(contact.youngs_modulus), .reload = APPLY, REQUIRED,
+     .laws = MINDLIN, SOLID, .help = "of the grains' material"},
+    {"contact.poisson_ratio", POISSON, AT(contact.poisson_ratio), .reload = APPLY, REQUIRED,
+     .laws = MINDLIN, SOLID, .help = "of the grains' material"},
+    {"contact.hertz_stiffness", NUMBER(1e-12, 1e30, "N/m^1.5"), AT(contact.hertz_stiffness),
+     .reload = APPLY, REQUIRED, .laws = HERTZ, .help = "force over overlap^1.5"},
+    {"contact.normal_damping_rate", DAMPING_RATE, AT(contact.normal_damping_rate), .reload = APPLY,
+     REQUIRED, .laws = HERTZ, .help = "damping force over effective mass and rate of overlap"},
+    {"contact.tangential_damping_rate", DAMPING_RATE, AT(contact.tangential_damping_rate),
+     .reload = APPLY, REQUIRED, .laws = HERTZ,
+     .help = "the same for sliding, below Coulomb's limit"},
+    {"contact.friction", COEFFICIENT, AT(contact.friction), .reload = APPLY, DEFAULT("0.3"),
+     .help = "Coulomb's coefficient"},
+    CONTACT(tangential_stiffness, APPLY, RATIO, DEFAULT("2/7"),
+            "tangential over normal stiffness (hertz-mindlin has Mindlin's)"),
+    CONTACT(tangential_damping, APPLY, RATIO, .inherits = "contact.tangential_stiffness",
+            "tangential over normal damping"),
+    {"contact.tangential_damping", RATIO, AT(contact.tangential_damping), .reload = APPLY,
+     DEFAULT("1"), FLAT, .help = "of discs, over normal damping (hooke)"},
+    CONTACT(slip, REBUILD, CHOICE(SLIPS), DEFAULT("cut"),
+            "a sliding contact cuts its tangential spring back, or only scales its force"),
+    CONTACT(attraction, REBUILD, CHOICE(ATTRACTIONS), DEFAULT("allow"),
+            "whether damping may pull at the end of a contact"),
+    CONTACT(damping, REBUILD, CHOICE(DAMPINGS), DEFAULT("constant"),
+            "whether damping acts at once or grows from nothing at first touch (hooke)"),
+    CONTACT(parallel, REBUILD, CHOICE(PARALLELS), DEFAULT("single"),
+            "nearly parallel shafts touch at one point, or at both ends of their common span"),
+    CONTACT(contact_point, REBUILD, CHOICE(CONTACT_POINTS), DEFAULT("midpoint"),
+            "where forces act: the overlap's middle, or each grain's own surface"),
+    CONTACT(restitution_at, REBUILD, CHOICE(RESTITUTIONS_AT), DEFAULT("centre"),
+            "hits of two centres, or hits wherever they are, give the restitution asked for"),
+    CONTACT(
+        restitution_calibration, REBUILD, CHOICE(CALIBRATIONS), DEFAULT("none"),
+        "discrete: makes up for the step's errors and fits the step to the contact time (hooke)"),
+
+    {"grains", OF(ITEMS), AT(populations), .count_offset = offsetof(OzScene, population_count),
+     .item_size = sizeof(OzPopulation), .line_offset = offsetof(OzPopulation, line), REQUIRED,
+     .help = "populations, in any mixture"},
+    {"grains[].kind", CHOICE(GRAIN_KINDS), GRAIN(kind), REQUIRED, SOLID,
+     .help = "how they are placed"},
+    {"grains[].kind", CHOICE(FLAT_GRAIN_KINDS), GRAIN(kind), REQUIRED, FLAT,
+     .help = "how they are placed"},
+    {"grains[].shape", CHOICE(SHAPES), GRAIN(shape), .kinds = MADE, REQUIRED, FLAT,
+     .help = "what triangles they are made of; a polygon has one on each edge about the middle"},
+    {"grains[].count", INTEGER(0, 1e18), GRAIN(count), .kinds = RANDOM, REQUIRED,
+     .help = "how many"},
+    {"grains[].edge", RANGE(1e-9, 1e3, "m"), GRAIN(edge), .kinds = MADE, .shapes = SQUARE, REQUIRED,
+     FLAT, .help = "of the square: four triangles about the middle"},
+    {"grains[].radius", RANGE(1e-9, 1e3, "m"), GRAIN(radius), .kinds = MADE,
+     .shapes = POLYGON | STAR | DISC, REQUIRED, FLAT,
+     .help = "of the disc, or to the outer corners"},
+    {"grains[].corners", RANGE(3, 1e3, ""), GRAIN(corners), .kinds = MADE, .shapes = POLYGON | STAR,
+     REQUIRED, FLAT, .help = "of the polygon, points of the star; whole numbers"},
+    {"grains[].irregularity", FRACTION, GRAIN(irregularity), .kinds = MADE, .shapes = POLYGON,
+     DEFAULT("0"), FLAT, .help = "how far corners are moved at random; 0 is a regular polygon"},
+    {"grains[].depth", NUMBER(0.05, 0.95, ""), GRAIN(depth), .kinds = MADE, .shapes = STAR,
+     DEFAULT("0.5"), FLAT, .help = "inner over outer radius"},
+    {"grains[].vertices", .type = OZ_KEY_NUMBERS, .low = -1e6, .high = 1e6, .unit = "m",
+     GRAIN(vertices), .count_offset = offsetof(OzPopulation, vertex_count), .kinds = MADE,
+     .shapes = VERTICES, REQUIRED, FLAT, .help = "x and y of each corner on the way round"},
+    {"grains[].angle", NUMBER(-360, 360, "degrees"), GRAIN(angle), DEGREES,
+     .kinds = SINGLE | LATTICE, DEFAULT("0"), FLAT, .help = "turned by, counter-clockwise"},
+    {"grains[].diameter", RANGE(1e-9, 1e3, "m"), GRAIN(diameter), .kinds = MADE, REQUIRED, SOLID,
+     .help = "of the caps and the shaft's mantle"},
+    {"grains[].aspect", RANGE(0, 1e6, ""), GRAIN(aspect), .kinds = MADE, DEFAULT("0"), SOLID,
+     .help = "shaft length over diameter; 0 is a sphere"},
+    {"grains[].density", NUMBER(1e-6, 1e9, "kg/m^3"), GRAIN(density), .kinds = MADE,
+     DEFAULT("2500"), SOLID, .help = "of the material"},
+    {"grains[].density", NUMBER(1e-6, 1e9, "kg/m^2"), GRAIN(density), .kinds = MADE, DEFAULT("4"),
+     FLAT, .help = "mass over area"},
+    {"grains[].fill", NUMBER(1e-6, 0.6, ""), GRAIN(fill), .kinds = RANDOM, DEFAULT("0.15"), SOLID,
+     .help = "volume fraction of the column in which they start"},
+    {"grains[].fill", NUMBER(1e-6, 0.6, ""), GRAIN(fill), .kinds = RANDOM, DEFAULT("0.4"), FLAT,
+     .help = "fraction of the column in which they start that circles around them cover"},
+    {"grains[].cells", .type = OZ_KEY_COUNTS, .width = 3, .low = 0, .high = 1e9, .unit = "",
+     GRAIN(cells), .kinds = LATTICE, REQUIRED, SOLID, .help = "grains along x, y and z"},
+    {"grains[].cells", .type = OZ_KEY_COUNTS, .width = 2, .low = 0, .high = 1e9, .unit = "",
+     GRAIN(cells), .kinds = LATTICE, REQUIRED, FLAT, .help = "grains along x and y"},
+    {"grains[].spacing", VECTOR(1e6, "m"), GRAIN(spacing), .kinds = LATTICE, REQUIRED, SOLID,
+     .help = "from one to the next along x, y and z"},
+    {"grains[].spacing", PAIR(1e6, "m"), GRAIN(spacing), .kinds = LATTICE, REQUIRED, FLAT,
+     .help = "from one to the next along x and y"},
+    {"grains[].position", VECTOR(1e6, "m"), GRAIN(position), .kinds = SINGLE | LATTICE, REQUIRED,
+     SOLID, .help = "centre of the (first) grain"},
+    {"grains[].position", PAIR(1e6, "m"), GRAIN(position), .kinds = SINGLE | LATTICE, REQUIRED,
+     FLAT, .help = "centre of mass of the (first) grain"},
+    {"grains[].axis", VECTOR(1e6, ""), GRAIN(axis), .kinds = SINGLE | LATTICE, DEFAULT("[0, 0, 1]"),
+     SOLID, .help = "direction of the shaft, of any length but zero"},
+    {"grains[].velocity", VECTOR(1e6, "m/s"), GRAIN(velocity), .kinds = SINGLE | LATTICE,
+     DEFAULT("[0, 0, 0]"), SOLID, .help = "at the start"},
+    {"grains[].velocity", PAIR(1e6, "m/s"), GRAIN(velocity), .kinds = SINGLE | LATTICE,
+     DEFAULT("[0, 0]"), FLAT, .help = "at the start"},
+    {"grains[].spin", VECTOR(1e9, "rad/s"), GRAIN(spin), .kinds = SINGLE | LATTICE,
+     DEFAULT("[0, 0, 0]"), SOLID, .help = "angular velocity at the start, world frame"},
+    {"grains[].spin", NUMBER(-1e9, 1e9, "rad/s"), GRAIN(spin[2]), .kinds = SINGLE | LATTICE,
+     DEFAULT("0"), FLAT, .help = "angular velocity at the start, counter-clockwise"},
+    {"grains[].path", OF(FILE), GRAIN(path), .kinds = FROM_FILE, REQUIRED, SOLID,
+     .write = OZ_WRITE_NONZERO, .help = "a final.csv, relative to the scene file"},
+
+    {"walls", OF(ITEMS), AT(walls), .count_offset = offsetof(OzScene, wall_count),
+     .item_size = sizeof(OzWall), .line_offset = offsetof(OzWall, line), .fallback_help = "none",
+     .help = "what holds the grains"},
+    {"walls[].kind", CHOICE(WALL_KINDS), WALL(kind), REQUIRED, SOLID,
+     .help = "a plane, or the inside of an upright cylinder about the origin"},
+    {"walls[].kind", CHOICE(FLAT_WALL_KINDS), WALL(kind), REQUIRED, FLAT,
+     .help = "a straight line; a floor; a hopper; the inside of a drum; a vessel"},
+    {"walls[].point", VECTOR(1e6, "m"), WALL(point), .reload = APPLY, .kinds = PLANE,
+     DEFAULT("[0, 0, 0]"), SOLID, .help = "any point of the plane"},
+    {"walls[].from", PAIR(1e6, "m"), WALL(from), .kinds = SEGMENT, REQUIRED, FLAT,
+     .help = "where the line begins"},
+    {"walls[].to", PAIR(1e6, "m"), WALL(to), .kinds = SEGMENT, REQUIRED, FLAT,
+     .help = "where it ends; its free side is on the left on the way"},
+    {"walls[].point", PAIR(1e6, "m"), WALL(point), DEFAULT("[0, 0]"), FLAT,
+     .help =
+         "the middle of a drum, of a floor, of a vessel's bottom, of a hopper's opening; what a "
+         "turning wall turns about"},
+    {"walls[].width", NUMBER(1e-9, 1e6, "m"), WALL(width), .kinds = FLOOR | HOPPER | VESSEL,
+     REQUIRED, FLAT, .help = "inner, of a hopper at its top"},
+    {"walls[].height", NUMBER(1e-9, 1e6, "m"), WALL(height), .kinds = HOPPER | VESSEL, REQUIRED,
+     FLAT, .help = "from the point to the top of the sides"},
+    {"walls[].opening", NUMBER(0, 1e6, "m"), WALL(opening), .kinds = HOPPER, REQUIRED, FLAT,
+     .help = "between the slopes"},
+    {"walls[].slope", NUMBER(0, 89, "degrees"), WALL(slope), DEGREES, .kinds = HOPPER,
+     DEFAULT("45"), FLAT, .help = "of the slopes to the horizontal"},
+    {"walls[].teeth", INTEGER(0, 1e5), WALL(tooth_count), .kinds = TOOTHED, DEFAULT("0"), FLAT,
+     .help = "on the floor, on each slope, around the drum; 0 is smooth"},
+    {"walls[].tooth_depth", NUMBER(0, 1e6, "m"), WALL(tooth_depth), .kinds = TOOTHED, DEFAULT("0"),
+     FLAT, .help = "of the teeth, which stand on the free side"},
+    {"walls[].thickness", NUMBER(0, 1e6, "m"), WALL(thickness), FLAT, .write = OZ_WRITE_NONZERO,
+     .fallback_help = "chosen by orzo", .help = "of what the wall is made, behind its free side"},
+    {"walls[].until", NUMBER(0, 1e9, "s"), WALL(until), FLAT, .write = OZ_WRITE_NONZERO,
+     .fallback_help = "for ever", .help = "the wall is gone from this time on"},
+    {"walls[].normal", VECTOR(1e6, ""), WALL(normal), .reload = APPLY, .kinds = PLANE,
+     DEFAULT("[0, 0, 1]"), SOLID, .help = "into the free side, of any length but zero"},
+    {"walls[].diameter", NUMBER(1e-9, 1e6, "m"), WALL(diameter), .reload = APPLY, .kinds = CYLINDER,
+     REQUIRED, SOLID, .help = "inner diameter"},
+    {"walls[].diameter", NUMBER(1e-9, 1e6, "m"), WALL(diameter), .kinds = DRUM, REQUIRED, FLAT,
+     .help = "inner diameter, between the teeth"},
+    {"walls[].motion", OF(SECTION), WALL(motion.present), .fallback_help = "at rest",
+     .help = "offset upwards: amplitude x sin(2 pi frequency time)"},
+    {"walls[].motion.angular_velocity", NUMBER(-1e6, 1e6, "rad/s"), WALL(motion.angular_velocity),
+     .write = OZ_WRITE_NONZERO, FLAT, .help = "turns about the wall's point, counter-clockwise"},
+    {"walls[].motion.frequency", NUMBER(1e-9, 1e9, "Hz"), WALL(motion.frequency), .reload = APPLY,
+     REQUIRED, SOLID, .help = "periods in a second"},
+    {"walls[].motion.acceleration_ratio", NUMBER(0, 1e6, ""), WALL(motion.acceleration_ratio),
+     .reload = APPLY, REQUIRED, .rival = "amplitude", .write = OZ_WRITE_UNLESS_RIVAL, SOLID,
+     .help = "greatest acceleration over gravity"},
+    {"walls[].motion.frequency", NUMBER(1e-9, 1e9, "Hz"), WALL(motion.frequency),
+     .write = OZ_WRITE_NONZERO, FLAT, .help = "periods in a second"},
+    {"walls[].motion.acceleration_ratio", NUMBER(0, 1e6, ""), WALL(motion.acceleration_ratio),
+     .rival = "amplitude", .write = OZ_WRITE_UNLESS_RIVAL, FLAT,
+     .help = "greatest acceleration over gravity"},
+    {"walls[].motion.amplitude", NUMBER(0, 1e6, "m"), WALL(motion.written_amplitude),
+     .reload = APPLY, .rival = "acceleration_ratio", .write = OZ_WRITE_NONZERO,
+     .help = "greatest offset"},
+    WALL_SHARED(law, LAWS),
+    WALL_CONTACT(contact_time, APPLY, CONTACT_TIME, "duration of a free hit"),
+    WALL_CONTACT(restitution, APPLY, FRACTION, "speed after over speed before"),
+    WALL_CONTACT(youngs_modulus, APPLY, MODULUS, "of the wall's material"),
+    WALL_CONTACT(poisson_ratio, APPLY, POISSON, "of the wall's material"),
+    WALL_CONTACT(hertz_stiffness, APPLY, NUMBER(1e-12, 1e30, "N/m^1.5"), "force over overlap^1.5"),
+    WALL_CONTACT(normal_damping_rate, APPLY, DAMPING_RATE, "damping over mass and rate"),
+    WALL_CONTACT(tangential_damping_rate, APPLY, DAMPING_RATE, "the same for sliding"),
+    WALL_CONTACT(friction, APPLY, COEFFICIENT, "Coulomb's coefficient"),
+    WALL_CONTACT(tangential_stiffness, APPLY, RATIO, "tangential over normal stiffness"),
+    WALL_CONTACT(tangential_damping, APPLY, RATIO, "tangential over normal damping"),
+    WALL_SHARED(slip, SLIPS),
+    WALL_SHARED(attraction, ATTRACTIONS),
+    WALL_SHARED(damping, DAMPINGS),
+    WALL_SHARED(parallel, PARALLELS),
+    WALL_SHARED(contact_point, CONTACT_POINTS),
+    WALL_SHARED(restitution_at, RESTITUTIONS_AT),
+    WALL_SHARED(restitution_calibration, CALIBRATIONS),
+
+    {"settle", OF(SECTION), AT(settle.present), .fallback_help = "no settling",
+     .help = "rest before time 0"},
+    {"settle.drag", NUMBER(0, 1e9, "1/s"), AT(settle.drag), REQUIRED,
+     .help = "slows every grain: force = -drag x mass x velocity"},
+    {"settle.threshold", NUMBER(0, 1e9, ""), AT(settle.threshold), DEFAULT("1e-3"),
+     .help = "settled once the kinetic energy is below this times N m g d"},
+    {"settle.rest_time", NUMBER(0, 1e9, "s"), AT(settle.rest_time), DEFAULT("0.2"),
+     .help = "without drag afterwards"},
+    {"settle.time_max", NUMBER(0, 1e9, "s"), AT(settle.time_max), DEFAULT("2"),
+     .help = "longest time with drag"},
+
+    {"observe.interval", NUMBER(1e-12, 1e9, "s"), AT(observe.interval), .reload = APPLY,
+     .rival = "interval_taps", .write = OZ_WRITE_UNLESS_RIVAL,
+     .fallback_help = "a period of the first moving wall, else a hundredth of the duration",
+     .help = "between rows of series.csv"},
+    {"observe.interval_taps", NUMBER(1e-9, 1e9, "periods"), AT(observe.interval_taps),
+     .reload = APPLY, .rival = "interval", .write = OZ_WRITE_NONZERO,
+     .help = "the same in periods of the first moving wall"},
+    {"observe.samples_per_tap", INTEGER(1, 1e4), AT(observe.samples_per_tap), .reload = APPLY,
+     DEFAULT("16"), .help = "of the means over taps"},
+    {"observe.layer_thickness", NUMBER(1e-9, 1e6, "m"), AT(observe.layer_thickness),
+     .reload = APPLY, DEFAULT("0.004"), SOLID, .help = "of the layers counted from the floor"},
+    {"observe.ledger", OF(BOOL), AT(observe.ledger), .reload = REBUILD, DEFAULT("false"),
+     .help = "energy columns"},
+    {"observe.outlet", NUMBER(-1e6, 1e6, "m"), AT(observe.outlet), .reload = APPLY, FLAT,
+     .count_offset = offsetof(OzScene, observe.has_outlet), .write = OZ_WRITE_MARKED,
+     .fallback_help = "no outlet", .help = "grains below this height have flowed out"},
+
+    {"movie", OF(SECTION), AT(movie.present), .fallback_help = "no movie",
+     .help = "movie.mp4 of the run"},
+    {"movie.size", .type = OZ_KEY_SIZE, .low = 16, .high = 1e9, .unit = "pixels", AT(movie.width),
+     .width = 2, DEFAULT("[1280, 720]"), .help = "width and height, both even"},
+    {"movie.fps", NUMBER(0.1, 1000, "1/s"), AT(movie.fps), DEFAULT("25"),
+     .help = "pictures in a second"},
+    {"movie.views", .type = OZ_KEY_CHOICES, .choices = VIEWS, .unit = "", .width = 2,
+     AT(movie.views), .count_offset = offsetof(OzScene, movie.view_count),
+     DEFAULT("[lateral, cut]"), SOLID, .help = "side by side"},
+    {"movie.views", .type = OZ_KEY_CHOICES, .choices = FLAT_VIEWS, .unit = "", .width = 1,
+     AT(movie.views), .count_offset = offsetof(OzScene, movie.view_count), DEFAULT("[lateral]"),
+     FLAT, .help = "there is one"},
+    {"movie.colour", CHOICE(COLOURS), AT(movie.colour), DEFAULT("angle"), SOLID,
+     .help = "what a grain's colour shows"},
+    {"movie.colour", CHOICE(FLAT_COLOURS), AT(movie.colour), DEFAULT("speed"), FLAT,
+     .help = "what a grain's colour shows"},
+    {"movie.outlines", OF(BOOL), AT(movie.outlines), DEFAULT("true"), FLAT,
+     .help = "grains' outlines are drawn"},
+    {"movie.beams", OF(BOOL), AT(movie.beams), DEFAULT("false"), FLAT, .help = "beams are drawn"},
+    {"movie.speed", NUMBER(1e-9, 1e9, ""), AT(movie.speed), .rival = "length",
+     .write = OZ_WRITE_NONZERO, .fallback_help = "1",
+     .help = "shown over real time: simulated seconds in a second of movie"},
+    {"movie.length", NUMBER(1e-3, 1e6, "s"), AT(movie.length), .rival = "speed",
+     .write = OZ_WRITE_NONZERO, .help = "of the movie: its pictures are spread over the run"},
+
+    {"snapshots.taps", .type = OZ_KEY_NUMBERS, .low = 0, .high = 1e9, .unit = "periods",
+     AT(snapshots.taps), .count_offset = offsetof(OzScene, snapshots.tap_count), .reload = APPLY,
+     .rival = "times", .write = OZ_WRITE_NONZERO,
+     .help = "pictures at these periods of the first moving wall"},
+    {"snapshots.times", .type = OZ_KEY_NUMBERS, .low = 0, .high = 1e9, .unit = "s",
+     AT(snapshots.times), .count_offset = offsetof(OzScene, snapshots.count), .reload = APPLY,
+     .rival = "taps", .write = OZ_WRITE_UNLESS_RIVAL, .help = "pictures at these times"},
+    {"snapshots.strobe", NUMBER(0, 1e9, "s"), AT(snapshots.strobe), .write = OZ_WRITE_NONZERO, FLAT,
+     .fallback_help = "none", .help = "one picture of the states so far apart, over each other"},
+    {"sweep", OF(SWEEP), AT(sweep), .write = OZ_WRITE_NONZERO,
+     .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}"},
+    {NULL, OF(TEXT)},
+};
+/* clang-format on */
+
+const OzKey *oz_rows_all(void)
+{
+    return KEYS;
+}
