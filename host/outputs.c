@@ -65,7 +65,8 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     char *series = NULL, *frames = NULL;
     const OzScene *scene = &outputs->scene;
     const OzGrains *grains = &outputs->grains;
-    bool pictures = scene->movie.present || scene->snapshots.count > 0;
+    bool pictures =
+        scene->movie.present || scene->snapshots.count > 0 || scene->snapshots.strobe > 0;
     outputs->is_open = true;
     if (outputs->name &&
         outputs->name[0]) { /* a plain run's folder is chosen, with its log in it */
@@ -95,11 +96,18 @@ done:
     return status;
 }
 
+/* What pictures are due, in the frames' bits. */
+static int purpose_of(int due)
+{
+    return (due & OZ_DUE_MOVIE ? OZ_FRAME_MOVIE : 0) |
+           (due & OZ_DUE_SNAPSHOT ? OZ_FRAME_SNAPSHOT : 0) |
+           (due & OZ_DUE_STROBE ? OZ_FRAME_STROBE : 0);
+}
+
 OzStatus oz_outputs_look(OzOutputs *outputs, int due)
 {
     OzStatus status = OZ_OK;
-    int purpose =
-        (due & OZ_DUE_MOVIE ? OZ_FRAME_MOVIE : 0) | (due & OZ_DUE_SNAPSHOT ? OZ_FRAME_SNAPSHOT : 0);
+    int purpose = purpose_of(due);
     if (due & OZ_DUE_SAMPLE) {
         oz_series_sample(outputs->series, &outputs->now);
     }

@@ -19,6 +19,15 @@ static double font_size(const OzLook *look)
     return fmax(9, fmin(look->height / 34.0, look->width / 44.0));
 }
 
+/* Everything flat lies at the depth where the perspective is none. */
+static void stand_over_plane(OzCamera *camera)
+{
+    const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    memcpy(camera->axes, axes, sizeof axes);
+    camera->centre[1] = camera->centre[2];
+    camera->centre[2] = 0;
+}
+
 static void stand(OzCamera *camera, const OzLook *look)
 {
     double s = sin(look->elevation), c = cos(look->elevation);
@@ -31,6 +40,9 @@ static void stand(OzCamera *camera, const OzLook *look)
     camera->unit = fmax(fmax(half_height, look->half_width), 1e-12);
     camera->distance = EYE_DISTANCE;
     camera->depth = 1.5 * (look->half_width * c + half_height * s) / camera->unit;
+    if (look->flat) {
+        stand_over_plane(camera);
+    }
 }
 
 /* The largest scale at which the framed volume fits the area, seen from the camera's height. */
@@ -42,7 +54,8 @@ static void fit(OzCamera *camera, const OzLook *look, double width, double heigh
         2 * (half_height * cos(look->elevation) + look->half_width * sin(look->elevation)) /
         camera->unit;
     /* What stands in front of the centre looks larger. */
-    double nearer = camera->distance / (camera->distance - look->half_width / camera->unit);
+    double front = look->flat ? 0 : look->half_width / camera->unit;
+    double nearer = camera->distance / (camera->distance - front);
     camera->scale = fmin(width / across, height / upright) / nearer;
     camera->content_width = across * nearer * camera->scale;
     camera->content_height = upright * nearer * camera->scale;

@@ -1,6 +1,8 @@
 /* A steady framing from walls and the first bed. Knows no GL. */
 #include "draw/framing.h"
 
+#include "draw/plane.h"
+
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
@@ -139,6 +141,27 @@ static void take_settings(OzLook *look, const OzMovieSettings *movie)
     }
 }
 
+static void frame_standing(OzLook *look, const OzScene *scene, const OzSnapshot *snapshot)
+{
+    Room room = grain_room(snapshot);
+    double radius = cylinder_radius(scene);
+    close_by_planes(&room, scene); /* first to know the size, then to keep the walls' sides */
+    widen(&room, scene);
+    close_by_planes(&room, scene);
+    look->height_low = room.low[2];
+    look->height_high = fmax(room.high[2], room.low[2] + 1e-9);
+    if (isfinite(radius)) {
+        look->half_width = radius;
+    } else {
+        double wide = fmax(room.high[0] - room.low[0], room.high[1] - room.low[1]);
+        look->half_width = fmax(0.5 * wide, 1e-9);
+        look->centre[0] = 0.5 * (room.low[0] + room.high[0]);
+        look->centre[1] = 0.5 * (room.low[1] + room.high[1]);
+        look->cut = look->centre[1];
+    }
+    look->speed_high = typical_speed(scene, snapshot, look->height_high - look->height_low);
+}
+
 OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
 {
     OzLook look = {.width = 1280,
@@ -147,23 +170,11 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
                    .view_count = 2,
                    .colour = OZ_COLOUR_ANGLE,
                    .elevation = ELEVATION};
-    Room room = grain_room(snapshot);
-    double radius = cylinder_radius(scene);
     take_settings(&look, &scene->movie);
-    close_by_planes(&room, scene); /* first to know the size, then to keep the walls' sides */
-    widen(&room, scene);
-    close_by_planes(&room, scene);
-    look.height_low = room.low[2];
-    look.height_high = fmax(room.high[2], room.low[2] + 1e-9);
-    if (isfinite(radius)) {
-        look.half_width = radius;
+    if (snapshot->grains->pieces) {
+        oz_plane_frame(&look, scene, snapshot);
     } else {
-        double wide = fmax(room.high[0] - room.low[0], room.high[1] - room.low[1]);
-        look.half_width = fmax(0.5 * wide, 1e-9);
-        look.centre[0] = 0.5 * (room.low[0] + room.high[0]);
-        look.centre[1] = 0.5 * (room.low[1] + room.high[1]);
-        look.cut = look.centre[1];
+        frame_standing(&look, scene, snapshot);
     }
-    look.speed_high = typical_speed(scene, snapshot, look.height_high - look.height_low);
     return look;
 }

@@ -19,6 +19,8 @@ struct OzGallery {
     OzLook look;
     OzImage image;
     OzMovie *movie;
+    OzSnapshot *states; /* for the strobe */
+    int state_count;
     double drawing, encoding;
 };
 
@@ -93,18 +95,11 @@ done:
     return status;
 }
 
-static OzStatus write_picture(OzGallery *gallery, const OzSnapshot *snapshot)
+/* The gallery's image as snapshots/<name>. */
+static OzStatus write_image(OzGallery *gallery, const char *name)
 {
     OzStatus status = OZ_OK;
-    char *folder = NULL, *path = NULL, name[64];
-    double period = gallery->scene->period;
-    if (period > 0) {
-        double tap = snapshot->time / period, off = fabs(tap - round(tap)) * period;
-        bool whole = off < gallery->scene->step; /* taps are met to half a step */
-        snprintf(name, sizeof name, whole ? "tap_%05.0f.png" : "tap_%09.3f.png", tap);
-    } else {
-        snprintf(name, sizeof name, "time_%.6f.png", snapshot->time);
-    }
+    char *folder = NULL, *path = NULL;
     OZ_TRY(oz_file_join(&folder, gallery->settings->folder, "snapshots"));
     OZ_TRY(oz_file_make_folder(folder));
     OZ_TRY(oz_file_join(&path, folder, name));
@@ -115,20 +110,82 @@ done:
     return status;
 }
 
+static OzStatus write_picture(OzGallery *gallery, const OzSnapshot *snapshot)
+{
+    char name[64];
+    double period = gallery->scene->period;
+    if (period > 0) {
+        double tap = snapshot->time / period, off = fabs(tap - round(tap)) * period;
+        bool whole = off < gallery->scene->step; /* taps are met to half a step */
+        snprintf(name, sizeof name, whole ? "tap_%05.0f.png" : "tap_%09.3f.png", tap);
+    } else {
+        snprintf(name, sizeof name, "time_%.6f.png", snapshot->time);
+    }
+    return write_image(gallery, name);
+}
+
+static OzStatus keep_state(OzGallery *gallery, const OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    if (gallery->state_count == OZ_GALLERY_STATES) {
+        return OZ_OK;
+    }
+    if (!gallery->states) {
+        OZ_TRY(OZ_NEW(&gallery->states, OZ_GALLERY_STATES));
+    }
+    OZ_TRY(oz_snapshot_copy(&gallery->states[gallery->state_count], snapshot));
+    if (++gallery->state_count == OZ_GALLERY_STATES) {
+        oz_log_line("strobe.png shows the first %d states, to %.6g s", OZ_GALLERY_STATES,
+                    snapshot->time);
+    }
+done:
+    return status;
+}
+
+static OzStatus draw_strobe(OzGallery *gallery)
+{
+    OzStatus status = OZ_OK;
+    OzLook look = gallery->look;
+    look.strobe = gallery->scene->snapshots.strobe;
+    if (gallery->state_count > 0) {
+        OZ_TRY(oz_renderer_draw_states(gallery->renderer, gallery->states, gallery->state_count,
+                                       &look, &gallery->image));
+        OZ_TRY(write_image(gallery, "strobe.png"));
+    }
+done:
+    return status;
+}
+
+/* For a movie or a single picture. */
+static OzStatus draw(OzGallery *gallery, const OzSnapshot *snapshot, int purpose)
+{
+    double start = oz_clock_now();
+    if (!(purpose & (OZ_FRAME_MOVIE | OZ_FRAME_SNAPSHOT))) {
+        return OZ_OK;
+    }
+    OzStatus status =
+        oz_renderer_draw(gallery->renderer, snapshot, &gallery->look, &gallery->image);
+    gallery->drawing += oz_clock_now() - start;
+    return status;
+}
+
 OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose)
 {
     OzStatus status = OZ_OK;
-    double start = oz_clock_now();
     if (!gallery->renderer) {
+        double start = oz_clock_now();
         OZ_TRY(open_renderer(gallery, snapshot));
+        gallery->drawing += oz_clock_now() - start;
     }
-    OZ_TRY(oz_renderer_draw(gallery->renderer, snapshot, &gallery->look, &gallery->image));
-    gallery->drawing += oz_clock_now() - start;
+    OZ_TRY(draw(gallery, snapshot, purpose));
     if (purpose & OZ_FRAME_MOVIE) {
         OZ_TRY(add_to_movie(gallery));
     }
     if (purpose & OZ_FRAME_SNAPSHOT) {
         OZ_TRY(write_picture(gallery, snapshot));
+    }
+    if (purpose & OZ_FRAME_STROBE) {
+        OZ_TRY(keep_state(gallery, snapshot));
     }
 done:
     return status;
@@ -145,7 +202,13 @@ OzStatus oz_gallery_finish(OzGallery *gallery)
     if (!gallery) {
         return OZ_OK;
     }
+    OzStatus drawn = draw_strobe(gallery);
     OzStatus status = oz_movie_finish(gallery->movie);
+    status = status == OZ_OK ? drawn : status;
+    for (int i = 0; i < gallery->state_count; i++) {
+        oz_snapshot_free(&gallery->states[i]);
+    }
+    free(gallery->states);
     if (!gallery->settings->renderer) {
         oz_renderer_free(gallery->renderer);
     }

@@ -1,5 +1,5 @@
-/* The pictures of a run: movie frames and snapshots, from the snapshots that are handed in. GL and libav are
- * opened by the first picture that needs them and never otherwise. */
+/* The pictures of a run: movie frames and snapshots, from the snapshots that are handed in. GL and
+ * libav are opened by the first picture that needs them and never otherwise. */
 #ifndef OZ_DRAW_GALLERY_H
 #define OZ_DRAW_GALLERY_H
 
@@ -7,13 +7,15 @@
 
 typedef struct OzGallery OzGallery;
 
+enum { OZ_GALLERY_STATES = 256 }; /* more would hide each other */
+
 typedef struct OzGallerySettings {
     const char *folder;     /* movie.mp4 and snapshots/ go here; borrowed        */
     const char *source_dir; /* as in oz_embed_read; borrowed, may be NULL        */
     OzGlBackend backend;
-    const char *device;     /* for the movie's metadata: who computed; borrowed   */
-    OzRenderer **renderer;  /* shared by several galleries: made by the first that draws, freed by the caller
-                             * after them; NULL: the gallery's own                */
+    const char *device;    /* for the movie's metadata: who computed; borrowed   */
+    OzRenderer **renderer; /* shared by several galleries: made by the first that draws, freed by
+                            * the caller after them; NULL: the gallery's own                */
 } OzGallerySettings;
 
 /* settings and scene are borrowed and must outlive the gallery. */
@@ -21,14 +23,16 @@ OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *setting
                            const OzScene *scene);
 
 /* Draws a snapshot and hands it to the movie and (or) writes it as snapshots/tap_00300.png, or
- * snapshots/time_1.250000.png without a moving wall; purpose: OZ_FRAME_ bits of observe/frames.h. The first
- * one fixes the framing. */
+ * snapshots/time_1.250000.png without a moving wall; purpose: OZ_FRAME_ bits of observe/frames.h.
+ * The first one fixes the framing. Of those for the strobe copies are kept, at most
+ * OZ_GALLERY_STATES of them. */
 OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose);
 
 /* Seconds spent in drawing and in encoding so far. */
 void oz_gallery_times(const OzGallery *gallery, double *drawing, double *encoding);
 
-/* Finishes the movie and frees; NULL is fine. */
+/* Draws snapshots/strobe.png, the kept states over each other, if there are any; closes the movie,
+ * frees; NULL is fine. */
 OzStatus oz_gallery_finish(OzGallery *gallery);
 
 #endif

@@ -72,6 +72,13 @@ static void add_heading(const Page *page)
 static void add_captions(const Page *page)
 {
     double y = page->look->height - page->margin - 0.25 * page->size;
+    char every[48];
+    if (page->look->flat) {
+        snprintf(every, sizeof every, "a state every %.4g s", page->look->strobe);
+        write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, 0.5 * page->look->width, y, PALE,
+                   page->look->strobe > 0 ? every : "");
+        return;
+    }
     for (int i = 0; i < page->camera->panel_count; i++) {
         bool cut = page->look->views[i] == OZ_VIEW_CUT;
         write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, page->camera->panels[i].middle_x,
@@ -110,10 +117,18 @@ static void add_scale_bar(const Page *page)
                y - thick - 0.55 * page->size, INK, text);
 }
 
-static void bar_colour(OzColour colour, double share, float rgb[3])
+/* Directions of flat grains go all around. */
+static bool is_turn(const OzLook *look)
 {
-    if (colour == OZ_COLOUR_AZIMUTH) {
+    return look->flat && (look->colour == OZ_COLOUR_ANGLE || look->colour == OZ_COLOUR_AZIMUTH);
+}
+
+static void bar_colour(const OzLook *look, double share, float rgb[3])
+{
+    if (is_turn(look) || look->colour == OZ_COLOUR_AZIMUTH) {
         oz_palette_cyclic(share, rgb);
+    } else if (look->colour == OZ_COLOUR_GREY) {
+        oz_palette_grey(share, rgb);
     } else {
         oz_palette_viridis(share, rgb);
     }
@@ -123,10 +138,10 @@ static void tick_text(const OzLook *look, double share, char *text, size_t size)
 {
     switch (look->colour) {
     case OZ_COLOUR_ANGLE:
-        snprintf(text, size, "%.0f\xc2\xb0", 90 * share);
+        snprintf(text, size, "%.0f\xc2\xb0", (look->flat ? 360 : 90) * share);
         break;
     case OZ_COLOUR_AZIMUTH:
-        snprintf(text, size, "%.0f\xc2\xb0", 180 * share);
+        snprintf(text, size, "%.0f\xc2\xb0", (look->flat ? 360 : 180) * share);
         break;
     default:
         snprintf(text, size, "%.3g", look->speed_high * share);
@@ -137,14 +152,15 @@ static void add_colour_bar(const Page *page)
 {
     static const char *const names[] = {[OZ_COLOUR_ANGLE] = "angle to floor",
                                         [OZ_COLOUR_AZIMUTH] = "azimuth",
-                                        [OZ_COLOUR_SPEED] = "speed (m/s)"};
+                                        [OZ_COLOUR_SPEED] = "speed (m/s)",
+                                        [OZ_COLOUR_GREY] = "speed (m/s)"};
     double right = page->look->width - page->margin, width = 0.85 * page->size;
     double height = fmin(0.45 * page->look->height, 14 * page->size);
     double top = 0.5 * (page->look->height - height), left = right - width;
-    int divisions = page->look->colour == OZ_COLOUR_ANGLE ? 3 : 4;
+    int divisions = page->look->colour == OZ_COLOUR_ANGLE && !page->look->flat ? 3 : 4;
     for (int row = 0; row < (int)height; row++) {
         float rgb[3];
-        bar_colour(page->look->colour, 1 - (row + 0.5) / height, rgb);
+        bar_colour(page->look, 1 - (row + 0.5) / height, rgb);
         fill(page, left, floor(top) + row, right, floor(top) + row + 1, rgb);
     }
     for (int i = 0; i <= divisions; i++) {
@@ -156,7 +172,21 @@ static void add_colour_bar(const Page *page)
                    y + 0.29 * page->size, INK, text);
     }
     write_text(page, OZ_WEIGHT_REGULAR, 0.85 * page->size, 1, right, top - 0.85 * page->size, INK,
-               names[page->look->colour]);
+               is_turn(page->look) ? "turned by" : names[page->look->colour]);
+}
+
+static void flat_population_text(const OzPopulation *population, char *text, size_t size)
+{
+    static const char *const names[] = {[OZ_SHAPE_SQUARE] = "squares",
+                                        [OZ_SHAPE_POLYGON] = "polygons",
+                                        [OZ_SHAPE_STAR] = "stars",
+                                        [OZ_SHAPE_VERTICES] = "given shape",
+                                        [OZ_SHAPE_DISC] = "discs"};
+    const OzRange *range =
+        population->shape == OZ_SHAPE_SQUARE ? &population->edge : &population->radius;
+    char length[32];
+    length_text(length, sizeof length, 0.5 * (range->low + range->high));
+    snprintf(text, size, range->high > 0 ? "%s %s" : "%s", names[population->shape], length);
 }
 
 static void population_text(const OzPopulation *population, char *text, size_t size)
@@ -184,7 +214,8 @@ static void add_type_legend(const Page *page)
         float rgb[3];
         char text[64];
         oz_palette_type(i, rgb);
-        population_text(&scene->populations[i], text, sizeof text);
+        (page->look->flat ? flat_population_text : population_text)(&scene->populations[i], text,
+                                                                    sizeof text);
         fill(page, right - box, y, right, y + box, rgb);
         write_text(page, OZ_WEIGHT_REGULAR, 0.8 * page->size, 1, right - box - 0.5 * page->size,
                    y + 0.72 * page->size, INK, text);

@@ -53,6 +53,13 @@ void oz_palette_type(int row, float rgb[3])
     mix(colours[row & 7], colours[row & 7], 0, rgb);
 }
 
+/* How far a flat grain has turned since the start, 0..1 for a whole turn. */
+static double turn_share(const OzSnapshot *snapshot, int64_t i)
+{
+    const double *q = &snapshot->quaternion[4 * i];
+    return atan2(q[3], q[0]) / PI;
+}
+
 static void angle_colour(const double axis[3], float rgb[3])
 {
     double up = fmin(fabs(axis[2]), 1);
@@ -92,7 +99,9 @@ void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i,
     case OZ_COLOUR_AZIMUTH:
         break;
     }
-    if (sphere) {
+    if (look->flat) {
+        oz_palette_cyclic(turn_share(snapshot, i), rgb);
+    } else if (sphere) {
         mix(GREY, GREY, 0, rgb);
     } else if (look->colour == OZ_COLOUR_ANGLE) {
         angle_colour(axis, rgb);

@@ -11,6 +11,7 @@
 #include "draw/font.h"
 #include "draw/framing.h"
 #include "draw/overlay.h"
+#include "draw/polygons.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,6 +35,7 @@ struct OzRenderer {
     OzContext context;
     OzCapsules capsules;
     OzContainer container;
+    OzPolygons polygons;
     OzFont font;
     GLuint compose, no_vertices;
     int width, height, sample_count;     /* of the targets; 0 before the first picture */
@@ -51,6 +53,7 @@ OzStatus oz_renderer_create(OzRenderer **renderer, OzGlBackend backend, const ch
     const OzGl *gl = &made->context.gl;
     OZ_TRY(oz_capsules_create(&made->capsules, gl, source_dir));
     OZ_TRY(oz_container_create(&made->container, gl, source_dir));
+    OZ_TRY(oz_polygons_create(&made->polygons, gl, source_dir));
     OZ_TRY(oz_gl_program(gl, &made->compose, source_dir, "compose", ""));
     gl->GenVertexArrays(1, &made->no_vertices);
     OZ_TRY(oz_gl_check(gl, "preparing the renderer"));
@@ -83,6 +86,7 @@ void oz_renderer_free(OzRenderer *renderer)
         free_targets(renderer);
         oz_capsules_free(&renderer->capsules);
         oz_container_free(&renderer->container);
+        oz_polygons_free(&renderer->polygons);
         gl->DeleteProgram(renderer->compose);
         gl->DeleteVertexArrays(1, &renderer->no_vertices);
     }
@@ -261,6 +265,27 @@ done:
     return status;
 }
 
+/* States of flat grains over each other; the first of several is faint, the last is opaque. */
+static OzStatus draw_flat_samples(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
+                                  const OzLook *look, const OzCamera *camera)
+{
+    const double faintest = 0.12;
+    OzPolygons *polygons = &renderer->polygons;
+    double size[2];
+    clear_target(&renderer->context.gl, renderer->sample_target, look);
+    renderer->context.gl.Enable(GL_SCISSOR_TEST);
+    open_panel(&renderer->context.gl, &camera->panels[0], look->height, size);
+    oz_polygons_clear(polygons);
+    if (!look->bare) {
+        oz_polygons_add_walls(polygons, &snapshots[count - 1], camera);
+    }
+    for (int i = 0; i < count; i++) {
+        double age = count > 1 ? (double)(count - 1 - i) / (count - 1) : 0;
+        oz_polygons_add_grains(polygons, &snapshots[i], look, camera, 1 - (1 - faintest) * age);
+    }
+    return oz_polygons_draw(polygons, look, camera, size[0], size[1]);
+}
+
 /* A typical grain's radius in units of view coordinates. */
 static double typical_radius(const OzSnapshot *snapshot, const OzCamera *camera)
 {
@@ -288,12 +313,13 @@ static void set_mood(const OzRenderer *renderer, const OzSnapshot *snapshot, con
     GLuint program = renderer->compose;
     const float *colour = look->bare ? WHITE : BACKGROUND;
     double radius = typical_radius(snapshot, camera);
+    bool plain = look->bare || look->flat;
     GLfloat taps[2 * PAIRS];
     place_taps(taps, fmin(radius * camera->scale, 0.03 * look->height));
     gl->Uniform2fv(gl->GetUniformLocation(program, "taps"), PAIRS, taps);
     gl->Uniform4f(gl->GetUniformLocation(program, "mood"),
-                  (float)(2 * camera->depth / (1.5 * radius)), look->bare ? 0 : 0.60f,
-                  look->bare ? 0 : 0.45f, 0);
+                  (float)(2 * camera->depth / (1.5 * radius)), plain ? 0 : 0.60f, plain ? 0 : 0.45f,
+                  0);
     gl->Uniform4f(gl->GetUniformLocation(program, "background"), colour[0], colour[1], colour[2],
                   1);
 }
@@ -311,11 +337,19 @@ static void set_retreat(const OzRenderer *renderer, const OzLook *look, const Oz
                   (float)(-share * (away * camera->depth + rise * middle_row / camera->scale)), 0);
 }
 
+/* What a view's samples may have changed; flat grains may be anywhere. */
+static OzBox changed_box(const OzRenderer *renderer, const OzLook *look, const OzCamera *camera,
+                         int view)
+{
+    const OzCapsules *capsules = &renderer->capsules;
+    return look->flat ? (OzBox){0, 0, look->width, look->height}
+                      : oz_camera_box(camera, look, view, capsules->low, capsules->high);
+}
+
 static OzStatus compose(const OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
                         const OzCamera *camera)
 {
     const OzGl *gl = &renderer->context.gl;
-    const OzCapsules *capsules = &renderer->capsules;
     GLuint program = renderer->compose;
     gl->UseProgram(program);
     gl->BindVertexArray(renderer->no_vertices);
@@ -334,7 +368,7 @@ static OzStatus compose(const OzRenderer *renderer, const OzSnapshot *snapshot, 
     gl->Enable(GL_SCISSOR_TEST);
     gl->Viewport(0, 0, look->width, look->height);
     for (int view = 0; view < look->view_count; view++) {
-        OzBox box = oz_camera_box(camera, look, view, capsules->low, capsules->high);
+        OzBox box = changed_box(renderer, look, camera, view);
         gl->Scissor(box.x, box.y, box.width, box.height);
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
     }
@@ -349,19 +383,39 @@ static OzStatus read_back(const OzRenderer *renderer, OzImage *image)
     return oz_gl_check(gl, "reading the picture back");
 }
 
-OzStatus oz_renderer_draw(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
-                          OzImage *image)
+static OzStatus draw_standing_samples(OzRenderer *renderer, const OzSnapshot *snapshot,
+                                      const OzLook *look, const OzCamera *camera)
+{
+    OzStatus status = oz_capsules_upload(&renderer->capsules, snapshot, look, camera);
+    return status == OZ_OK ? draw_samples(renderer, snapshot, look, camera) : status;
+}
+
+static OzStatus draw(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
+                     const OzLook *look, OzImage *image)
 {
     OzStatus status = OZ_OK;
     OzCamera camera = oz_camera_make(look);
+    const OzSnapshot *last = &snapshots[count - 1];
     OZ_TRY(oz_context_use(&renderer->context));
     OZ_TRY(check_look(renderer, look, image));
     OZ_TRY(fit_targets(renderer, look));
-    OZ_TRY(oz_capsules_upload(&renderer->capsules, snapshot, look, &camera));
-    OZ_TRY(draw_samples(renderer, snapshot, look, &camera));
-    OZ_TRY(compose(renderer, snapshot, look, &camera));
+    OZ_TRY(look->flat ? draw_flat_samples(renderer, snapshots, count, look, &camera)
+                      : draw_standing_samples(renderer, last, look, &camera));
+    OZ_TRY(compose(renderer, last, look, &camera));
     OZ_TRY(read_back(renderer, image));
-    oz_overlay_draw(&renderer->font, image, snapshot, look, &camera);
+    oz_overlay_draw(&renderer->font, image, last, look, &camera);
 done:
     return status;
+}
+
+OzStatus oz_renderer_draw(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
+                          OzImage *image)
+{
+    return draw(renderer, snapshot, 1, look, image);
+}
+
+OzStatus oz_renderer_draw_states(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
+                                 const OzLook *look, OzImage *image)
+{
+    return draw(renderer, snapshots, count, look, image);
 }

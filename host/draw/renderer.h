@@ -22,10 +22,15 @@ typedef struct OzLook {
     double height_low, height_high; /* m: the vertical range that the camera frames */
     double speed_high;              /* m/s at the top of the colour bar, for OZ_COLOUR_SPEED */
     double centre[2];               /* m: x and y at the middle of the picture */
-    double half_width; /* m: what is framed to the left and right of the middle, and in depth */
-    double cut;        /* m: the cut view shows what lies at y above this */
-    double elevation;  /* rad: how far above the horizon the camera stands */
-    bool bare;         /* grains alone on white: no container, no overlay */
+    double half_width;    /* m: what is framed to the left and right of the middle, and in depth */
+    double cut;           /* m: the cut view shows what lies at y above this */
+    double elevation;     /* rad: how far above the horizon the camera stands */
+    bool bare;            /* grains alone on white: no container, no overlay */
+    bool flat;            /* seen straight on in the plane x-y, as trigrains are: height_low and
+                           * height_high are of y, views and cut say nothing */
+    bool outlines, beams; /* flat: of grains                              */
+    double strobe;        /* flat: s between states that are laid over each other, for the caption;
+                           * 0 for a single one */
 } OzLook;
 
 typedef struct OzRenderer OzRenderer;
@@ -47,6 +52,11 @@ OzLook oz_renderer_look(const OzScene *scene, const OzSnapshot *snapshot);
  * largest picture too. */
 OzStatus oz_renderer_draw(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
                           OzImage *image);
+
+/* Draws several states (count > 0) over each other if the look is flat, oldest first, each fainter
+ * than the next; walls and heading are the last one's. Otherwise as above. */
+OzStatus oz_renderer_draw_states(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
+                                 const OzLook *look, OzImage *image);
 
 /* For `orzo devices`: one line for each GL back-end, what it gives or why it is refused. Call it
  * before any renderer or OpenCL device exists in this process: it forks. */

@@ -154,11 +154,11 @@ static void wait_for_all(OzStudio *studio)
     }
 }
 
-/* How many such snapshots may be in the queue. */
+/* How many such snapshots may be in the queue, by the numbers in their arrays. */
 static int jobs_most(const OzSnapshot *snapshot)
 {
-    double bytes = 16.0 * sizeof(double) * (double)snapshot->count; /* the arrays of a snapshot */
-    double most = fmin(WAITING_MOST / (bytes + 1), OZ_STUDIO_JOBS);
+    double words = 16.0 * (double)snapshot->count + 6.0 * (double)snapshot->piece_count;
+    double most = fmin(WAITING_MOST / (sizeof(double) * words + 1), OZ_STUDIO_JOBS);
     return most < 2 ? 2 : (int)most;
 }
 

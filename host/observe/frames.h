@@ -18,7 +18,8 @@
 
 typedef struct OzFrames OzFrames;
 
-enum { OZ_FRAME_MOVIE = 1, OZ_FRAME_SNAPSHOT = 2 }; /* what a frame is for: bits */
+/* What a frame is for: bits. */
+enum { OZ_FRAME_MOVIE = 1, OZ_FRAME_SNAPSHOT = 2, OZ_FRAME_STROBE = 4 };
 
 /* Opens path for writing; scene and grains are read here only. Fails with OZ_ERR_FILE. */
 OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *scene,

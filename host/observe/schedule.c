@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Simulated seconds between frames of the movie. A `length` spreads the frames evenly over the run; once they
- * lie more than a period of the floor apart they are put a whole number of periods apart, so that the floor
- * stands still in a long run and moves in a short one. */
+/* Simulated seconds between frames of the movie. A `length` spreads the frames evenly over the run;
+ * once they lie more than a period of the floor apart they are put a whole number of periods apart,
+ * so that the floor stands still in a long run and moves in a short one. */
 static double frame_interval(const OzScene *scene, double duration)
 {
     const OzMovieSettings *movie = &scene->movie;
@@ -31,6 +31,7 @@ OzSchedule oz_schedule_create(const OzScene *scene, double until)
     s.row = scene->observe.interval;
     s.sample = scene->period > 0 ? scene->period / (double)scene->observe.samples_per_tap : 0;
     s.frame = frame_interval(scene, duration);
+    s.strobe = scene->snapshots.strobe;
     return s;
 }
 
@@ -58,15 +59,15 @@ static bool pass(const OzSchedule *s, double interval, int64_t *count, int64_t s
 static int64_t snapshot_step(const OzSchedule *s)
 {
     const OzSnapshotSettings *shots = &s->scene->snapshots;
-    return s->snapshots < shots->count
-               ? llround(shots->times[s->snapshots] / s->scene->step)
-               : INT64_MAX;
+    return s->snapshots < shots->count ? llround(shots->times[s->snapshots] / s->scene->step)
+                                       : INT64_MAX;
 }
 
 bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
 {
     int64_t next = earlier(step_of(s, s->row, s->rows), step_of(s, s->sample, s->samples));
     next = earlier(next, step_of(s, s->frame, s->frames));
+    next = earlier(next, step_of(s, s->strobe, s->strobes));
     next = earlier(next, snapshot_step(s));
     if (next > s->last_step) {
         next = s->last_step;
@@ -80,6 +81,7 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     *due |= pass(s, s->row, &s->rows, next) ? OZ_DUE_ROW : 0;
     *due |= pass(s, s->sample, &s->samples, next) ? OZ_DUE_SAMPLE : 0;
     *due |= pass(s, s->frame, &s->frames, next) ? OZ_DUE_MOVIE : 0;
+    *due |= pass(s, s->strobe, &s->strobes, next) ? OZ_DUE_STROBE : 0;
     while (snapshot_step(s) <= next) {
         *due |= OZ_DUE_SNAPSHOT;
         s->snapshots++;
@@ -91,6 +93,6 @@ bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
 {
     const OzSnapshotSettings *x = &a->scene->snapshots, *y = &b->scene->snapshots;
     return a->last_step == b->last_step && a->row == b->row && a->sample == b->sample &&
-           a->frame == b->frame && x->count == y->count &&
+           a->frame == b->frame && a->strobe == b->strobe && x->count == y->count &&
            (x->count == 0 || memcmp(x->times, y->times, (size_t)x->count * sizeof *x->times) == 0);
 }

@@ -1,5 +1,5 @@
-/* When a run is looked at. Events are whole step numbers (event k of a kind lies at step round(k T / dt)), so
- * that a frame rate never changes the physics. */
+/* When a run is looked at. Events are whole step numbers (event k of a kind lies at step round(k T
+ * / dt)), so that a frame rate never changes the physics. */
 #ifndef OZ_OBSERVE_SCHEDULE_H
 #define OZ_OBSERVE_SCHEDULE_H
 
@@ -9,21 +9,27 @@
 #include <stdint.h>
 
 /* What is due at a step, as bits. */
-enum { OZ_DUE_ROW = 1, OZ_DUE_SAMPLE = 2, OZ_DUE_MOVIE = 4, OZ_DUE_SNAPSHOT = 8 };
+enum {
+    OZ_DUE_ROW = 1,
+    OZ_DUE_SAMPLE = 2,
+    OZ_DUE_MOVIE = 4,
+    OZ_DUE_SNAPSHOT = 8,
+    OZ_DUE_STROBE = 16
+};
 
 typedef struct OzSchedule {
-    const OzScene *scene;   /* borrowed */
+    const OzScene *scene; /* borrowed */
     int64_t last_step;
-    double row, sample, frame; /* s between events; 0: there are none */
-    int64_t rows, samples, frames; /* events of each kind that have been due */
+    double row, sample, frame, strobe;      /* s between events; 0: there are none */
+    int64_t rows, samples, frames, strobes; /* events of each kind that have been due */
     int snapshots;
 } OzSchedule;
 
 /* The schedule of a scene, ending at the time `until` if that is earlier (negative: not given). */
 OzSchedule oz_schedule_create(const OzScene *scene, double until);
 
-/* The next step at which something is due, and what; events at one step come together. False when there is
- * nothing more up to the last step; the last step itself is always an event. */
+/* The next step at which something is due, and what; events at one step come together. False when
+ * there is nothing more up to the last step; the last step itself is always an event. */
 bool oz_schedule_next(OzSchedule *schedule, int64_t *step, int *due);
 
 /* Whether two schedules have their events at the same times. */

@@ -67,6 +67,17 @@ static void copy_words(double *to, const double *from, int64_t count)
     }
 }
 
+static void copy_pieces(OzSnapshot *copy, const OzSnapshot *snapshot)
+{
+    int64_t count = snapshot->piece_count;
+    copy_words(copy->piece_position, snapshot->piece_position, 2 * count);
+    copy_words(copy->piece_angle, snapshot->piece_angle, count);
+    copy_words(copy->piece_velocity, snapshot->piece_velocity, 2 * count);
+    copy_words(copy->piece_spin, snapshot->piece_spin, count);
+    copy->pieces = snapshot->pieces;
+    copy->piece_ledger = snapshot->piece_ledger;
+}
+
 OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
 {
     OzStatus status = OZ_OK;
@@ -85,6 +96,7 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy->contacts = snapshot->contacts;
     copy->has_ledger = snapshot->has_ledger;
     copy->ledger = snapshot->ledger;
+    copy_pieces(copy, snapshot);
 done:
     return status;
 }

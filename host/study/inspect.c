@@ -109,7 +109,7 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     OZ_TRY(print_contacts(file, &scene, &grains));
     OZ_TRY(oz_device_open(&device, options->device, options->threads));
     OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
-    if (!scene.movie.present && scene.snapshots.count == 0) {
+    if (!scene.movie.present && scene.snapshots.count == 0 && !(scene.snapshots.strobe > 0)) {
         fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
     }
 done:

@@ -1,0 +1,311 @@
+/* Triangles of flat grains, gathered on the host. Knows nothing of how a grain is put together
+ * beyond its pieces, outlines and beams. */
+#include "draw/polygons.h"
+
+#include "base/memory.h"
+#include "draw/palette.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+static const float WALL[4] = {0.74f, 0.755f, 0.78f, 1.0f};
+static const float BEAM[3] = {0.85f, 0.20f, 0.12f};
+
+enum {
+    FAR = 10000,            /* pixels: an edge without outline is never near             */
+    SECTORS_LEAST = 12,     /* of a disc, however small                                   */
+    SECTORS_MOST = 180,     /* and however large: a tenth of a pixel from round at 600    */
+    MARKED_PIECES_MOST = 4, /* grains of more pieces turn visibly without a darker one     */
+    EVERY_EDGE = 7
+};
+
+/* One piece about to be added. */
+typedef struct Piece {
+    const OzSnapshot *snapshot;
+    const OzCamera *camera;
+    int64_t index;
+    int edges; /* bits: of 0..2, those with an outline */
+    float rgba[4], ink[3];
+} Piece;
+
+static void describe_corners(const OzGl *gl)
+{
+    static const GLint sizes[4] = {2, 4, 3, 3};
+    static const size_t places[4] = {
+        offsetof(OzPolygonCorner, place), offsetof(OzPolygonCorner, rgba),
+        offsetof(OzPolygonCorner, ink), offsetof(OzPolygonCorner, inside)};
+    for (GLuint i = 0; i < 4; i++) {
+        gl->EnableVertexAttribArray(i);
+        gl->VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(OzPolygonCorner),
+                                (const void *)(uintptr_t)places[i]);
+    }
+}
+
+OzStatus oz_polygons_create(OzPolygons *polygons, const OzGl *gl, const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    memset(polygons, 0, sizeof *polygons);
+    polygons->gl = gl;
+    OZ_TRY(oz_gl_program(gl, &polygons->program, source_dir, "polygons", ""));
+    gl->GenVertexArrays(1, &polygons->vertices);
+    gl->BindVertexArray(polygons->vertices);
+    gl->GenBuffers(1, &polygons->buffer);
+    gl->BindBuffer(GL_ARRAY_BUFFER, polygons->buffer);
+    describe_corners(gl);
+    OZ_TRY(oz_gl_check(gl, "preparing the buffer of flat grains"));
+done:
+    return status;
+}
+
+void oz_polygons_free(OzPolygons *polygons)
+{
+    if (polygons->gl) {
+        polygons->gl->DeleteProgram(polygons->program);
+        polygons->gl->DeleteBuffers(1, &polygons->buffer);
+        polygons->gl->DeleteVertexArrays(1, &polygons->vertices);
+    }
+    free(polygons->corners);
+    memset(polygons, 0, sizeof *polygons);
+}
+
+void oz_polygons_clear(OzPolygons *polygons)
+{
+    polygons->count = 0;
+    polygons->status = OZ_OK;
+}
+
+static OzPolygonCorner *room_for_triangle(OzPolygons *polygons)
+{
+    if (polygons->status == OZ_OK && polygons->count + 3 > polygons->capacity) {
+        size_t wanted = polygons->capacity ? 2 * polygons->capacity : 3072;
+        polygons->status = oz_memory_grow((void **)&polygons->corners, polygons->capacity, wanted,
+                                          sizeof *polygons->corners, "triangles of a picture");
+        polygons->capacity = polygons->status == OZ_OK ? wanted : polygons->capacity;
+    }
+    if (polygons->status != OZ_OK) {
+        return NULL;
+    }
+    polygons->count += 3;
+    return polygons->corners + polygons->count - 3;
+}
+
+/* Pixels from edge e (from corner e to the next) to the corner across it. */
+static double height_over(const double view[6], int e, const OzCamera *camera)
+{
+    const double *a = view + 2 * e, *b = view + 2 * ((e + 1) % 3), *c = view + 2 * ((e + 2) % 3);
+    double along[2] = {b[0] - a[0], b[1] - a[1]};
+    double twice_area = fabs(along[0] * (c[1] - a[1]) - along[1] * (c[0] - a[0]));
+    return camera->scale * twice_area / fmax(hypot(along[0], along[1]), 1e-30);
+}
+
+/* A triangle in view coordinates. edges: bits, those with an outline in ink. */
+static void add_triangle(OzPolygons *polygons, const double view[6], const float rgba[4],
+                         const float *ink, int edges, const OzCamera *camera)
+{
+    OzPolygonCorner *corner = room_for_triangle(polygons);
+    for (int i = 0; corner && i < 3; i++) {
+        corner[i].place[0] = (GLfloat)view[2 * i];
+        corner[i].place[1] = (GLfloat)view[2 * i + 1];
+        memcpy(corner[i].rgba, rgba, sizeof corner[i].rgba);
+        memcpy(corner[i].ink, ink, sizeof corner[i].ink);
+        for (int e = 0; e < 3; e++) {
+            double height = i == (e + 2) % 3 ? height_over(view, e, camera) : 0;
+            corner[i].inside[e] = edges & 1 << e ? (GLfloat)height : FAR;
+        }
+    }
+}
+
+static void see(const OzCamera *camera, const double point[2], double view[2])
+{
+    for (int k = 0; k < 2; k++) {
+        view[k] = (point[k] - camera->centre[k]) / camera->unit;
+    }
+}
+
+static void add_line(OzPolygons *polygons, const OzCamera *camera, const double from[2],
+                     const double to[2], double width, const float rgba[4])
+{
+    double a[2], b[2];
+    see(camera, from, a);
+    see(camera, to, b);
+    double length = fmax(hypot(b[0] - a[0], b[1] - a[1]), 1e-30);
+    double half = 0.5 * width / camera->scale / length;
+    double x = half * (a[1] - b[1]), y = half * (b[0] - a[0]);
+    const double first[6] = {a[0] - x, a[1] - y, b[0] - x, b[1] - y, b[0] + x, b[1] + y};
+    const double second[6] = {a[0] - x, a[1] - y, b[0] + x, b[1] + y, a[0] + x, a[1] + y};
+    add_triangle(polygons, first, rgba, rgba, 0, camera);
+    add_triangle(polygons, second, rgba, rgba, 0, camera);
+}
+
+/* So many that the rim lies within a tenth of a pixel of round. */
+static int sectors_of(double radius_pixels)
+{
+    double count = PI / sqrt(0.2 / fmax(radius_pixels, 1e-3));
+    return (int)fmin(fmax(ceil(count), SECTORS_LEAST), SECTORS_MOST);
+}
+
+/* A fan with the disc's area. */
+static void add_fan(OzPolygons *polygons, const Piece *piece, const double centre[2], double radius)
+{
+    int sectors = sectors_of(radius * piece->camera->scale);
+    double turn = 2 * PI / sectors, reach = radius * sqrt(turn / sin(turn));
+    for (int i = 0; i < sectors; i++) {
+        const double view[6] = {centre[0],
+                                centre[1],
+                                centre[0] + reach * cos(turn * i),
+                                centre[1] + reach * sin(turn * i),
+                                centre[0] + reach * cos(turn * (i + 1)),
+                                centre[1] + reach * sin(turn * (i + 1))};
+        add_triangle(polygons, view, piece->rgba, piece->ink, 1 << 1, piece->camera);
+    }
+}
+
+static double line_width(const OzCamera *camera)
+{
+    return fmax(1.0, 0.002 * fmax(camera->content_width, camera->content_height));
+}
+
+static void add_disc(OzPolygons *polygons, const Piece *piece)
+{
+    const OzSnapshot *s = piece->snapshot;
+    const double *centre = s->piece_position + 2 * piece->index;
+    double radius = s->grains->pieces->radius[piece->index], angle = s->piece_angle[piece->index];
+    double view[2], rim[2] = {centre[0] + radius * cos(angle), centre[1] + radius * sin(angle)};
+    float dark[4] = {0.35f * piece->rgba[0], 0.35f * piece->rgba[1], 0.35f * piece->rgba[2],
+                     piece->rgba[3]};
+    see(piece->camera, centre, view);
+    add_fan(polygons, piece, view, radius / piece->camera->unit);
+    add_line(polygons, piece->camera, centre, rim, 1.5 * line_width(piece->camera), dark);
+}
+
+static void add_piece(OzPolygons *polygons, const Piece *piece)
+{
+    const OzSnapshot *s = piece->snapshot;
+    const OzPieces *pieces = s->grains->pieces;
+    int64_t i = piece->index;
+    double corners[6], view[6];
+    if (pieces->radius[i] > 0) {
+        add_disc(polygons, piece);
+        return;
+    }
+    oz_pieces_corners(pieces, i, s->piece_position + 2 * i, s->piece_angle[i], corners);
+    for (int k = 0; k < 3; k++) {
+        see(piece->camera, corners + 2 * k, view + 2 * k);
+    }
+    add_triangle(polygons, view, piece->rgba, piece->ink, piece->edges, piece->camera);
+}
+
+/* The outlined edges of piece i; *next moves on over the list, which is in order of pieces. */
+static int edges_of(const OzPieces *pieces, int64_t i, int64_t *next)
+{
+    int edges = 0;
+    for (; *next < pieces->outline_count && pieces->outline_piece[*next] <= i; ++*next) {
+        edges |= pieces->outline_piece[*next] == i ? 1 << pieces->outline_edge[*next] : 0;
+    }
+    return edges & EVERY_EDGE;
+}
+
+/* Light on dark fills and dark on others, so that neighbours of one colour are told apart. */
+static void choose_ink(const float rgb[3], float ink[3])
+{
+    const float share = 0.62f;
+    bool dark = 0.30f * rgb[0] + 0.59f * rgb[1] + 0.11f * rgb[2] < 0.30f;
+    for (int k = 0; k < 3; k++) {
+        ink[k] = (1 - share) * rgb[k] + share * (dark ? 1.0f : 0.06f);
+    }
+}
+
+static bool wall_is_gone(const OzSnapshot *snapshot, int64_t wall)
+{
+    double until = snapshot->scene->walls[wall].until;
+    return until > 0 && snapshot->time >= until;
+}
+
+void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, const OzCamera *camera)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    Piece piece = {.snapshot = snapshot, .camera = camera};
+    int64_t next = 0;
+    memcpy(piece.rgba, WALL, sizeof piece.rgba);
+    choose_ink(WALL, piece.ink);
+    for (int64_t i = pieces->free_count; i < pieces->count; i++) {
+        piece.index = i;
+        piece.edges = edges_of(pieces, i, &next);
+        if (!wall_is_gone(snapshot, pieces->body[i] - pieces->grain_count)) {
+            add_piece(polygons, &piece);
+        }
+    }
+}
+
+static void add_beams(OzPolygons *polygons, const OzSnapshot *snapshot, const OzCamera *camera,
+                      double presence)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    const float rgba[4] = {BEAM[0], BEAM[1], BEAM[2], (float)presence};
+    for (int64_t k = 0; k < pieces->beam_count; k++) {
+        add_line(polygons, camera, snapshot->piece_position + 2 * pieces->beam_a[k],
+                 snapshot->piece_position + 2 * pieces->beam_b[k], 1.4 * line_width(camera), rgba);
+    }
+}
+
+/* Whether a piece shows by its darker colour how its grain has turned. */
+static bool is_mark(const OzPieces *pieces, int64_t grain, int64_t i)
+{
+    int64_t count = pieces->first[grain + 1] - pieces->first[grain];
+    return i == pieces->first[grain] && count > 1 && count <= MARKED_PIECES_MOST;
+}
+
+void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
+                            const OzCamera *camera, double presence)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    Piece piece = {.snapshot = snapshot, .camera = camera, .rgba = {0, 0, 0, (float)presence}};
+    int64_t next = 0;
+    for (int64_t g = 0; g < pieces->grain_count; g++) {
+        float rgb[3];
+        oz_palette_grain(snapshot, look, g, rgb);
+        choose_ink(rgb, piece.ink);
+        for (int64_t i = pieces->first[g]; i < pieces->first[g + 1]; i++) {
+            float shade = is_mark(pieces, g, i) ? 0.6f : 1.0f;
+            for (int k = 0; k < 3; k++) {
+                piece.rgba[k] = shade * rgb[k];
+            }
+            piece.index = i;
+            piece.edges = edges_of(pieces, i, &next);
+            add_piece(polygons, &piece);
+        }
+    }
+    if (look->beams) {
+        add_beams(polygons, snapshot, camera, presence);
+    }
+}
+
+OzStatus oz_polygons_draw(const OzPolygons *polygons, const OzLook *look, const OzCamera *camera,
+                          double viewport_width, double viewport_height)
+{
+    const OzGl *gl = polygons->gl;
+    GLuint program = polygons->program;
+    if (polygons->status != OZ_OK) {
+        return polygons->status;
+    }
+    gl->UseProgram(program);
+    gl->Uniform4f(gl->GetUniformLocation(program, "lens"),
+                  (float)(2 * camera->scale / viewport_width),
+                  (float)(2 * camera->scale / viewport_height), (float)camera->distance,
+                  (float)camera->depth);
+    gl->Uniform1f(gl->GetUniformLocation(program, "line"),
+                  look->outlines ? (float)line_width(camera) : 0);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->BindVertexArray(polygons->vertices);
+    gl->BindBuffer(GL_ARRAY_BUFFER, polygons->buffer);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(polygons->count * sizeof *polygons->corners),
+                   polygons->corners, GL_STREAM_DRAW);
+    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)polygons->count);
+    gl->Disable(GL_BLEND);
+    return oz_gl_check(gl, "drawing flat grains");
+}
