@@ -8,7 +8,9 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "compute/drive.h"
+#include "compute/stiffness.h"
 #include "ensemble.h"
+#include "model/calibrate.h"
 #include "observe/schedule.h"
 #include "outputs.h"
 #include "plan.h"
@@ -238,6 +240,23 @@ static OzStatus settle(Run *run)
     return status;
 }
 
+/* What is doubtful about contacts at this step, for one member of those alike. */
+static OzStatus tell_contacts(Run *run)
+{
+    OzStatus status = OZ_OK;
+    OzStiffness stiffness;
+    OzOutputs *first = run->members[0];
+    if (!first->is_open || !oz_stiffness_applies(&first->scene)) {
+        return OZ_OK;
+    }
+    oz_calibrate_say(&first->scene);
+    OZ_TRY(oz_drive_capture(run->drive, 0, &first->now, false));
+    OZ_TRY(oz_stiffness_measure(&stiffness, &first->now));
+    oz_stiffness_say(&stiffness, &first->scene);
+done:
+    return status;
+}
+
 static OzStatus look_at(Run *run, int64_t m, int due)
 {
     OzStatus status = OZ_OK;
@@ -373,6 +392,7 @@ static OzStatus run_group(Run *run)
     OZ_TRY(gather_group(run));
     OZ_TRY(open_group(run));
     OZ_TRY(settle(run));
+    OZ_TRY(tell_contacts(run));
     OZ_TRY(walk(run));
 done:
     return end_group(run, status);

@@ -59,6 +59,26 @@ static void test_means_are_exact(void **state)
     assert_true(hits.high - hits.low < 2e-4);
 }
 
+/* What calibration says of itself is what hits then do. */
+static void test_calibration_knows_its_outcome(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        OzScene scene = make_scene(k % 3, 0.05, k / 6 ? 5 : 30);
+        scene.contact.attraction = (OzAttraction)(k / 3 % 2);
+        OzPredictedHits hits = hits_of(&scene);
+        bool mean = fabs(hits.mean - 0.05) < 1e-9, all = hits.high - hits.low < 1e-9;
+        OzCalibrated outcome = oz_calibrate_outcome(&scene, &scene.contact);
+        assert_int_equal(outcome, mean && all ? OZ_CALIBRATED_EXACTLY
+                                  : mean      ? OZ_CALIBRATED_IN_THE_MEAN
+                                              : OZ_CALIBRATED_IN_VAIN);
+    }
+    OzScene verlet = make_scene(OZ_INTEGRATOR_VELOCITY_VERLET, 0.05, 5);
+    assert_int_equal(OZ_CALIBRATED_IN_VAIN, oz_calibrate_outcome(&verlet, &verlet.contact));
+    verlet.contact.restitution_calibration = OZ_CALIBRATION_NONE;
+    assert_int_equal(OZ_CALIBRATED_NOT, oz_calibrate_outcome(&verlet, &verlet.contact));
+}
+
 static void open_pair(Rig *rig, int integrator, double restitution, double step, const char *more)
 {
     rig_open(
@@ -233,6 +253,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_eulers_are_exact_at_every_phase),
         cmocka_unit_test(test_means_are_exact),
+        cmocka_unit_test(test_calibration_knows_its_outcome),
         cmocka_unit_test(test_simulated_hits_return_what_was_asked),
         cmocka_unit_test(test_walls_are_calibrated_too),
         cmocka_unit_test(test_smooth_constants_give_what_was_asked),

@@ -1,10 +1,12 @@
 /* Inverting the discrete maps of hits. */
 #include "model/calibrate.h"
 
+#include "base/log.h"
 #include "model/predict.h"
 
 #include <complex.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
@@ -89,31 +91,43 @@ static bool solve(Search *search, void (*set)(Search *search, double turned), do
     return fabs(error_b) < 1e-9;
 }
 
-static OzContactConstants find_constants(const OzScene *scene, const OzContactValues *values)
+/* A hit of the linear law that starts and ends with the spring. Whether it returns what was asked.
+ */
+static bool solve_linear(Search *search)
+{
+    double e = search->constants.restitution;
+    set_by_eigenvalues(search, e);
+    search->constants.duration = search->count * search->scene->step;
+    return search->scene->integrator != OZ_INTEGRATOR_VELOCITY_VERLET ||
+           solve(search, set_by_eigenvalues, e, 0.999 * e);
+}
+
+static bool solve_damping(Search *search)
+{
+    double damping = search->constants.damping;
+    return solve(search, set_damping, damping,
+                 1.01 * damping + 1e-3 / search->values->contact_time);
+}
+
+static OzCalibrated find_constants(OzContactConstants *constants, const OzScene *scene,
+                                   const OzContactValues *values)
 {
     OzContactConstants plain = oz_contact_constants_of(values, &scene->contact);
     Search search = {scene, values, plain, fmax(2, round(values->contact_time / scene->step))};
     bool linear = !plain.smooth && values->attraction == OZ_ATTRACTION_ALLOW;
-    bool found = true;
+    *constants = plain;
     if (values->law != OZ_LAW_HOOKE ||
         scene->contact.restitution_calibration != OZ_CALIBRATION_DISCRETE) {
-        return plain;
+        return OZ_CALIBRATED_NOT;
     }
-    if (linear) {
-        set_by_eigenvalues(&search, plain.restitution);
-        if (scene->integrator == OZ_INTEGRATOR_VELOCITY_VERLET) {
-            found =
-                solve(&search, set_by_eigenvalues, plain.restitution, 0.999 * plain.restitution);
-        }
-        search.constants.duration = search.count * scene->step;
-    } else {
-        found = solve(&search, set_damping, plain.damping,
-                      1.01 * plain.damping + 1e-3 / values->contact_time);
+    if (!(linear ? solve_linear(&search) : solve_damping(&search))) {
+        return OZ_CALIBRATED_IN_VAIN;
     }
-    search.constants.tangential_stiffness =
-        values->tangential_stiffness * search.constants.stiffness;
-    search.constants.tangential_damping = values->tangential_damping * search.constants.damping;
-    return found ? search.constants : plain;
+    *constants = search.constants;
+    constants->tangential_stiffness = values->tangential_stiffness * constants->stiffness;
+    constants->tangential_damping = values->tangential_damping * constants->damping;
+    return linear && scene->integrator != OZ_INTEGRATOR_VELOCITY_VERLET ? OZ_CALIBRATED_EXACTLY
+                                                                        : OZ_CALIBRATED_IN_THE_MEAN;
 }
 
 /* The constants found last: every look at the contacts asks again, and a search takes milliseconds.
@@ -123,9 +137,10 @@ typedef struct Found {
     double step;
     OzContactValues values, grains;
     OzContactConstants constants;
+    OzCalibrated outcome;
 } Found;
 
-OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactValues *values)
+static const Found *find(const OzScene *scene, const OzContactValues *values)
 {
     enum { KEPT = 4 };
     static _Thread_local Found kept[KEPT];
@@ -135,13 +150,42 @@ OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactVal
         if (f->integrator == scene->integrator && f->step == scene->step &&
             memcmp(&f->values, values, sizeof *values) == 0 &&
             memcmp(&f->grains, &scene->contact, sizeof *values) == 0) {
-            return f->constants;
+            return f;
         }
     }
     Found *f = &kept[next++ % KEPT];
     *f = (Found){.integrator = scene->integrator, .step = scene->step};
     memcpy(&f->values, values, sizeof *values);
     memcpy(&f->grains, &scene->contact, sizeof *values);
-    f->constants = find_constants(scene, values);
-    return f->constants;
+    f->outcome = find_constants(&f->constants, scene, values);
+    return f;
+}
+
+OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactValues *values)
+{
+    return find(scene, values)->constants;
+}
+
+OzCalibrated oz_calibrate_outcome(const OzScene *scene, const OzContactValues *values)
+{
+    return find(scene, values)->outcome;
+}
+
+static void say(const OzScene *scene, const OzContactValues *values, const char *where)
+{
+    if (oz_calibrate_outcome(scene, values) == OZ_CALIBRATED_IN_VAIN) {
+        oz_log_line("%s: warning: no damping returns %g at this step; calibrated as if continuous "
+                    "(orzo check says what comes out)",
+                    where, values->restitution);
+    }
+}
+
+void oz_calibrate_say(const OzScene *scene)
+{
+    char where[32];
+    say(scene, &scene->contact, "contacts of grains");
+    for (int w = 0; w < scene->wall_count; w++) {
+        snprintf(where, sizeof where, "contacts at wall %d", w);
+        say(scene, &scene->walls[w].contact, where);
+    }
 }

@@ -16,4 +16,17 @@
  * few steps), the continuous constants are returned. */
 OzContactConstants oz_calibrate_contact(const OzScene *scene, const OzContactValues *values);
 
+typedef enum OzCalibrated {
+    OZ_CALIBRATED_NOT,         /* continuous: not asked for, or no law with a contact time    */
+    OZ_CALIBRATED_EXACTLY,     /* every hit of two centres returns what was asked             */
+    OZ_CALIBRATED_IN_THE_MEAN, /* their mean over the phases of first touch does              */
+    OZ_CALIBRATED_IN_VAIN      /* asked for and not found: the continuous constants           */
+} OzCalibrated;
+
+/* What became of the calibration of these values. */
+OzCalibrated oz_calibrate_outcome(const OzScene *scene, const OzContactValues *values);
+
+/* A warning in the log for each of the scene's contacts that was calibrated in vain. */
+void oz_calibrate_say(const OzScene *scene);
+
 #endif

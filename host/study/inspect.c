@@ -3,12 +3,17 @@
 
 #include "base/log.h"
 #include "compute/drive.h"
+#include "model/calibrate.h"
 #include "model/place.h"
 #include "model/predict.h"
 #include "scene/keys.h"
+#include "study/report_bed.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+/* s of computing: 1000 rods come to rest in less on any machine of today. */
+#define PATIENCE 4.0
 
 static void print_range(FILE *file, const char *name, const double *values, int64_t count,
                         const char *unit)
@@ -40,14 +45,24 @@ static void print_motion(FILE *file, const OzScene *scene)
     for (int w = 0; w < scene->wall_count; w++) {
         const OzMotion *motion = &scene->walls[w].motion;
         if (motion->present) {
-            fprintf(file, "wall %d             moves %.6g m up and down at %g Hz: %.4g times gravity\n", w,
-                    motion->amplitude, motion->frequency, motion->acceleration_ratio);
+            fprintf(file,
+                    "wall %d             moves %.6g m up and down at %g Hz: %.4g times gravity\n",
+                    w, motion->amplitude, motion->frequency, motion->acceleration_ratio);
         }
     }
 }
 
-static void print_contact(FILE *file, const OzPrediction *row)
+/* In the order of OzCalibrated. */
+static const char *const calibrated[] = {
+    NULL,
+    "discrete: exact at every phase of first touch",
+    "discrete: exact in the mean over the phases of first touch",
+    "discrete: no damping gives what was asked; as if continuous",
+};
+
+static void print_contact(FILE *file, const OzScene *scene, const OzPrediction *row)
 {
+    const char *calibration = calibrated[oz_calibrate_outcome(scene, &row->values)];
     const OzContactConstants *c = &row->constants;
     if (row->wall < 0) {
         fprintf(file, "contact            of two grains\n");
@@ -55,21 +70,26 @@ static void print_contact(FILE *file, const OzPrediction *row)
         fprintf(file, "contact            at wall %d\n", row->wall);
     }
     if (row->speed > 0) {
-        fprintf(file, "  hit              at %.4g m/s, stiffness at its deepest point\n", row->speed);
+        fprintf(file, "  hit              at %.4g m/s, stiffness at its deepest point\n",
+                row->speed);
     }
     fprintf(file, "  k_n              %.6g ... %.6g N/m\n", c->stiffness * row->mass_low,
             c->stiffness * row->mass_high);
     fprintf(file, "  c_n              %.6g ... %.6g kg/s\n", c->damping * row->mass_low,
             c->damping * row->mass_high);
     fprintf(file, "  steps            %.4g a contact\n", row->steps);
-    fprintf(file, "  restitution      asked %.6g, this integrator gives %.6g (%.6g ... %.6g by phase)\n",
+    fprintf(file,
+            "  restitution      asked %.6g, this integrator gives %.6g (%.6g ... %.6g by phase)\n",
             row->values.restitution, row->hits.mean, row->hits.low, row->hits.high);
+    if (calibration) {
+        fprintf(file, "  calibration      %s\n", calibration);
+    }
     if (row->values.law != OZ_LAW_HERTZ && row->values.restitution < OZ_CONTACT_RESTITUTION_LEAST) {
         fprintf(file, "  restitution      %g is used as %g\n", row->values.restitution,
                 OZ_CONTACT_RESTITUTION_LEAST);
     }
-    fprintf(file, "  stable           %s: largest step %.6g s, margin %.3g\n", row->stable ? "yes" : "NO",
-            row->largest_step, row->margin);
+    fprintf(file, "  stable           %s: largest step %.6g s, margin %.3g\n",
+            row->stable ? "yes" : "NO", row->largest_step, row->margin);
     if (!row->tangential_stable) {
         fprintf(file, "  warning          a sticking tangential spring is unstable at this step\n");
     }
@@ -81,7 +101,7 @@ static OzStatus print_contacts(FILE *file, const OzScene *scene, const OzGrains 
     int count = 0;
     OzStatus status = oz_predict_scene(&rows, &count, scene, grains);
     for (int i = 0; status == OZ_OK && i < count; i++) {
-        print_contact(file, &rows[i]);
+        print_contact(file, scene, &rows[i]);
     }
     free(rows);
     return status;
@@ -109,7 +129,12 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     OZ_TRY(print_contacts(file, &scene, &grains));
     OZ_TRY(oz_device_open(&device, options->device, options->threads));
     OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
+<<<<<<< HEAD
     if (!scene.movie.present && scene.snapshots.count == 0 && !(scene.snapshots.strobe > 0)) {
+=======
+    OZ_TRY(oz_report_bed_print(file, &scene, &grains, &device, options->source_dir, PATIENCE));
+    if (!scene.movie.present && scene.snapshots.count == 0) {
+>>>>>>> 107e5e0 (wip)
         fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
     }
 done:

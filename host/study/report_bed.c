@@ -1,278 +1,91 @@
-/* The linearised force of a bed: contacts as springs between points of rigid bodies. */
+/* Settling a scene and saying how stiff its bed is. */
 #include "study/report_bed.h"
 
-#include "base/memory.h"
-#include "base/random.h"
+#include "base/clock.h"
 #include "compute/capture.h"
-#include "compute/physics.h"
 #include "compute/settle.h"
-#include "kernels/closest.h"
+#include "compute/stiffness.h"
 #include "model/calibrate.h"
 #include "model/place.h"
 #include "model/predict.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum {
-    GRAINS_MOST = 20000,
-    FREEDOMS = 6,    /* of a grain: three ways, three turns */
-    ITERATIONS = 300 /* beds of 1000 rods: within 1 % after 100 */
-};
-
-/* One touching point: a's and b's, or a's at a wall (b < 0). */
-typedef struct Spring {
-    int64_t a, b;
-    OzVec3 normal, arm_a, arm_b;
-    double stiffness, tangential;       /* N/m */
-    double damping, tangential_damping; /* kg/s */
-} Spring;
-
-typedef struct Bed {
-    const OzSnapshot *now;
-    Spring *springs;
-    size_t count, capacity;
-    double *swing, *force;
-} Bed;
-
-static OzVec3 load(const double *x)
+static bool is_patient(void *deadline, double time, double ratio)
 {
-    return oz_vec3(x[0], x[1], x[2]);
+    (void)time;
+    (void)ratio;
+    return oz_clock_now() < *(double *)deadline;
 }
 
-static OzStatus add(Bed *bed, const OzContactValues *values, double mass, Spring spring)
+static OzStatus settle(OzSnapshot *now, double *seconds, bool *cut, const OzDevice *device,
+                       const char *source_dir, double patience)
 {
     OzStatus status = OZ_OK;
-    OzContactConstants c = oz_calibrate_contact(bed->now->scene, values);
-    bool sticks = values->friction > 0;
-    if (bed->count == bed->capacity) {
-        size_t capacity = 2 * bed->capacity + 64;
-        OZ_TRY(oz_memory_grow((void **)&bed->springs, bed->capacity, capacity, sizeof(Spring),
-                              "springs"));
-        bed->capacity = capacity;
-    }
-    spring.stiffness = mass * c.stiffness;
-    spring.damping = mass * c.damping;
-    spring.tangential = sticks ? mass * c.tangential_stiffness : 0;
-    spring.tangential_damping = sticks ? mass * c.tangential_damping : 0;
-    bed->springs[bed->count++] = spring;
+    OzSim *sim = NULL;
+    OzMember member = {now->scene, now->grains};
+    OZ_TRY(oz_sim_create(&sim, device, &member, 1, source_dir));
+    double deadline = oz_clock_now() + patience;
+    status = oz_settle_run(sim, seconds, is_patient, &deadline);
+    *cut = status == OZ_ERR_INTERRUPTED;
+    OZ_TRY(*cut ? OZ_OK : status);
+    OZ_TRY(oz_capture_snapshot(sim, 0, now, false));
 done:
+    oz_sim_free(sim);
     return status;
 }
 
-static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
+static void take_start(OzSnapshot *now)
 {
-    const OzGrains *g = bed->now->grains;
-    OzVec3 apart = oz_minus(load(&bed->now->position[3 * a]), load(&bed->now->position[3 * b]));
-    double reach = 0.5 * (g->diameter[a] + g->diameter[b]);
-    double far = reach + 0.5 * (g->length[a] + g->length[b]);
-    if (oz_dot(apart, apart) >= far * far) {
-        return OZ_OK;
-    }
-    OzVec3 half_a = oz_scale(load(&bed->now->axis[3 * a]), 0.5 * g->length[a]);
-    OzVec3 half_b = oz_scale(load(&bed->now->axis[3 * b]), 0.5 * g->length[b]);
-    OzClosest at = oz_closest(apart, half_a, half_b);
-    OzVec3 arm_a = oz_scale(half_a, at.s), arm_b = oz_scale(half_b, at.t);
-    OzVec3 way = oz_minus(oz_minus(arm_b, arm_a), apart);
-    double distance = sqrt(oz_dot(way, way));
-    if (distance >= reach || !(distance > 0)) {
-        return OZ_OK;
-    }
-    Spring spring = {.a = a, .b = b, .normal = oz_scale(way, 1 / distance)};
-    spring.arm_a = oz_along(arm_a, 0.5 * g->diameter[a], spring.normal);
-    spring.arm_b = oz_along(arm_b, -0.5 * g->diameter[b], spring.normal);
-    double mass = g->mass[a] * g->mass[b] / (g->mass[a] + g->mass[b]);
-    return add(bed, &bed->now->scene->contact, mass, spring);
+    size_t count = (size_t)now->count;
+    memcpy(now->position, now->grains->position, 3 * count * sizeof(double));
+    memcpy(now->quaternion, now->grains->quaternion, 4 * count * sizeof(double));
+    oz_snapshot_turn_axes(now);
+    oz_snapshot_move_walls(now);
 }
 
-/* The distance of a point to a wall, and the direction away from it. */
-static double wall_distance(const OzSnapshot *now, int w, OzVec3 point, OzVec3 *normal)
-{
-    const OzWall *wall = &now->scene->walls[w];
-    if (wall->kind == OZ_WALL_PLANE) {
-        OzVec3 base = load(wall->point);
-        base.z += now->wall_offset[w];
-        *normal = load(wall->normal);
-        return oz_dot(oz_minus(point, base), *normal);
-    }
-    double radius = hypot(point.x, point.y);
-    *normal = radius > 0 ? oz_vec3(-point.x / radius, -point.y / radius, 0) : oz_vec3(1, 0, 0);
-    return 0.5 * wall->diameter - radius;
-}
-
-static OzStatus add_walls(Bed *bed, int64_t i)
-{
-    OzStatus status = OZ_OK;
-    const OzGrains *g = bed->now->grains;
-    double radius = 0.5 * g->diameter[i];
-    for (int w = 0; w < bed->now->scene->wall_count; w++) {
-        for (int end = 0; end < (g->length[i] > 0 ? 2 : 1); end++) {
-            OzVec3 arm = oz_scale(load(&bed->now->axis[3 * i]), (end ? -0.5 : 0.5) * g->length[i]);
-            OzVec3 point = oz_along(load(&bed->now->position[3 * i]), 1, arm), normal;
-            if (wall_distance(bed->now, w, point, &normal) < radius) {
-                Spring spring = {.a = i, .b = -1, .normal = oz_scale(normal, -1)};
-                spring.arm_a = oz_along(arm, radius, spring.normal);
-                OZ_TRY(add(bed, &bed->now->scene->walls[w].contact, g->mass[i], spring));
-            }
-        }
-    }
-done:
-    return status;
-}
-
-static OzStatus find_springs(Bed *bed)
-{
-    OzStatus status = OZ_OK;
-    for (int64_t a = 0; a < bed->now->count; a++) {
-        for (int64_t b = a + 1; b < bed->now->count; b++) {
-            OZ_TRY(add_pair(bed, a, b));
-        }
-        OZ_TRY(add_walls(bed, a));
-    }
-done:
-    return status;
-}
-
-static OzVec3 point_way(const double *swing, int64_t i, OzVec3 arm)
-{
-    const double *u = &swing[FREEDOMS * i];
-    return oz_along(load(u), 1, oz_cross(load(u + 3), arm));
-}
-
-static void push(double *force, int64_t i, OzVec3 arm, OzVec3 by)
-{
-    double *f = &force[FREEDOMS * i];
-    OzVec3 torque = oz_cross(arm, by);
-    const double add[FREEDOMS] = {by.x, by.y, by.z, torque.x, torque.y, torque.z};
-    for (int c = 0; c < FREEDOMS; c++) {
-        f[c] += add[c];
-    }
-}
-
-/* force = K swing; returns twice the power that dashpots would take from a swing at these rates. */
-static double apply(Bed *bed)
-{
-    double power = 0;
-    memset(bed->force, 0, (size_t)bed->now->count * FREEDOMS * sizeof *bed->force);
-    for (size_t k = 0; k < bed->count; k++) {
-        const Spring *s = &bed->springs[k];
-        OzVec3 way = oz_scale(point_way(bed->swing, s->a, s->arm_a), -1);
-        if (s->b >= 0) {
-            way = oz_along(way, 1, point_way(bed->swing, s->b, s->arm_b));
-        }
-        double along = oz_dot(way, s->normal);
-        OzVec3 across = oz_along(way, -along, s->normal);
-        OzVec3 by = oz_along(oz_scale(across, s->tangential), s->stiffness * along, s->normal);
-        push(bed->force, s->a, s->arm_a, oz_scale(by, -1));
-        if (s->b >= 0) {
-            push(bed->force, s->b, s->arm_b, by);
-        }
-        power += s->damping * along * along + s->tangential_damping * oz_dot(across, across);
-    }
-    return power;
-}
-
-/* Force over mass, torque over inertia (about the shaft and across it). */
-static void divide_by_mass(const OzSnapshot *now, double *force)
-{
-    for (int64_t i = 0; i < now->count; i++) {
-        double *f = &force[FREEDOMS * i];
-        OzVec3 axis = load(&now->axis[3 * i]), torque = load(f + 3);
-        double about = oz_dot(torque, axis);
-        double across = 1 / now->grains->inertia[i], along = 1 / now->grains->inertia_axis[i];
-        OzVec3 turn = oz_along(oz_scale(torque, across), (along - across) * about, axis);
-        for (int c = 0; c < 3; c++) {
-            f[c] /= now->grains->mass[i];
-        }
-        f[3] = turn.x;
-        f[4] = turn.y;
-        f[5] = turn.z;
-    }
-}
-
-static double product(const double *a, const double *b, int64_t count)
-{
-    double sum = 0;
-    for (int64_t i = 0; i < count; i++) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
-
-/* The largest eigenvalue is u.Ku / u.Mu at the swing u that grows fastest under (1/M) K; its
- * damping is u.Cu / u.Mu. With w = Ku / M the next swing, u.M w = u.Ku: so u.Mu comes from the last
- * round's w. */
-static void iterate(Bed *bed, OzBedStiffness *result)
-{
-    int64_t freedoms = FREEDOMS * bed->now->count;
-    OzRandom random = oz_random_stream(bed->now->scene->seed, 0);
-    for (int64_t i = 0; i < freedoms; i++) {
-        bed->swing[i] = oz_random_uniform(&random, -1, 1);
-    }
-    double before = 0; /* u.Mu */
-    for (int k = 0; k < ITERATIONS; k++) {
-        double power = apply(bed), work = product(bed->swing, bed->force, freedoms);
-        double *forces = bed->swing;
-        if (before > 0) {
-            result->stiffness = work / before;
-            result->damping = power / before;
-        }
-        /* w.Mw = w.Ku, before masses divide it away */
-        memcpy(forces, bed->force, (size_t)freedoms * sizeof *forces);
-        divide_by_mass(bed->now, bed->force);
-        double size = product(forces, bed->force, freedoms);
-        if (!(size > 0)) {
-            return;
-        }
-        double scale = 1 / sqrt(size);
-        for (int64_t i = 0; i < freedoms; i++) {
-            bed->swing[i] = bed->force[i] * scale;
-        }
-        before = 1;
-    }
-}
-
-OzStatus oz_report_bed_measure(OzBedStiffness *result, const OzSnapshot *now)
-{
-    OzStatus status = OZ_OK;
-    Bed bed = {.now = now};
-    *result = (OzBedStiffness){.largest_step = INFINITY};
-    if (now->count > GRAINS_MOST) {
-        return oz_status_fail(OZ_ERR_INPUT,
-                              "%s: the stiffness of %lld grains together takes too "
-                              "long; at most %d",
-                              now->scene->path, (long long)now->count, GRAINS_MOST);
-    }
-    OZ_TRY(OZ_NEW(&bed.swing, now->count * FREEDOMS));
-    OZ_TRY(OZ_NEW(&bed.force, now->count * FREEDOMS));
-    OZ_TRY(find_springs(&bed));
-    iterate(&bed, result);
-    result->contacts = (int64_t)bed.count;
-    result->largest_step =
-        oz_predict_largest_step(now->scene->integrator, result->stiffness, result->damping);
-done:
-    free(bed.springs);
-    free(bed.swing);
-    free(bed.force);
-    return status;
-}
-
-static void print(const OzScene *scene, const OzBedStiffness *bed, double seconds)
+static void print(FILE *file, const OzScene *scene, const OzStiffness *bed)
 {
     OzContactConstants pair = oz_calibrate_contact(scene, &scene->contact);
-    double alone = oz_predict_largest_step(scene->integrator, pair.stiffness, pair.damping);
-    printf("%s: after %.3f s of settling, %lld contacts\n", scene->name, seconds,
-           (long long)bed->contacts);
-    printf("  a pair of centres   stiffness %.4g 1/s^2, damping %.4g 1/s, largest stable step %.4g "
-           "s\n",
-           pair.stiffness, pair.damping, alone);
-    printf("  the bed as a whole  stiffness %.4g 1/s^2, damping %.4g 1/s, largest stable step %.4g "
-           "s\n",
-           bed->stiffness, bed->damping, bed->largest_step);
-    printf("  this step           %.4g s, margin %.3g%s\n", scene->step,
-           bed->largest_step / scene->step,
-           bed->largest_step < scene->step ? ": the bed cannot come to rest at this step" : "");
+    if (bed->contacts == 0) {
+        fprintf(file, "  stable           not known: nothing touches yet\n");
+        return;
+    }
+    fprintf(file, "  contacts         %lld\n", (long long)bed->contacts);
+    fprintf(file, "  stiffness        %.4g 1/s^2, %.3g times that of a pair of centres\n",
+            bed->stiffness, bed->stiffness / pair.stiffness);
+    fprintf(file, "  damping          %.4g 1/s\n", bed->damping);
+    fprintf(file, "  stable           %s: largest step %.4g s, margin %.3g\n",
+            bed->largest_step > scene->step ? "yes" : "NO, it cannot come to rest",
+            bed->largest_step, bed->largest_step / scene->step);
+}
+
+OzStatus oz_report_bed_print(FILE *file, const OzScene *scene, const OzGrains *grains,
+                             const OzDevice *device, const char *source_dir, double patience)
+{
+    OzStatus status = OZ_OK;
+    OzSnapshot now = {0};
+    OzStiffness bed;
+    double seconds = 0;
+    bool cut = false;
+    if (!oz_stiffness_applies(scene) || grains->count == 0) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_snapshot_create(&now, scene, grains));
+    if (scene->settle.present) {
+        OZ_TRY(settle(&now, &seconds, &cut, device, source_dir, patience));
+        fprintf(file, "bed                settled%s\n",
+                cut ? " in part: no more than a few seconds are spent on it here" : "");
+    } else {
+        take_start(&now);
+        fprintf(file, "bed                as it starts\n");
+    }
+    OZ_TRY(oz_stiffness_measure(&bed, &now));
+    print(file, scene, &bed);
+done:
+    oz_snapshot_free(&now);
+    return status;
 }
 
 OzStatus oz_report_bed_say(const char *path, char *const *settings, int setting_count,
@@ -282,23 +95,12 @@ OzStatus oz_report_bed_say(const char *path, char *const *settings, int setting_
     OzScene scene = {0};
     OzGrains grains = {0};
     OzDevice device = {0};
-    OzSim *sim = NULL;
-    OzSnapshot now = {0};
-    OzBedStiffness bed;
-    double seconds = 0;
     OZ_TRY(oz_scene_load(&scene, path, settings, setting_count));
     OZ_TRY(oz_place_grains(&grains, &scene));
-    OzMember member = {&scene, &grains};
     OZ_TRY(oz_device_open(&device, device_name, threads));
-    OZ_TRY(oz_sim_create(&sim, &device, &member, 1, source_dir));
-    OZ_TRY(oz_snapshot_create(&now, &scene, &grains));
-    OZ_TRY(oz_settle_run(sim, &seconds, NULL, NULL));
-    OZ_TRY(oz_capture_snapshot(sim, 0, &now, false));
-    OZ_TRY(oz_report_bed_measure(&bed, &now));
-    print(&scene, &bed, seconds);
+    printf("%s, step %.4g s\n", scene.name, scene.step);
+    OZ_TRY(oz_report_bed_print(stdout, &scene, &grains, &device, source_dir, INFINITY));
 done:
-    oz_snapshot_free(&now);
-    oz_sim_free(sim);
     oz_device_close(&device);
     oz_grains_free(&grains);
     oz_scene_free(&scene);
