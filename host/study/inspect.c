@@ -129,12 +129,8 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     OZ_TRY(print_contacts(file, &scene, &grains));
     OZ_TRY(oz_device_open(&device, options->device, options->threads));
     OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
-<<<<<<< HEAD
-    if (!scene.movie.present && scene.snapshots.count == 0 && !(scene.snapshots.strobe > 0)) {
-=======
     OZ_TRY(oz_report_bed_print(file, &scene, &grains, &device, options->source_dir, PATIENCE));
-    if (!scene.movie.present && scene.snapshots.count == 0) {
->>>>>>> 107e5e0 (wip)
+    if (!scene.movie.present && scene.snapshots.count == 0 && !(scene.snapshots.strobe > 0)) {
         fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
     }
 done:
