@@ -10,6 +10,15 @@
 
 #include <stdbool.h>
 
+/* What became of a member. */
+typedef enum OzOutcome {
+    OZ_OUTCOME_NOT_STARTED,
+    OZ_OUTCOME_DONE,
+    OZ_OUTCOME_STOPPED, /* by a guard */
+    OZ_OUTCOME_INTERRUPTED,
+    OZ_OUTCOME_FAILED
+} OzOutcome;
+
 /* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while
  * open. */
 typedef struct OzOutputs {
@@ -25,6 +34,8 @@ typedef struct OzOutputs {
     OzStudio *studio; /* borrowed: draws the gallery's pictures */
     int64_t number;   /* of the member in its plan */
     bool is_open;
+    OzOutcome outcome;
+    OzStatus loss; /* of a member that was lost while others went on: why */
 } OzOutputs;
 
 /* The folder of a command: -o, or runs/<name>, made. Refuses one that holds a finished run or

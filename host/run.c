@@ -1,5 +1,5 @@
-/* The straight line of a run: members of a plan in groups that share launches, each group from its
- * start to its last step. A plain run is a group of one. */
+/* The straight line of a run: members of a plan in groups that fit together, each group spread over
+ * courses that run side by side. A plain run is a group of one. */
 #include "run.h"
 
 #include "base/clock.h"
@@ -7,11 +7,8 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "compute/drive.h"
-#include "compute/stiffness.h"
+#include "course.h"
 #include "ensemble.h"
-#include "model/calibrate.h"
-#include "observe/schedule.h"
 #include "outputs.h"
 #include "plan.h"
 #include "room.h"
@@ -19,10 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What became of a member. */
-typedef enum Outcome { NOT_STARTED, DONE, STOPPED, INTERRUPTED, FAILED } Outcome;
-static const char *const outcome_names[] = {"not started", "done", "stopped", "interrupted",
-                                            "failed"};
+static const char *const outcome_names[] = {[OZ_OUTCOME_NOT_STARTED] = "not started",
+                                            [OZ_OUTCOME_DONE] = "done",
+                                            [OZ_OUTCOME_STOPPED] = "stopped",
+                                            [OZ_OUTCOME_INTERRUPTED] = "interrupted",
+                                            [OZ_OUTCOME_FAILED] = "failed"};
 
 /* Everything one run owns. Zeroed is valid: what was not opened is not closed. */
 typedef struct Run {
@@ -35,22 +33,14 @@ typedef struct Run {
     int64_t member_count, most; /* most: that there is room for at a time            */
     OzOutputs *loaded;          /* the next group's first, NULL at the end           */
     int64_t loaded_count;       /* members of the plan that were loaded or could not be */
-    Outcome *outcomes;          /* of each member of the plan                        */
-    OzDrive *drive;
-    OzSchedule schedule;
-    double started, first_step, spent; /* wall clock; spent: from the first step to the last */
-    OzStatus loss;                     /* why the first member that did not end well did not */
+    OzOutcome *outcomes;        /* of each member of the plan                        */
+    OzSchedule schedule;        /* of the group                                      */
+    OzCourse *courses;
+    int course_count;
+    atomic_bool ended;
+    double started; /* wall clock */
+    OzStatus loss;  /* why the first member that did not end well did not */
 } Run;
-
-/* Does a thing after a failure, whose text it keeps; returns the failure, or the thing's outcome
- * after none. */
-#define AFTER(status, later)                                                                       \
-    do {                                                                                           \
-        char text_[16384];                                                                         \
-        snprintf(text_, sizeof text_, "%s", oz_status_text());                                     \
-        OzStatus later_ = (later);                                                                 \
-        (status) = (status) == OZ_OK ? later_ : oz_status_fail((status), "%s", text_);             \
-    } while (0)
 
 static OzStatus open_log(const Run *run)
 {
@@ -63,11 +53,11 @@ done:
     return status;
 }
 
-/* A member of an ensemble that did not end well: said by name, remembered, and the others go on. */
+/* A member of an ensemble that cannot be run: said by name, remembered, and the others go on. */
 static void lose(Run *run, int64_t number, OzStatus why, const char *text)
 {
     char *name = NULL;
-    run->outcomes[number] = why == OZ_ERR_BLOWUP ? STOPPED : FAILED;
+    run->outcomes[number] = OZ_OUTCOME_FAILED;
     run->loss = run->loss == OZ_OK ? why : run->loss;
     if (oz_plan_name(&run->plan, number, &name) == OZ_OK) {
         oz_log_line("%s: %s", name, text);
@@ -170,25 +160,40 @@ done:
     return status;
 }
 
-static OzStatus create_sim(Run *run)
+/* One a thread of a CPU; a GPU takes all members at once. */
+static int choose_course_count(const Run *run)
+{
+    int64_t most = run->device.is_cpu ? run->device.units : 1;
+    return (int)(run->member_count < most ? run->member_count : most);
+}
+
+static OzStatus open_courses(Run *run)
 {
     OzStatus status = OZ_OK;
-    OzMember *members = NULL;
-    OZ_TRY(OZ_NEW(&members, run->member_count));
-    for (int64_t m = 0; m < run->member_count; m++) {
-        members[m] = (OzMember){&run->members[m]->scene, &run->members[m]->grains};
+    int count = choose_course_count(run);
+    int64_t first = 0;
+    OZ_TRY(OZ_NEW(&run->courses, count));
+    for (int k = 0; k < count; k++) {
+        OzCourse *course = &run->courses[run->course_count++];
+        int64_t next = run->member_count * (k + 1) / count;
+        *course = (OzCourse){.members = &run->members[first],
+                             .member_count = next - first,
+                             .schedule = run->schedule,
+                             .is_ensemble = run->plan.is_ensemble,
+                             .leads = k == 0,
+                             .started = run->started,
+                             .ended = &run->ended};
+        OZ_TRY(oz_course_open(course, &run->device, run->options->source_dir));
+        first = next;
     }
-    OZ_TRY(oz_drive_create(&run->drive, &run->device, members, (int)run->member_count,
-                           run->options->source_dir));
 done:
-    free(members);
     return status;
 }
 
 static OzStatus open_group(Run *run)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(create_sim(run));
+    OZ_TRY(open_courses(run));
     oz_interrupt_hold();
     for (int64_t m = 0; m < run->member_count; m++) {
         OzOutputs *member = run->members[m];
@@ -198,149 +203,45 @@ static OzStatus open_group(Run *run)
         OZ_TRY(oz_outputs_open(member, run->options, run->device.name, run->studio));
     }
     if (run->plan.is_ensemble) {
-        oz_log_line("%s to %s: %lld side by side", run->members[0]->name,
-                    run->members[run->member_count - 1]->name, (long long)run->member_count);
+        oz_log_line("%s to %s: %lld side by side, %d launches at a time", run->members[0]->name,
+                    run->members[run->member_count - 1]->name, (long long)run->member_count,
+                    run->course_count);
     }
 done:
     return status;
 }
 
-static bool show_settling(void *context, double time, double ratio)
+/* Of all courses together: counts of a mean member, the longest time. */
+static OzSimCounts add_counts(const Run *run, double *spent)
 {
-    (void)context;
-    oz_log_progress("settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
-    return !oz_interrupt_asked();
-}
-
-/* Ends the outputs of members that a guard has stopped; a plain run says why at its end. */
-static OzStatus drop_stopped(Run *run)
-{
-    OzStatus status = OZ_OK;
-    for (int64_t m = 0; run->plan.is_ensemble && m < run->member_count; m++) {
-        OzOutputs *member = run->members[m];
-        const char *why = oz_drive_stopped(run->drive, (int)m);
-        if (why && member->is_open) {
-            lose(run, member->number, OZ_ERR_BLOWUP, why);
-            OZ_TRY(oz_outputs_close(member));
-        }
+    OzSimCounts sum = {0};
+    *spent = 0;
+    for (int k = 0; k < run->course_count; k++) {
+        const OzCourse *course = &run->courses[k];
+        OzSimCounts counts = oz_drive_counts(course->drive);
+        sum.steps = counts.steps > sum.steps ? counts.steps : sum.steps;
+        sum.refreshes += counts.refreshes * course->member_count;
+        sum.rebuilds += counts.rebuilds * course->member_count;
+        sum.crossed += counts.crossed;
+        *spent = course->spent > *spent ? course->spent : *spent;
     }
-done:
-    return status;
-}
-
-static OzStatus settle(Run *run)
-{
-    double seconds = 0, start = oz_clock_now();
-    OzStatus status = oz_drive_settle(run->drive, &seconds, show_settling, NULL);
-    oz_log_progress(" ");
-    AFTER(status, drop_stopped(run));
-    if (status == OZ_OK && seconds > 0) {
-        oz_log_line("settled in %.3f s (%.1f s of computing)", seconds, oz_clock_now() - start);
-    }
-    return status;
-}
-
-/* What is doubtful about contacts at this step, for one member of those alike. */
-static OzStatus tell_contacts(Run *run)
-{
-    OzStatus status = OZ_OK;
-    OzStiffness stiffness;
-    OzOutputs *first = run->members[0];
-    if (!first->is_open || !oz_stiffness_applies(&first->scene)) {
-        return OZ_OK;
-    }
-    oz_calibrate_say(&first->scene);
-    OZ_TRY(oz_drive_capture(run->drive, 0, &first->now, false));
-    OZ_TRY(oz_stiffness_measure(&stiffness, &first->now));
-    oz_stiffness_say(&stiffness, &first->scene);
-done:
-    return status;
-}
-
-static OzStatus look_at(Run *run, int64_t m, int due)
-{
-    OzStatus status = OZ_OK;
-    OzOutputs *member = run->members[m];
-    OZ_TRY(oz_drive_capture(run->drive, (int)m, &member->now, (due & OZ_DUE_ROW) != 0));
-    OZ_TRY(oz_outputs_look(member, due));
-done:
-    if (status == OZ_ERR_BLOWUP && run->plan.is_ensemble) {
-        lose(run, member->number, status, oz_status_text());
-        status = oz_outputs_close(member);
-    }
-    return status;
-}
-
-/* What is due at this step of every member that goes on; *open receives how many do. */
-static OzStatus look(Run *run, int due, int64_t *open)
-{
-    OzStatus status = OZ_OK;
-    *open = 0;
-    for (int64_t m = 0; m < run->member_count; m++) {
-        if (run->members[m]->is_open) {
-            OZ_TRY(look_at(run, m, due));
-        }
-        *open += run->members[m]->is_open;
-    }
-done:
-    return status;
-}
-
-static void show_progress(const Run *run)
-{
-    double step = (double)oz_drive_step(run->drive), last = (double)run->schedule.last_step;
-    double spent = oz_clock_now() - run->first_step, rate = spent > 0 ? step / spent : 0;
-    oz_log_progress("%5.1f %%  %.4f s  %.0f steps/s  %.0f s left",
-                    last > 0 ? 100 * step / last : 100, step * run->schedule.scene->step, rate,
-                    rate > 0 ? (last - step) / rate : 0);
-}
-
-static OzStatus launch(Run *run, int64_t step, double *shown)
-{
-    OzStatus status = oz_drive_launch(run->drive, step);
-    AFTER(status, drop_stopped(run));
-    if (status == OZ_OK && oz_clock_now() - *shown > 0.2) {
-        show_progress(run);
-        *shown = oz_clock_now();
-    }
-    if (status == OZ_OK && oz_interrupt_asked()) {
-        status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at step %lld, time %.9g s",
-                                (long long)oz_drive_step(run->drive),
-                                (double)oz_drive_step(run->drive) * run->schedule.scene->step);
-    }
-    return status;
-}
-
-static OzStatus walk(Run *run)
-{
-    OzStatus status = OZ_OK;
-    int64_t step = 0, open = run->member_count;
-    int due = 0;
-    double shown = 0;
-    run->first_step = oz_clock_now();
-    oz_log_line("first step %.2f s after start", run->first_step - run->started);
-    while (open > 0 && oz_schedule_next(&run->schedule, &step, &due)) {
-        while (oz_drive_step(run->drive) < step) {
-            OZ_TRY(launch(run, step, &shown));
-        }
-        OZ_TRY(look(run, due, &open));
-    }
-done:
-    run->spent = oz_clock_now() - run->first_step;
-    oz_log_progress(" ");
-    return status;
+    sum.refreshes /= run->member_count;
+    sum.rebuilds /= run->member_count;
+    return sum;
 }
 
 static void log_costs(const Run *run)
 {
-    OzSimCounts counts = oz_drive_counts(run->drive);
-    double steps = counts.steps > 0 ? (double)counts.steps : 1;
+    double spent = 0;
+    OzSimCounts counts = add_counts(run, &spent);
     OzStudioTimes pictures = oz_studio_take_times(run->studio);
+    double steps = counts.steps > 0 ? (double)counts.steps : 1;
+    double waited = pictures.waited / run->course_count;
     oz_log_line("%lld steps in %.2f s, %.2f s of them waiting for pictures: %.1f us a step without "
                 "(beside it drawing %.2f s, encoding %.2f s); list refreshed every %.1f, rebuilt "
                 "every %.0f steps",
-                (long long)counts.steps, run->spent, pictures.waited,
-                1e6 * (run->spent - pictures.waited) / steps, pictures.drawing, pictures.encoding,
+                (long long)counts.steps, spent, waited, 1e6 * (spent - waited) / steps,
+                pictures.drawing, pictures.encoding,
                 steps / (double)(counts.refreshes ? counts.refreshes : 1),
                 steps / (double)(counts.rebuilds ? counts.rebuilds : 1));
     if (counts.crossed > 0) {
@@ -349,53 +250,40 @@ static void log_costs(const Run *run)
     }
 }
 
-/* The last state of a member, if the run ended well or was interrupted, and its outputs whole. */
-static OzStatus end_member(Run *run, int64_t m, OzStatus so_far)
+/* Notes what became of the group's members, and frees it. */
+static OzStatus end_group(Run *run, OzStatus status, bool ran)
 {
-    OzStatus status = OZ_OK;
-    OzOutputs *member = run->members[m];
-    bool whole = member->series && (so_far == OZ_OK || so_far == OZ_ERR_INTERRUPTED);
-    if (whole) {
-        OZ_TRY(oz_drive_capture(run->drive, (int)m, &member->now, false));
-        OZ_TRY(oz_outputs_write_final(member));
-    }
-done:
-    run->outcomes[member->number] = so_far == OZ_OK && status == OZ_OK ? DONE
-                                    : so_far == OZ_ERR_INTERRUPTED     ? INTERRUPTED
-                                                                       : FAILED;
-    AFTER(status, oz_outputs_close(member));
-    return status;
-}
-
-static OzStatus end_group(Run *run, OzStatus status)
-{
-    for (int64_t m = 0; m < run->member_count; m++) {
-        if (run->members[m]->is_open) {
-            AFTER(status, end_member(run, m, status));
-        }
-        oz_outputs_free(run->members[m]);
-    }
-    if (run->drive && run->first_step > 0) {
+    if (ran) {
         log_costs(run);
     }
+    for (int64_t m = 0; m < run->member_count; m++) {
+        OzOutputs *member = run->members[m];
+        member->outcome = member->is_open ? OZ_OUTCOME_FAILED : member->outcome;
+        OZ_AFTER(status, oz_outputs_close(member));
+        run->outcomes[member->number] = member->outcome;
+        run->loss = run->loss == OZ_OK ? member->loss : run->loss;
+        oz_outputs_free(member);
+    }
+    for (int k = 0; k < run->course_count; k++) {
+        oz_course_close(&run->courses[k]);
+    }
+    free(run->courses);
+    run->courses = NULL;
+    run->course_count = 0;
     run->member_count = 0;
-    run->first_step = 0;
-    oz_drive_free(run->drive);
-    run->drive = NULL;
-    /* All its members were stopped: the next group may do better. */
-    return status == OZ_ERR_BLOWUP && run->plan.is_ensemble ? OZ_OK : status;
+    return status;
 }
 
 static OzStatus run_group(Run *run)
 {
     OzStatus status = OZ_OK;
+    bool ran = false;
     OZ_TRY(gather_group(run));
     OZ_TRY(open_group(run));
-    OZ_TRY(settle(run));
-    OZ_TRY(tell_contacts(run));
-    OZ_TRY(walk(run));
+    ran = true;
+    OZ_TRY(oz_course_run(run->courses, run->course_count));
 done:
-    return end_group(run, status);
+    return end_group(run, status, ran);
 }
 
 /* Once a member has been opened there is something to tell. */
@@ -412,12 +300,13 @@ static OzStatus write_tables(const Run *run)
         free(name);
         OZ_TRY(oz_plan_name(&run->plan, i, &name));
         OzEnsembleRow row = {name, oz_plan_seed(&run->plan, i), oz_plan_value(&run->plan, i),
-                             outcome_names[run->outcomes[i]], run->outcomes[i] != NOT_STARTED};
+                             outcome_names[run->outcomes[i]],
+                             run->outcomes[i] != OZ_OUTCOME_NOT_STARTED};
         OZ_TRY(oz_ensemble_add(ensemble, &row));
     }
 done:
     free(name);
-    AFTER(status, oz_ensemble_finish(ensemble));
+    OZ_AFTER(status, oz_ensemble_finish(ensemble));
     return status;
 }
 
@@ -425,7 +314,7 @@ static OzStatus tell_losses(const Run *run)
 {
     int64_t lost = 0;
     for (int64_t i = 0; i < run->plan.count; i++) {
-        lost += run->outcomes[i] == STOPPED || run->outcomes[i] == FAILED;
+        lost += run->outcomes[i] == OZ_OUTCOME_STOPPED || run->outcomes[i] == OZ_OUTCOME_FAILED;
     }
     return lost == 0 ? OZ_OK
                      : oz_status_fail(run->loss, "%lld of %lld members did not reach their end",
@@ -453,7 +342,7 @@ OzStatus oz_run_scene(const OzOptions *options)
         OZ_TRY(run_group(&run));
     }
 done:
-    AFTER(status, write_tables(&run));
+    OZ_AFTER(status, write_tables(&run));
     if (status == OZ_OK) {
         status = tell_losses(&run);
     }

@@ -21,9 +21,10 @@ static const struct {
     const char *name;
     int floor;
 } rooms[] = {
-    {"base", 0},     {"scene", 1}, {"model", 2},     {"observe", 3}, {"draw", 4},
-    {"compute", 4},  {"cli", 5},   {"leftovers", 5}, {"outputs", 6}, {"plan", 6},
-    {"ensemble", 6}, {"room", 6},  {"run", 7},       {"study", 8},   {"main", 9},
+    {"base", 0},    {"scene", 1},   {"model", 2},    {"observe", 3},
+    {"draw", 4},    {"compute", 4}, {"cli", 5},      {"leftovers", 5},
+    {"outputs", 6}, {"plan", 6},    {"ensemble", 6}, {"room", 6},
+    {"course", 7},  {"run", 8},     {"study", 9},    {"main", 10},
 };
 
 /* An outside header's beginning, and the only place whose files may include it. */

@@ -5,6 +5,8 @@
 #ifndef OZ_BASE_STATUS_H
 #define OZ_BASE_STATUS_H
 
+#include <stdio.h>
+
 typedef enum OzStatus {
     OZ_OK = 0,
     OZ_ERR_INPUT,       /* the user's file, key or option is wrong: exit status 2 */
@@ -35,6 +37,16 @@ int oz_status_exit_code(OzStatus status);
         if (status != OZ_OK) {                                                                     \
             goto done;                                                                             \
         }                                                                                          \
+    } while (0)
+
+/* Does a thing after a failure, whose text it keeps: status stays the failure, or becomes the thing's
+ * outcome after none. */
+#define OZ_AFTER(status, later)                                                                    \
+    do {                                                                                           \
+        char text_[16384];                                                                         \
+        snprintf(text_, sizeof text_, "%s", oz_status_text());                                     \
+        OzStatus later_ = (later);                                                                 \
+        (status) = (status) == OZ_OK ? later_ : oz_status_fail((status), "%s", text_);             \
     } while (0)
 
 #endif

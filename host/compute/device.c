@@ -170,6 +170,22 @@ OzStatus oz_device_open(OzDevice *device, const char *want, int threads)
                           any ? "auto" : want, count);
 }
 
+OzStatus oz_device_branch(OzDevice *branch, const OzDevice *device)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    *branch = *device;
+    branch->queue = NULL;
+    CL_TRY(clRetainContext(branch->context));
+    branch->queue = clCreateCommandQueue(branch->context, branch->id, 0, &code);
+    CL_TRY(code);
+done:
+    if (status != OZ_OK) {
+        oz_device_close(branch);
+    }
+    return status;
+}
+
 void oz_device_close(OzDevice *device)
 {
     if (device->queue) {

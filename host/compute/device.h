@@ -29,6 +29,10 @@ typedef struct OzDevice {
  * first OpenCL call). Logs each refusal with its reason. The caller frees with oz_device_close. */
 OzStatus oz_device_open(OzDevice *device, const char *want, int threads);
 
+/* The same device with a queue of its own, for another thread; the original must outlive it. The caller
+ * frees with oz_device_close. */
+OzStatus oz_device_branch(OzDevice *branch, const OzDevice *device);
+
 /* Closes; a zeroed device is fine. */
 void oz_device_close(OzDevice *device);
 
