@@ -7,18 +7,12 @@
 #ifndef OZ_KERNELS_BEAM_H
 #define OZ_KERNELS_BEAM_H
 
+#include "kernels/piece_law.h"
 #include "kernels/vec2.h"
 
 #ifndef OZ_DAMPING_SHEAR
 #error "define OZ_DAMPING_SHEAR before including kernels/beam.h"
 #endif
-
-typedef struct OzBeamConstants {
-    scalar stiffness;       /* N/m: E                        */
-    scalar bending;         /* N m^2: E I                    */
-    scalar damping;         /* kg/s: gamma                   */
-    scalar damping_bending; /* kg m^3/s: gamma I             */
-} OzBeamConstants;
 
 typedef struct OzBeamEnd {
     OzVec2 position, velocity; /* of the triangle's centre of mass; any common origin and frame */

@@ -5,16 +5,8 @@
 #ifndef OZ_KERNELS_DISC_H
 #define OZ_KERNELS_DISC_H
 
+#include "kernels/piece_law.h"
 #include "kernels/triangle.h"
-
-typedef struct OzDiscLaw {
-    scalar hertz;              /* 0: linear, 1: power 3/2                              */
-    scalar clamp;              /* 1: the normal force never pulls                      */
-    scalar stiffness;          /* linear: 1/s^2, k / m*; power 3/2: N/m^(3/2)          */
-    scalar damping;            /* 1/s                                                  */
-    scalar tangential_damping; /* 1/s                                                  */
-    scalar friction;
-} OzDiscLaw;
 
 /* Where two pieces meet; the normal points from a to b, the point is the middle of the overlap. */
 typedef struct OzDiscPlace {

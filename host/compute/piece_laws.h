@@ -1,0 +1,17 @@
+/* A scene of pieces as the constants that kernels and the host reference share. Says OZ_HOST for
+ * whoever includes it. */
+#ifndef OZ_COMPUTE_PIECE_LAWS_H
+#define OZ_COMPUTE_PIECE_LAWS_H
+
+#define OZ_HOST
+#include "kernels/piece_law.h"
+#include "scene/scene.h"
+
+OzBeamConstants oz_piece_laws_beam(const OzScene *scene);
+
+/* Between two grains (wall -1) or a grain and a wall of the scene, laws hooke and hertz. Of hooke's
+ * ways to damp only the constant dashpot is known here, and no tangential spring: its dashpot
+ * alone. */
+OzDiscLaw oz_piece_laws_disc(const OzScene *scene, int wall);
+
+#endif

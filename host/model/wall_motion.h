@@ -1,0 +1,25 @@
+/* Where the walls of trigrains are at a time: bodies of pieces that move as a whole, up and down or
+ * about their point, until they are taken away. */
+#ifndef OZ_MODEL_WALL_MOTION_H
+#define OZ_MODEL_WALL_MOTION_H
+
+#include "model/pieces.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+
+typedef struct OzWallPose {
+    bool present;
+    double rise, speed; /* m, m/s along y                           */
+    double turn, spin;  /* rad, rad/s about the wall's point at rest */
+} OzWallPose;
+
+/* At rest (while settling): present, where it was built, without speed. */
+OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest);
+
+/* Writes position (2 x), angle, velocity (2 x) and spin of every wall's pieces into arrays over all
+ * pieces; the free ones are left alone. Of absent walls the last pose goes on. */
+void oz_wall_motion_place(const OzPieces *pieces, const OzScene *scene, double time, bool at_rest,
+                          double *position, double *angle, double *velocity, double *spin);
+
+#endif
