@@ -5,6 +5,8 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "compute/stiffness.h"
+#include "model/calibrate.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -84,6 +86,23 @@ static OzStatus settle(OzCourse *course)
         oz_log_line("%s%ssettled in %.3f s (%.1f s of computing)", first, first[0] ? others : "",
                     seconds, oz_clock_now() - start);
     }
+    return status;
+}
+
+/* What is doubtful about contacts at this step, for one member of those alike. */
+static OzStatus tell_contacts(const OzCourse *course)
+{
+    OzStatus status = OZ_OK;
+    OzStiffness stiffness;
+    OzOutputs *first = course->members[0];
+    if (!course->leads || !first->is_open || !oz_stiffness_applies(&first->scene)) {
+        return OZ_OK;
+    }
+    oz_calibrate_say(&first->scene);
+    OZ_TRY(oz_drive_capture(course->drive, 0, &first->now, false));
+    OZ_TRY(oz_stiffness_measure(&stiffness, &first->now));
+    oz_stiffness_say(&stiffness, &first->scene);
+done:
     return status;
 }
 
@@ -185,9 +204,8 @@ done:
 static void run_one(OzCourse *course)
 {
     OzStatus status = settle(course);
-    if (status == OZ_OK) {
-        status = walk(course);
-    }
+    status = status == OZ_OK ? tell_contacts(course) : status;
+    status = status == OZ_OK ? walk(course) : status;
     for (int64_t m = 0; m < course->member_count; m++) {
         if (course->members[m]->is_open) {
             OZ_AFTER(status, end_member(course, m, status));
