@@ -3,11 +3,16 @@
 
 #include <math.h>
 
+bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest)
+{
+    return at_rest || wall->until <= 0 || time < wall->until;
+}
+
 OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest)
 {
     const OzMotion *motion = &wall->motion;
     double rate = 2 * 3.14159265358979323846 * motion->frequency;
-    OzWallPose pose = {.present = at_rest || wall->until <= 0 || time < wall->until};
+    OzWallPose pose = {0};
     if (motion->present && !at_rest) {
         pose.rise = motion->amplitude * sin(rate * time);
         pose.speed = motion->amplitude * rate * cos(rate * time);

@@ -9,12 +9,14 @@
 #include <stdbool.h>
 
 typedef struct OzWallPose {
-    bool present;
     double rise, speed; /* m, m/s along y                           */
     double turn, spin;  /* rad, rad/s about the wall's point at rest */
 } OzWallPose;
 
-/* At rest (while settling): present, where it was built, without speed. */
+/* Whether the wall has not been taken away yet; at rest (while settling) none has. */
+bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest);
+
+/* At rest: where it was built, without speed. */
 OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest);
 
 /* Writes position (2 x), angle, velocity (2 x) and spin of every wall's pieces into arrays over all

@@ -1,0 +1,366 @@
+/* One evaluation after another: pairs that may touch, beams, gravity. */
+#include "compute/piece_forces.h"
+
+#include "base/memory.h"
+#include "compute/piece_dialect.h"
+#include "model/wall_motion.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef OzPieceForces Forces;
+
+static OzVec2 load2(const double *from)
+{
+    return oz_vec2(from[0], from[1]);
+}
+
+static void note_fault(Forces *f, OzPieceFault fault, int a, int b)
+{
+    if (f->fault == OZ_PIECE_SOUND) {
+        f->fault = fault;
+        f->fault_a = a;
+        f->fault_b = b;
+    }
+}
+
+static int wall_of(const OzPieces *pieces, int i)
+{
+    return i < pieces->free_count ? -1 : pieces->body[i] - (int)pieces->grain_count;
+}
+
+/* force and moment about its centre on piece i; a wall's go into the power it gives. */
+static void add_load(Forces *f, const OzPieceState *state, int i, OzVec2 force, double moment)
+{
+    if (i < f->pieces->free_count) {
+        f->force[2 * (int64_t)i] += force.x;
+        f->force[2 * (int64_t)i + 1] += force.y;
+        f->torque[i] += moment;
+    } else {
+        f->power.work_walls -= oz_dot2(force, load2(state->velocity + 2 * (int64_t)i));
+        f->power.work_walls -= moment * state->spin[i];
+    }
+}
+
+static OzTriangle triangle_at(const Forces *f, int i, OzVec2 centre)
+{
+    const double *corner = f->turned + 6 * (int64_t)i;
+    OzTriangle t;
+    for (int c = 0; c < 3; c++) {
+        t.corner[c] = oz_add2(centre, load2(corner + 2 * c));
+    }
+    return t;
+}
+
+/* A touching pair, counted: each pair of grains once, since pairs come ordered by their first piece
+ * and pieces by their grains. */
+static void count_touch(Forces *f, OzTouchKind kind, int a, int b)
+{
+    int body_a = f->pieces->body[a], body_b = f->pieces->body[b];
+    f->sums.touches[kind]++;
+    if (b >= f->pieces->free_count) {
+        f->sums.wall_touches++;
+    } else if (f->met[body_b] != body_a + 1) {
+        f->met[body_b] = body_a + 1;
+        f->sums.grain_pairs++;
+    }
+}
+
+static void touch_triangles(Forces *f, const OzPieceState *state, int a, int b, OzVec2 apart)
+{
+    OzTriangle one = triangle_at(f, a, oz_vec2(0, 0)), other = triangle_at(f, b, apart);
+    if (!oz_triangle_near(&one, &other, 0)) {
+        return;
+    }
+    double stiffness = f->scene->triangles.stiffness;
+    OzOverlap o = oz_triangle_overlap(&one, &other);
+    if (o.swallowed || o.deep) {
+        note_fault(f, o.swallowed ? OZ_PIECE_SWALLOWED : OZ_PIECE_DEEP, a, b);
+    }
+    if (o.kind > 0) {
+        OzVec2 force = oz_scale2(o.push, stiffness);
+        count_touch(f, (OzTouchKind)((int)o.kind - 1), a, b);
+        f->sums.overlap_sum += o.area;
+        f->sums.overlap_max = fmax(f->sums.overlap_max, o.area);
+        f->sums.contact_energy += stiffness * o.energy;
+        add_load(f, state, a, oz_scale2(force, -1), -stiffness * o.moment);
+        add_load(f, state, b, force, stiffness * o.moment - oz_cross2(apart, force));
+    }
+}
+
+/* Where a disc meets a disc or a triangle, seen from the centre of a. */
+static OzDiscPlace disc_place(const Forces *f, int a, int b, OzVec2 apart)
+{
+    double radius_a = f->pieces->radius[a], radius_b = f->pieces->radius[b];
+    if (radius_a > 0 && radius_b > 0) {
+        return oz_disc_meet(oz_vec2(0, 0), radius_a, apart, radius_b);
+    }
+    bool second = radius_b > 0; /* is the disc */
+    OzVec2 centre = second ? apart : oz_vec2(0, 0);
+    OzTriangle t = triangle_at(f, second ? a : b, second ? oz_vec2(0, 0) : apart);
+    OzDiscPlace place = oz_disc_meet_triangle(&t, centre, second ? radius_b : radius_a);
+    if (!second) {
+        place.normal = oz_scale2(place.normal, -1);
+    }
+    return place;
+}
+
+static double effective_mass(const OzPieces *pieces, int a, int b)
+{
+    double mass_a = pieces->mass[a], mass_b = pieces->mass[b];
+    return b < pieces->free_count ? mass_a * mass_b / (mass_a + mass_b) : mass_a;
+}
+
+/* Of the discs among two pieces. */
+static double smaller_radius(const OzPieces *pieces, int a, int b)
+{
+    double one = pieces->radius[a], other = pieces->radius[b];
+    return one > 0 && other > 0 ? fmin(one, other) : fmax(one, other);
+}
+
+static OzVec2 velocity_at(const OzPieceState *state, int i, OzVec2 arm)
+{
+    return oz_along2(load2(state->velocity + 2 * (int64_t)i), state->spin[i], oz_left2(arm));
+}
+
+static void touch_disc(Forces *f, const OzPieceState *state, int a, int b, OzVec2 apart)
+{
+    int wall = wall_of(f->pieces, b);
+    OzDiscPlace place = disc_place(f, a, b, apart);
+    OzVec2 arm = oz_minus2(place.point, apart);
+    OzVec2 velocity = oz_minus2(velocity_at(state, b, arm), velocity_at(state, a, place.point));
+    OzDiscForce d = oz_disc_force(place, velocity, effective_mass(f->pieces, a, b),
+                                  wall < 0 ? f->disc : f->disc_wall[wall]);
+    if (d.touching) {
+        count_touch(f, OZ_TOUCH_DISC, a, b);
+        f->sums.contact_energy += d.energy;
+        f->power.disc_damping += d.power_normal;
+        f->power.disc_friction += d.power_tangential;
+        add_load(f, state, a, oz_scale2(d.force, -1), -oz_cross2(place.point, d.force));
+        add_load(f, state, b, d.force, oz_cross2(arm, d.force));
+        if (place.overlap > smaller_radius(f->pieces, a, b)) {
+            note_fault(f, OZ_PIECE_DEEP, a, b);
+        }
+    }
+}
+
+static void touch_pair(Forces *f, const OzPieceState *state, int a, int b)
+{
+    OzVec2 apart =
+        oz_minus2(load2(state->position + 2 * (int64_t)b), load2(state->position + 2 * (int64_t)a));
+    double reach = f->pieces->reach[a] + f->pieces->reach[b];
+    int wall = wall_of(f->pieces, b);
+    bool gone =
+        wall >= 0 && !oz_wall_motion_present(&f->scene->walls[wall], state->time, state->at_rest);
+    if (gone || oz_dot2(apart, apart) >= reach * reach) {
+        return;
+    }
+    if (f->pieces->radius[a] > 0 || f->pieces->radius[b] > 0) {
+        touch_disc(f, state, a, b, apart);
+    } else {
+        touch_triangles(f, state, a, b, apart);
+    }
+}
+
+static void turn_corners(Forces *f, const OzPieceState *state)
+{
+    for (int64_t i = 0; i < f->pieces->count; i++) {
+        oz_pieces_corners(f->pieces, i, (double[2]){0, 0}, state->angle[i], f->turned + 6 * i);
+    }
+}
+
+static void begin(Forces *f)
+{
+    const OzPieces *pieces = f->pieces;
+    oz_piece_dialect_set(f->scene);
+    memset(f->force, 0, 2 * (size_t)pieces->free_count * sizeof *f->force);
+    memset(f->torque, 0, (size_t)pieces->free_count * sizeof *f->torque);
+    memset(f->met, 0, (size_t)(pieces->grain_count + pieces->wall_count) * sizeof *f->met);
+    f->sums = (OzPieceSums){.stretch_min = 1, .stretch_max = 1};
+    f->power = (OzPieceLedger){0};
+    f->fault = OZ_PIECE_SOUND;
+}
+
+static OzStatus add_touches(Forces *f, const OzPieceState *state)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_piece_pairs_renew(&f->pairs, f->pieces, state->position));
+    turn_corners(f, state);
+    for (int64_t p = 0; p < f->pairs.count; p++) {
+        touch_pair(f, state, f->pairs.pair[p].a, f->pairs.pair[p].b);
+    }
+done:
+    return status;
+}
+
+static OzBeamEnd beam_end(const OzPieceState *state, int64_t i)
+{
+    return (OzBeamEnd){load2(state->position + 2 * i), load2(state->velocity + 2 * i),
+                       state->angle[i], state->spin[i]};
+}
+
+static void sum_beam(Forces *f, const OzBeamForce *beam, int a, int b)
+{
+    double bend = fmax(fabs(beam->bend_a), fabs(beam->bend_b));
+    f->sums.beam_energy += beam->energy;
+    f->sums.stretch_min = fmin(f->sums.stretch_min, beam->stretch);
+    f->sums.stretch_max = fmax(f->sums.stretch_max, beam->stretch);
+    f->sums.bend_max = fmax(f->sums.bend_max, bend);
+    f->power.beam_axial += beam->power_axial;
+    f->power.beam_bending += beam->power_bending;
+    if (!(beam->stretch >= OZ_BEAM_STRETCH_LEAST && beam->stretch <= OZ_BEAM_STRETCH_MOST)) {
+        note_fault(f, isnan(beam->stretch) ? OZ_PIECE_NAN : OZ_PIECE_STRETCHED, a, b);
+    }
+    if (bend > OZ_BEAM_BEND_MOST) {
+        note_fault(f, OZ_PIECE_BENT, a, b);
+    }
+}
+
+static void add_beams(Forces *f, const OzPieceState *state)
+{
+    for (int64_t k = 0; k < f->pieces->beam_count; k++) {
+        int a = f->pieces->beam_a[k], b = f->pieces->beam_b[k];
+        OzBeamForce beam = oz_beam_force(f->beam, beam_end(state, a), beam_end(state, b),
+                                         f->pieces->beam_length[k], f->pieces->beam_rest_a[k],
+                                         f->pieces->beam_rest_b[k]);
+        sum_beam(f, &beam, a, b);
+        add_load(f, state, a, oz_scale2(beam.force, -1), beam.moment_a);
+        add_load(f, state, b, beam.force, beam.moment_b);
+    }
+}
+
+static void add_gravity(Forces *f)
+{
+    for (int64_t i = 0; i < f->pieces->free_count; i++) {
+        f->force[2 * i] += f->pieces->mass[i] * f->scene->gravity[0];
+        f->force[2 * i + 1] += f->pieces->mass[i] * f->scene->gravity[1];
+    }
+}
+
+void oz_piece_forces_watch(OzPieceForces *forces, const OzPieceState *state, double step)
+{
+    for (int64_t i = 0; i < forces->pieces->free_count; i++) {
+        double way = oz_length2(load2(state->velocity + 2 * i)) * step;
+        if (!(way < 0.5 * forces->pieces->reach[i])) {
+            note_fault(forces, OZ_PIECE_FAST, (int)i, (int)i);
+        }
+    }
+}
+
+static void find_nan(Forces *f)
+{
+    for (int64_t i = 0; i < f->pieces->free_count; i++) {
+        if (!isfinite(f->force[2 * i] + f->force[2 * i + 1] + f->torque[i])) {
+            note_fault(f, OZ_PIECE_NAN, (int)i, (int)i);
+        }
+    }
+}
+
+OzStatus oz_piece_forces_touch(OzPieceForces *forces, const OzPieceState *state)
+{
+    begin(forces);
+    OzStatus status = add_touches(forces, state);
+    find_nan(forces);
+    return status;
+}
+
+OzStatus oz_piece_forces_hold(OzPieceForces *forces, const OzPieceState *state)
+{
+    begin(forces);
+    add_beams(forces, state);
+    add_gravity(forces);
+    find_nan(forces);
+    return OZ_OK;
+}
+
+OzStatus oz_piece_forces_evaluate(OzPieceForces *forces, const OzPieceState *state)
+{
+    OzStatus status = OZ_OK;
+    begin(forces);
+    OZ_TRY(add_touches(forces, state));
+    add_beams(forces, state);
+    add_gravity(forces);
+    find_nan(forces);
+done:
+    return status;
+}
+
+/* What each fault is called; two bodies follow where it takes two. */
+static const char *const fault_names[] = {
+    [OZ_PIECE_NAN] = "feels a force that is no number",
+    [OZ_PIECE_SWALLOWED] = "has a triangle wholly inside one of, or around one of,",
+    [OZ_PIECE_DEEP] = "overlaps by more than half a piece with",
+    [OZ_PIECE_STRETCHED] = "has a beam shorter than half or longer than 1.5 of its length at rest",
+    [OZ_PIECE_FAST] = "moves a piece farther than half its reach",
+    [OZ_PIECE_BENT] = "has a beam bent by more than 1 rad",
+};
+
+OzStatus oz_piece_forces_check(const OzPieceForces *forces, int64_t step, double time)
+{
+    const OzPieces *pieces = forces->pieces;
+    char other[48] = "";
+    if (forces->fault == OZ_PIECE_SOUND) {
+        return OZ_OK;
+    }
+    int a = pieces->body[forces->fault_a], b = pieces->body[forces->fault_b];
+    if (a != b) {
+        bool wall = b >= pieces->grain_count;
+        snprintf(other, sizeof other, " %s %d", wall ? "wall" : "grain",
+                 wall ? b - (int)pieces->grain_count : b);
+    }
+    return oz_status_fail(OZ_ERR_BLOWUP,
+                          "grain %d %s%s in step %lld (time %g s); a smaller time.step or a larger "
+                          "stiffness may help",
+                          a, fault_names[forces->fault], other, (long long)step, time);
+}
+
+OzStatus oz_piece_forces_create(OzPieceForces *forces, const OzScene *scene, const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    const OzPieces *pieces = grains->pieces;
+    *forces = (OzPieceForces){.scene = scene, .pieces = pieces};
+    forces->beam = oz_piece_laws_beam(scene);
+    forces->disc = oz_piece_laws_disc(scene, -1);
+    OZ_TRY(OZ_NEW(&forces->disc_wall, scene->wall_count));
+    for (int w = 0; w < scene->wall_count; w++) {
+        forces->disc_wall[w] = oz_piece_laws_disc(scene, w);
+    }
+    OZ_TRY(OZ_NEW(&forces->turned, 6 * pieces->count));
+    OZ_TRY(OZ_NEW(&forces->met, pieces->grain_count + pieces->wall_count));
+    OZ_TRY(OZ_NEW(&forces->force, 2 * pieces->free_count));
+    OZ_TRY(OZ_NEW(&forces->torque, pieces->free_count));
+done:
+    if (status != OZ_OK) {
+        oz_piece_forces_free(forces);
+    }
+    return status;
+}
+
+void oz_piece_forces_free(OzPieceForces *forces)
+{
+    free(forces->disc_wall);
+    oz_piece_pairs_free(&forces->pairs);
+    free(forces->turned);
+    free(forces->met);
+    free(forces->force);
+    free(forces->torque);
+    memset(forces, 0, sizeof *forces);
+}
+
+OzStatus oz_piece_forces_sums(OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    OzPieceForces forces;
+    OzPieceState state = {.position = snapshot->piece_position,
+                          .angle = snapshot->piece_angle,
+                          .velocity = snapshot->piece_velocity,
+                          .spin = snapshot->piece_spin,
+                          .time = snapshot->time};
+    OZ_TRY(oz_piece_forces_create(&forces, snapshot->scene, snapshot->grains));
+    status = oz_piece_forces_evaluate(&forces, &state);
+    snapshot->pieces = forces.sums;
+    snapshot->has_contacts = status == OZ_OK;
+    oz_piece_forces_free(&forces);
+done:
+    return status;
+}
