@@ -194,10 +194,10 @@ static OzStatus end_member(OzCourse *course, int64_t m, OzStatus so_far)
         OZ_TRY(oz_outputs_write_final(member));
     }
 done:
+    OZ_AFTER(status, oz_outputs_close(member));
     member->outcome = so_far == OZ_OK && status == OZ_OK ? OZ_OUTCOME_DONE
                       : so_far == OZ_ERR_INTERRUPTED     ? OZ_OUTCOME_INTERRUPTED
                                                          : OZ_OUTCOME_FAILED;
-    OZ_AFTER(status, oz_outputs_close(member));
     return status;
 }
 

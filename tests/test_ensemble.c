@@ -151,6 +151,52 @@ static void test_students_t(void **state)
     }
 }
 
+#define SHOWN                                                                                      \
+    "--seeds 1..3 --set 'movie={size: [320, 240], length: 0.2}' --set 'snapshots={taps: [1]}'"
+
+/* One launch at a time with three members, or three with one each, which share what draws. */
+static void test_courses_change_nothing(void **state)
+{
+    (void)state;
+    run(SHOWN " --threads 1", "together", 0);
+    assert_said("3 side by side, 1 launches at a time");
+    run(SHOWN " --threads 3", "apart", 0);
+    assert_said("3 side by side, 3 launches at a time");
+    const char *names[] = {"ensemble.csv", "members.csv", "seed_00003/series.csv",
+                           "seed_00002/final.csv"};
+    for (int i = 0; i < 4; i++) {
+        assert_same_file("together", "apart", names[i]);
+    }
+    char command[256];
+    snprintf(command, sizeof command,
+             "cd '%s' && for f in movie.mp4 snapshots/tap_00001.png; do for s in 1 2 3; do "
+             "cmp together/seed_0000$s/$f apart/seed_0000$s/$f || exit 1; done; done",
+             folder);
+    assert_int_equal(system(command), 0);
+}
+
+/* A picture of the second that cannot be written ends all, in order. */
+static void test_failure_ends_all(void **state)
+{
+    (void)state;
+    char command[256];
+    snprintf(command, sizeof command, "mkdir -p '%s/full/seed_00002/snapshots/tap_00001.png.part'",
+             folder);
+    assert_int_equal(system(command), 0);
+    run(SHOWN " --threads 3", "full", 1);
+    assert_said("cannot write full/seed_00002/snapshots/tap_00001.png.part: ");
+    for (int seed = 1; seed <= 3; seed++) {
+        snprintf(command, sizeof command,
+                 "cd '%s/full/seed_0000%d' && test -s movie.mp4 && ! test -e movie.mp4.part && "
+                 "test \"$(tail -c 1 series.csv)\" = ''",
+                 folder, seed);
+        assert_int_equal(system(command), 0);
+    }
+    char *members = read_text("full/members.csv");
+    assert_non_null(strstr(members, "failed"));
+    free(members);
+}
+
 /* Frictionless grains have kernels of their own: two groups, one after the other. */
 static void test_sweep(void **state)
 {
@@ -254,6 +300,8 @@ int main(void)
         cmocka_unit_test(test_growth_in_company),
         cmocka_unit_test(test_company_changes_nothing),
         cmocka_unit_test(test_tables_add_up),
+        cmocka_unit_test(test_courses_change_nothing),
+        cmocka_unit_test(test_failure_ends_all),
         cmocka_unit_test(test_sweep),
         cmocka_unit_test(test_stopped_member),
         cmocka_unit_test(test_nonsense_is_refused),
