@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "model/arrange.h"
 #include "model/bed.h"
 #include "model/column.h"
 #include "model/crowd.h"
@@ -318,6 +319,9 @@ done:
 OzStatus oz_place_grains(OzGrains *grains, const OzScene *scene)
 {
     Placement place = {.scene = scene, .grains = grains};
+    if (scene->model == OZ_MODEL_TRIGRAINS) {
+        return oz_arrange_grains(grains, scene);
+    }
     memset(grains, 0, sizeof *grains);
     OzStatus status = make_grains(&place);
     for (int p = 0; place.beds && p < scene->population_count; p++) {

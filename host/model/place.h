@@ -15,6 +15,8 @@
  * a cylinder the box of the planes around it, or a cube about the origin, serves. Where no wall
  * bounds it the column grows, with a line in the log, until the grains fit.
  *
+ * For trigrains see oz_arrange_grains.
+ *
  * Fails with OZ_ERR_INPUT, naming the population's line, when the walls leave no room (in bounded
  * time: after some hundred tries for each grain), when the scene has more than 2^31 - 1 grains, and
  * when a file population cannot be read. */

@@ -1,0 +1,160 @@
+/* The free side of containers made of triangles. Knows nothing of grains but circles around them.
+ */
+#include "model/basin.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* The wall of the first of these kinds that the scene has. */
+static const OzWall *find_container(const OzScene *scene)
+{
+    static const unsigned ranks[] = {1u << OZ_WALL_HOPPER | 1u << OZ_WALL_DRUM,
+                                     1u << OZ_WALL_VESSEL, 1u << OZ_WALL_FLOOR};
+    for (size_t rank = 0; rank < sizeof ranks / sizeof *ranks; rank++) {
+        for (int w = 0; w < scene->wall_count; w++) {
+            if (ranks[rank] >> scene->walls[w].kind & 1) {
+                return &scene->walls[w];
+            }
+        }
+    }
+    return NULL;
+}
+
+/* How high the basin must be for this area, m. */
+static double height_for(const OzWall *wall, double area)
+{
+    if (wall->kind != OZ_WALL_HOPPER) {
+        return area / wall->width;
+    }
+    double rise = (wall->width - wall->opening) / 2 * tan(wall->slope);
+    return area / wall->width + rise * (wall->width - wall->opening) / (2 * wall->width);
+}
+
+static void box_of_container(OzBasin *basin, double area, double reach)
+{
+    const OzWall *wall = basin->container;
+    bool round = wall->kind == OZ_WALL_DRUM;
+    double half = (round ? wall->diameter : wall->width) / 2;
+    basin->low[0] = wall->point[0] - half;
+    basin->high[0] = wall->point[0] + half;
+    basin->low[1] = round ? wall->point[1] - half : wall->point[1];
+    basin->high[1] =
+        round ? wall->point[1] + half
+              : wall->point[1] + wall->tooth_depth + fmax(height_for(wall, area), 2 * reach);
+}
+
+/* Between the outermost ends of the segments, from the lowest end upwards. */
+static void box_of_segments(OzBasin *basin, const OzScene *scene, double area, double reach)
+{
+    double low[2] = {INFINITY, INFINITY}, high = -INFINITY;
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        low[0] = fmin(low[0], fmin(wall->from[0], wall->to[0]));
+        high = fmax(high, fmax(wall->from[0], wall->to[0]));
+        low[1] = fmin(low[1], fmin(wall->from[1], wall->to[1]));
+    }
+    double width = fmax(high - low[0], 2.1 * reach);
+    basin->low[0] = low[0];
+    basin->low[1] = low[1];
+    basin->high[0] = low[0] + width;
+    basin->high[1] = low[1] + fmax(area / width, 2.1 * reach);
+}
+
+OzBasin oz_basin_make(const OzScene *scene, const OzPatch *walls, double area, double reach)
+{
+    OzBasin basin = {
+        .container = find_container(scene), .walls = walls, .wall_count = scene->wall_count};
+    if (basin.container) {
+        box_of_container(&basin, area, reach);
+    } else if (scene->wall_count) {
+        box_of_segments(&basin, scene, area, reach);
+    } else {
+        double half = fmax(sqrt(area) / 2, 1.05 * reach);
+        basin.low[0] = basin.low[1] = -half;
+        basin.high[0] = basin.high[1] = half;
+    }
+    return basin;
+}
+
+bool oz_basin_raise(OzBasin *basin)
+{
+    bool round = basin->container && basin->container->kind == OZ_WALL_DRUM;
+    if (!round) {
+        basin->high[1] += 0.1 * (basin->high[1] - basin->low[1]);
+    }
+    return !round;
+}
+
+void oz_basin_draw(const OzBasin *basin, OzRandom *random, double point[2])
+{
+    for (int k = 0; k < 2; k++) {
+        point[k] = oz_random_uniform(random, basin->low[k], basin->high[k]);
+    }
+}
+
+static double distance_to_line(const double *a, const double *b, const double *p)
+{
+    double x = b[0] - a[0], y = b[1] - a[1];
+    double along = ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / (x * x + y * y);
+    along = fmin(fmax(along, 0), 1);
+    return hypot(p[0] - a[0] - along * x, p[1] - a[1] - along * y);
+}
+
+double oz_basin_distance(const double corners[6], const double point[2])
+{
+    double nearest = INFINITY;
+    int left = 0;
+    for (int c = 0; c < 3; c++) {
+        const double *a = corners + 2 * c, *b = corners + 2 * ((c + 1) % 3);
+        double side = (b[0] - a[0]) * (point[1] - a[1]) - (point[0] - a[0]) * (b[1] - a[1]);
+        left += side > 0;
+        nearest = fmin(nearest, distance_to_line(a, b, point));
+    }
+    return left == 0 || left == 3 ? 0 : nearest;
+}
+
+static bool touches_wall(const OzBasin *basin, const double centre[2], double radius)
+{
+    double corners[6];
+    for (int w = 0; w < basin->wall_count; w++) {
+        for (int t = 0; t < basin->walls[w].triangle_count; t++) {
+            oz_patch_corners(&basin->walls[w], t, corners);
+            if (oz_basin_distance(corners, centre) <= radius) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* Above the opening, between the sides and above both slopes, with teeth and radius to spare. */
+static bool is_in_hopper(const OzWall *wall, double x, double y, double spare)
+{
+    double beside = fabs(x) - wall->opening / 2;
+    return y >= spare && fabs(x) + spare <= wall->width / 2 &&
+           y * cos(wall->slope) - fmax(beside, 0) * sin(wall->slope) >= spare;
+}
+
+static bool is_inside(const OzBasin *basin, const double centre[2], double radius)
+{
+    const OzWall *wall = basin->container;
+    if (!wall) {
+        return centre[0] - radius >= basin->low[0] && centre[0] + radius <= basin->high[0] &&
+               centre[1] - radius >= basin->low[1] && centre[1] + radius <= basin->high[1];
+    }
+    double x = centre[0] - wall->point[0], y = centre[1] - wall->point[1];
+    double spare = radius + wall->tooth_depth;
+    switch (wall->kind) {
+    case OZ_WALL_DRUM:
+        return hypot(x, y) + spare <= wall->diameter / 2;
+    case OZ_WALL_HOPPER:
+        return is_in_hopper(wall, x, y, spare);
+    default:
+        return fabs(x) + radius <= wall->width / 2 && y >= spare;
+    }
+}
+
+bool oz_basin_holds(const OzBasin *basin, const double centre[2], double radius)
+{
+    return is_inside(basin, centre, radius) && !touches_wall(basin, centre, radius);
+}

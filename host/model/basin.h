@@ -1,0 +1,35 @@
+/* Where trigrains are put at random: what the scene's container leaves free, filled from below. */
+#ifndef OZ_MODEL_BASIN_H
+#define OZ_MODEL_BASIN_H
+
+#include "base/random.h"
+#include "model/patch.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+
+typedef struct OzBasin {
+    const OzWall *container; /* borrowed: the hopper or drum, else the vessel, else the floor that
+                                comes first in the scene; NULL: none                        */
+    const OzPatch *walls;    /* borrowed: of every wall                                     */
+    int wall_count;
+    double low[2], high[2]; /* m, the box that is drawn from                               */
+} OzBasin;
+
+/* A basin of at least area (m^2) and room for circles of radius reach (m). Without a container: on
+ * the segments when there are any, else a square about the origin. */
+OzBasin oz_basin_make(const OzScene *scene, const OzPatch *walls, double area, double reach);
+
+/* Makes it a tenth higher; false for a drum, which ends. */
+bool oz_basin_raise(OzBasin *basin);
+
+/* A point of the box. */
+void oz_basin_draw(const OzBasin *basin, OzRandom *random, double point[2]);
+
+/* True when a circle lies inside the container and touches no wall. */
+bool oz_basin_holds(const OzBasin *basin, const double centre[2], double radius);
+
+/* The distance from a point to a triangle (x y of three corners), m; 0 inside. */
+double oz_basin_distance(const double corners[6], const double point[2]);
+
+#endif

@@ -1,0 +1,191 @@
+/* One grain's triangles. Knows neither where grains lie nor how they move. */
+#include "model/shape.h"
+
+#include "model/triangulation.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Draws before a random population is refused: one in a thousand within the limits is a scene that
+ * asks for something else than it gets. */
+enum { DRAW_LIMIT = 1000 };
+
+static double draw(OzRandom *random, const OzRange *range)
+{
+    return oz_random_uniform(random, range->low, range->high);
+}
+
+static int draw_whole(OzRandom *random, const OzRange *range)
+{
+    double whole = floor(oz_random_uniform(random, range->low, range->high + 1));
+    return (int)fmin(whole, range->high);
+}
+
+/* A triangle on each edge of the polygon that is in the first vertices, about the last vertex. */
+static void fan(OzPatch *patch)
+{
+    int n = patch->triangle_count;
+    for (int i = 0; i < n; i++) {
+        patch->triangle[3 * i] = n;
+        patch->triangle[3 * i + 1] = i;
+        patch->triangle[3 * i + 2] = (i + 1) % n;
+    }
+}
+
+static void put(OzPatch *patch, int vertex, double angle, double radius)
+{
+    patch->vertex[2 * vertex] = radius * cos(angle);
+    patch->vertex[2 * vertex + 1] = radius * sin(angle);
+}
+
+static OzStatus make_square(OzPatch *patch, double edge)
+{
+    OzStatus status = oz_patch_create(patch, 5, 4);
+    for (int i = 0; status == OZ_OK && i < 4; i++) {
+        patch->vertex[2 * i] = i == 0 || i == 3 ? -edge / 2 : edge / 2;
+        patch->vertex[2 * i + 1] = i < 2 ? -edge / 2 : edge / 2;
+    }
+    return status;
+}
+
+static OzStatus make_polygon(OzPatch *patch, const OzPopulation *population, OzRandom *random)
+{
+    int n = draw_whole(random, &population->corners);
+    double radius = draw(random, &population->radius), q = population->irregularity;
+    OzStatus status = oz_patch_create(patch, n + 1, n);
+    for (int i = 0; status == OZ_OK && i < n; i++) {
+        double turn = 0.4 * q * PI / n * oz_random_uniform(random, -1, 1);
+        double inward = 0.5 * q * oz_random_uniform(random, 0, 1);
+        put(patch, i, 2 * PI * i / n + turn, radius * (1 - inward));
+    }
+    return status;
+}
+
+static OzStatus make_star(OzPatch *patch, const OzPopulation *population, OzRandom *random)
+{
+    int n = 2 * draw_whole(random, &population->corners);
+    double radius = draw(random, &population->radius);
+    OzStatus status = oz_patch_create(patch, n + 1, n);
+    for (int i = 0; status == OZ_OK && i < n; i++) {
+        put(patch, i, 2 * PI * i / n, i % 2 ? population->depth * radius : radius);
+    }
+    return status;
+}
+
+static OzStatus make_vertices(OzPatch *patch, const OzScene *scene, const OzPopulation *population)
+{
+    char where[1024];
+    snprintf(where, sizeof where, "%s:%d", scene->path, population->line);
+    OzStatus status =
+        oz_triangulation_make(patch, population->vertices, population->vertex_count / 2, where);
+    if (status == OZ_OK) {
+        oz_patch_centre(patch);
+    }
+    return status;
+}
+
+static OzStatus make_once(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+                          OzRandom *random)
+{
+    OzStatus status = OZ_OK;
+    switch (population->shape) {
+    case OZ_SHAPE_DISC:
+        oz_patch_set_disc(patch, draw(random, &population->radius));
+        return OZ_OK;
+    case OZ_SHAPE_VERTICES:
+        return make_vertices(patch, scene, population);
+    case OZ_SHAPE_SQUARE:
+        OZ_TRY(make_square(patch, draw(random, &population->edge)));
+        break;
+    case OZ_SHAPE_POLYGON:
+        OZ_TRY(make_polygon(patch, population, random));
+        break;
+    case OZ_SHAPE_STAR:
+        OZ_TRY(make_star(patch, population, random));
+        break;
+    }
+    fan(patch);
+    OZ_TRY(oz_patch_join(patch));
+    oz_patch_centre(patch);
+done:
+    return status;
+}
+
+/* What a grain has least of. */
+typedef struct Least {
+    double length, area; /* m, m^2 */
+} Least;
+
+static Least least_of(const OzPatch *patch)
+{
+    Least least = {INFINITY, INFINITY};
+    for (int k = 0; k < patch->joint_count; k++) {
+        least.length = fmin(least.length, oz_patch_joint_length(patch, k));
+    }
+    for (int t = 0; t < patch->triangle_count; t++) {
+        least.area = fmin(least.area, oz_patch_area(patch, t));
+    }
+    return least;
+}
+
+/* Sizes a part in 1e9 below a limit meet it: a limit may be the very size of a regular grain. */
+static bool is_within(const Least *least, const OzBeamValues *limits)
+{
+    double slack = 1 - 1e-9;
+    return least->length >= slack * limits->length_min && least->area >= slack * limits->area_min;
+}
+
+static bool is_open(const OzPopulation *population)
+{
+    const OzRange *edge = &population->edge, *radius = &population->radius,
+                  *corners = &population->corners;
+    return population->shape != OZ_SHAPE_VERTICES &&
+           (edge->low < edge->high || radius->low < radius->high || corners->low < corners->high ||
+            population->irregularity > 0);
+}
+
+static OzStatus refuse(const OzScene *scene, const OzPopulation *population, const Least *least)
+{
+    const OzBeamValues *limits = &scene->beams;
+    char draws[64] = "";
+    if (is_open(population)) {
+        snprintf(draws, sizeof draws, ", the last of %d drawn", DRAW_LIMIT);
+    }
+    if (least->length < limits->length_min) {
+        return oz_status_fail(
+            OZ_ERR_INPUT,
+            "%s:%d: a grain%s, has a beam of %.3g m, below beams.length_min %g m: its bending "
+            "stiffness 12 E I / L^3 and damping gamma I / L would need tiny steps; expected larger "
+            "grains, fewer corners, or a lower beams.length_min with a smaller second_moment",
+            scene->path, population->line, draws, least->length, limits->length_min);
+    }
+    return oz_status_fail(
+        OZ_ERR_INPUT,
+        "%s:%d: a grain%s, has a triangle of %.3g m^2, below beams.area_min %g m^2: so light a "
+        "piece would need tiny steps; expected larger grains, fewer corners, or a lower "
+        "beams.area_min",
+        scene->path, population->line, draws, least->area, limits->area_min);
+}
+
+OzStatus oz_shape_make(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+                       OzRandom *random)
+{
+    OzStatus status = OZ_OK;
+    Least least = {0, 0};
+    for (int i = 0; i < (is_open(population) ? DRAW_LIMIT : 1); i++) {
+        *patch = (OzPatch){0};
+        OZ_TRY(make_once(patch, scene, population, random));
+        least = least_of(patch);
+        if (is_within(&least, &scene->beams)) {
+            return OZ_OK;
+        }
+        oz_patch_free(patch);
+    }
+    status = refuse(scene, population, &least);
+done:
+    oz_patch_free(patch);
+    return status;
+}

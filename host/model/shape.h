@@ -1,0 +1,20 @@
+/* Grains' shapes as triangles joined by beams, or as discs. */
+#ifndef OZ_MODEL_SHAPE_H
+#define OZ_MODEL_SHAPE_H
+
+#include "base/random.h"
+#include "model/patch.h"
+#include "scene/scene.h"
+
+/* Makes one grain of a population, about its centre of mass; joints are its beams. A square is four
+ * triangles about its middle (Poeschel & Buchholtz 1995, Fig. 1), a polygon or a star one on each
+ * edge about its middle; a polygon's irregularity q turns each corner by up to 0.4 q of half the
+ * angle between corners and draws it in by up to half q of the radius. What a population leaves
+ * open is drawn from random, again and again while beams are shorter than beams.length_min or
+ * triangles smaller than beams.area_min. Fails with OZ_ERR_INPUT, naming the population's line and
+ * the reason, when nothing is left to draw, when no draw of many is within the limits, and for
+ * vertices that make no simple polygon. */
+OzStatus oz_shape_make(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+                       OzRandom *random);
+
+#endif
