@@ -6,7 +6,7 @@
 
 #include "draw/gallery.h"
 
-enum { OZ_STUDIO_JOBS = 16 }; /* pictures that may wait or be in hand: a second or two of drawing */
+enum { OZ_STUDIO_JOBS = 8 }; /* pictures that may wait or be in hand: a second or so of drawing */
 
 typedef struct OzStudio OzStudio;
 
