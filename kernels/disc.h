@@ -55,8 +55,9 @@ OZ_INLINE OzDiscPlace oz_disc_meet_triangle(const OzTriangle *a, OzVec2 b, real 
 {
     OzDiscPlace place;
     OzVec2 closest = oz_disc_closest(a, b), apart = oz_minus2(b, closest);
-    mask inside = (oz_triangle_side(a, 0, b) > REAL(0.0)) & (oz_triangle_side(a, 1, b) > REAL(0.0)) &
-                  (oz_triangle_side(a, 2, b) > REAL(0.0));
+    real first = oz_triangle_side(a, 0, b), second = oz_triangle_side(a, 1, b);
+    real innermost = oz_smaller(oz_smaller(first, second), oz_triangle_side(a, 2, b));
+    mask inside = innermost > REAL(0.0);
     real distance = oz_larger(oz_length2(apart), REAL(OZ_TINY));
     real away = inside ? -distance : distance;
     place.normal = oz_scale2(apart, REAL(1.0) / away);

@@ -1,0 +1,146 @@
+/* Grains of triangles built by hand, stepped by the host reference. */
+#ifndef OZ_TESTS_PIECE_RIG_H
+#define OZ_TESTS_PIECE_RIG_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "compute/piece_reference.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct PieceRig {
+    OzScene scene;
+    OzGrains grains;
+    OzPieceReference *reference;
+    OzSnapshot now;
+} PieceRig;
+
+static inline void must(OzStatus status)
+{
+    if (status != OZ_OK) {
+        fail_msg("%s", oz_status_text());
+    }
+}
+
+/* Reads the scene's first lines (printf style); its grains are built by hand afterwards. */
+static inline void rig_read(PieceRig *rig, const char *format, ...)
+{
+    char text[4096];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    strncat(text,
+            "\nmodel: trigrains\ngrains:\n"
+            "  - {kind: single, shape: square, edge: 2e-3, position: [0, 0]}\n",
+            sizeof text - strlen(text) - 1);
+    memset(rig, 0, sizeof *rig);
+    must(oz_scene_parse(&rig->scene, "rig.yaml", text, NULL, 0));
+}
+
+/* Room for grains of equal numbers of triangles and beams; what the triangles are is set next. */
+static inline OzPieces *rig_grains(PieceRig *rig, int64_t grains, int64_t triangles, int64_t beams)
+{
+    OzPieceCounts counts = {
+        .grains = grains, .free_pieces = grains * triangles, .beams = grains * beams};
+    must(oz_grains_create(&rig->grains, grains));
+    must(oz_pieces_create(&rig->grains.pieces, &counts));
+    OzPieces *pieces = rig->grains.pieces;
+    for (int64_t i = 0; i < pieces->count; i++) {
+        pieces->body[i] = (int)(i / triangles);
+    }
+    for (int64_t g = 0; g <= grains; g++) {
+        pieces->first[g] = g * triangles;
+    }
+    return pieces;
+}
+
+/* Grain g as a square about a centre, turned, in uniform motion: a triangle on each edge, and beams
+ * between neighbours. */
+static inline void rig_square(PieceRig *rig, int g, double edge, const double centre[2],
+                              double turn, const double velocity[2], double density)
+{
+    OzPieces *pieces = rig->grains.pieces;
+    double reach = edge / sqrt(2), quarter = 2 * atan(1);
+    for (int k = 0; k < 4; k++) {
+        double from = turn + quarter * (k + 0.5), to = from + quarter;
+        double corners[6] = {centre[0],
+                             centre[1],
+                             centre[0] + reach * cos(from),
+                             centre[1] + reach * sin(from),
+                             centre[0] + reach * cos(to),
+                             centre[1] + reach * sin(to)};
+        must(oz_pieces_set_triangle(pieces, 4 * g + k, corners, density));
+        memcpy(&pieces->velocity[2 * (4 * g + k)], velocity, 2 * sizeof(double));
+    }
+    for (int k = 0; k < 4; k++) {
+        int one = 4 * g + k, next = 4 * g + (k + 1) % 4;
+        pieces->beam_a[4 * g + k] = one < next ? one : next;
+        pieces->beam_b[4 * g + k] = one < next ? next : one;
+        oz_pieces_rest_beam(pieces, 4 * g + k);
+    }
+}
+
+static inline void rig_start(PieceRig *rig)
+{
+    oz_piece_reference_free(rig->reference);
+    oz_snapshot_free(&rig->now);
+    must(oz_piece_reference_create(&rig->reference, &rig->scene, &rig->grains));
+    must(oz_snapshot_create(&rig->now, &rig->scene, &rig->grains));
+    must(oz_piece_reference_snapshot(rig->reference, &rig->now));
+}
+
+static inline void rig_advance(PieceRig *rig, int64_t step)
+{
+    must(oz_piece_reference_advance(rig->reference, step));
+    must(oz_piece_reference_snapshot(rig->reference, &rig->now));
+}
+
+static inline void rig_close(PieceRig *rig)
+{
+    oz_piece_reference_free(rig->reference);
+    oz_snapshot_free(&rig->now);
+    oz_grains_free(&rig->grains);
+    oz_scene_free(&rig->scene);
+}
+
+/* Momentum, and angular momentum about the origin. */
+static inline void rig_momentum(const OzSnapshot *s, double momentum[3])
+{
+    const OzPieces *pieces = s->grains->pieces;
+    memset(momentum, 0, 3 * sizeof *momentum);
+    for (int64_t i = 0; i < pieces->free_count; i++) {
+        const double *x = &s->piece_position[2 * i], *v = &s->piece_velocity[2 * i];
+        momentum[0] += pieces->mass[i] * v[0];
+        momentum[1] += pieces->mass[i] * v[1];
+        momentum[2] +=
+            pieces->mass[i] * (x[0] * v[1] - x[1] * v[0]) + pieces->inertia[i] * s->piece_spin[i];
+    }
+}
+
+/* Kinetic energy of all pieces, without and with what contacts and beams hold. */
+static inline double rig_kinetic(const OzSnapshot *s)
+{
+    const OzPieces *pieces = s->grains->pieces;
+    double energy = 0;
+    for (int64_t i = 0; i < pieces->free_count; i++) {
+        const double *v = &s->piece_velocity[2 * i], w = s->piece_spin[i];
+        energy +=
+            0.5 * pieces->mass[i] * (v[0] * v[0] + v[1] * v[1]) + 0.5 * pieces->inertia[i] * w * w;
+    }
+    return energy;
+}
+
+static inline double rig_energy(const OzSnapshot *s)
+{
+    return rig_kinetic(s) + s->pieces.contact_energy + s->pieces.beam_energy;
+}
+
+#endif

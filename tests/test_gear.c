@@ -1,0 +1,126 @@
+/* The orders of the reference's integrators, seen on a grain that bends and turns with damping, and
+ * what Gear's start is worth. */
+#include "piece_rig.h"
+
+#define OZ_HOST
+#include "kernels/gear.h"
+
+static const double rest[2] = {0, 0};
+
+/* A square whose triangles start with rates of their own, after 1 ms. */
+static void run_square(const char *integrator, double step, double place[12])
+{
+    PieceRig rig;
+    rig_read(&rig, "gravity: [0, 0]\nintegrator: %s\ntime: {step: %.17g, duration: 1}", integrator,
+             step);
+    rig_grains(&rig, 1, 4, 4);
+    rig_square(&rig, 0, 2e-3, rest, 0.3, rest, 4);
+    for (int i = 0; i < 4; i++) {
+        rig.grains.pieces->velocity[2 * i] = 0.2 * cos(3 * i);
+        rig.grains.pieces->velocity[2 * i + 1] = 0.2 * sin(2 * i + 1);
+        rig.grains.pieces->spin[i] = 300 * cos(5 * i + 1);
+    }
+    rig_start(&rig);
+    rig_advance(&rig, (int64_t)(1e-3 / step + 0.5));
+    for (int i = 0; i < 4; i++) {
+        memcpy(&place[3 * i], &rig.now.piece_position[2 * i], 2 * sizeof(double));
+        place[3 * i + 2] = 1e-3 * rig.now.piece_angle[i];
+    }
+    rig_close(&rig);
+}
+
+static double distance(const double *a, const double *b, int count)
+{
+    double sum = 0;
+    for (int k = 0; k < count; k++) {
+        sum += (a[k] - b[k]) * (a[k] - b[k]);
+    }
+    return sqrt(sum);
+}
+
+/* Half the step divides the error by 2^order, up to the next order's part: within 0.3 of it. */
+static void check_order(const char *integrator, double step, double order)
+{
+    double exact[12], coarse[12], fine[12];
+    run_square("rk4", 1.25e-7, exact);
+    run_square(integrator, step, coarse);
+    run_square(integrator, step / 2, fine);
+    double found = log2(distance(coarse, exact, 12) / distance(fine, exact, 12));
+    print_message("%s: error %.2g m at %g s, order %.2f\n", integrator, distance(coarse, exact, 12),
+                  step, found);
+    assert_true(fabs(found - order) < 0.3);
+}
+
+static void test_orders(void **state)
+{
+    (void)state;
+    check_order("gear4", 2e-6, 4);
+    check_order("velocity-verlet", 2e-6, 2);
+    check_order("rk4", 4e-6, 4);
+}
+
+/* x'' = -x - x' / 4 from x = 1, x' = 0 for about a period, with correct or zero third and fourth
+ * derivatives at the start. */
+static double oscillator_error(int steps, int started)
+{
+    const double damping = 0.25, end = 6;
+    double rate = sqrt(1 - damping * damping / 4), dt = end / steps;
+    double exact =
+        exp(-damping * end / 2) * (cos(rate * end) + damping / (2 * rate) * sin(rate * end));
+    double third = started ? damping : 0, fourth = started ? 1 - damping * damping : 0;
+    OzGear gear = oz_gear_start(1, 0, -1, third, fourth, dt);
+    for (int i = 0; i < steps; i++) {
+        gear = oz_gear_predict(gear);
+        double force = -gear.value[0] - damping * gear.value[1] / dt;
+        gear = oz_gear_correct(gear, force, 0.5 * dt * dt);
+    }
+    return fabs(gear.value[0] - exact);
+}
+
+static void test_start(void **state)
+{
+    (void)state;
+    double started = log2(oscillator_error(400, 1) / oscillator_error(800, 1));
+    double zero = log2(oscillator_error(400, 0) / oscillator_error(800, 0));
+    print_message("gear4 with its start: order %.2f; started from zeros: %.2f\n", started, zero);
+    assert_true(fabs(started - 4) < 0.3);
+    assert_true(fabs(zero - 2) < 0.3);
+}
+
+/* The derivatives that gear4 starts from, of two triangles' axial vibration: x'' = a, x''' and
+ * x'''' follow from the linear equation. Their differences' error is of fourth order in 1e-7 s
+ * times 1e4/s; rounding is divided by the step squared. */
+static void test_derivatives(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    double second[6], third[6], fourth[6];
+    rig_read(&rig, "gravity: [0, 0]\nintegrator: gear4\ntime: {step: 1e-6, duration: 1}");
+    OzPieces *pieces = rig_grains(&rig, 1, 2, 1);
+    must(oz_pieces_set_triangle(pieces, 0, (double[6]){-2e-3, 0, -4e-4, -1e-3, -4e-4, 1e-3}, 4));
+    must(oz_pieces_set_triangle(pieces, 1, (double[6]){2e-3, 0, 4e-4, -1e-3, 4e-4, 1e-3}, 4));
+    pieces->beam_b[0] = 1;
+    oz_pieces_rest_beam(pieces, 0);
+    pieces->velocity[2] = 0.1;
+    rig_start(&rig);
+    must(oz_piece_reference_start_derivatives(&rig.now, false, second, third, fourth));
+    /* relative motion: y'' = -2 d y' - w y */
+    double d = rig.scene.beams.damping / pieces->mass[1], v = 0.1;
+    double w = 2 * rig.scene.beams.stiffness / pieces->mass[1];
+    double a = -2 * d * v, j = -2 * d * a - w * v, s = -2 * d * j - w * a;
+    assert_true(fabs(second[3] / (a / 2) - 1) < 1e-12);
+    assert_true(fabs(third[3] / (j / 2) - 1) < 1e-6);
+    assert_true(fabs(fourth[3] / (s / 2) - 1) < 1e-6);
+    assert_true(fabs(third[0] + third[3]) < 1e-9 * fabs(third[3]));
+    rig_close(&rig);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_orders),
+        cmocka_unit_test(test_start),
+        cmocka_unit_test(test_derivatives),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
