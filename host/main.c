@@ -32,12 +32,15 @@ static OzStatus draw_command(const OzOptions *options)
 
 static OzStatus keys_command(const OzOptions *options)
 {
+    static const char *const models[] = {
+        [OZ_COLUMN_RODS] = "rods", [OZ_COLUMN_TRIGRAINS] = "trigrains", [OZ_COLUMN_ALL] = "all"};
     if (!options->columns) {
         oz_keys_print(stdout);
         return OZ_OK;
     }
     for (const OzColumn *column = oz_series_columns(); column->name; column++) {
-        printf("%-20s %-8s %s\n", column->name, column->unit, column->meaning);
+        printf("%-21s %-8s %-10s %s\n", column->name, column->unit, models[column->models],
+               column->meaning);
     }
     return OZ_OK;
 }

@@ -127,11 +127,14 @@ done:
 OzStatus oz_outputs_write_final(OzOutputs *outputs)
 {
     OzStatus status = OZ_OK;
-    char *path = NULL;
+    char *path = NULL, *spectrum = NULL;
     OZ_TRY(oz_file_join(&path, outputs->folder, "final.csv"));
     OZ_TRY(oz_final_write(&outputs->now, path));
+    OZ_TRY(oz_file_join(&spectrum, outputs->folder, "inclination_spectrum.csv"));
+    OZ_TRY(oz_series_write_spectrum(outputs->series, spectrum));
 done:
     free(path);
+    free(spectrum);
     return status;
 }
 

@@ -50,7 +50,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
 /* What is due (OZ_DUE_ bits) of outputs->now. */
 OzStatus oz_outputs_look(OzOutputs *outputs, int due);
 
-/* outputs->now as final.csv. */
+/* outputs->now as final.csv, and a drum's inclination_spectrum.csv. */
 OzStatus oz_outputs_write_final(OzOutputs *outputs);
 
 /* Finishes movie, frames and series; they are whole afterwards. Returns the first failure. */

@@ -1,25 +1,12 @@
 /* A bed written by hand for tests of what looks at snapshots: a cylinder of 8 mm on a floor at
- * z = 1 mm, any number of equal grains, and a folder for the files that a test writes. */
+ * z = 1 mm, and any number of equal grains. */
 #ifndef TESTS_HAND_BED_H
 #define TESTS_HAND_BED_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "hand_folder.h"
 
 #include "base/random.h"
 #include "observe/snapshot.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-static char folder[] = "/tmp/orzo-test-XXXXXX";
 
 typedef struct Bed {
     OzWall walls[2];
@@ -60,20 +47,6 @@ static inline void put(Bed *bed, int64_t i, double z, double ux, double uy, doub
     oz_grains_quaternion(axis, &bed->snapshot.quaternion[4 * i]);
 }
 
-static inline char *in_folder(const char *name)
-{
-    static char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static inline void assert_near(double value, double expected, double tolerance)
-{
-    if (!(fabs(value - expected) <= tolerance)) {
-        fail_msg("%.12g is not %.12g within %g", value, expected, tolerance);
-    }
-}
-
 static inline void fill_randomly(Bed *bed)
 {
     OzRandom random = oz_random_stream(11, 0);
@@ -88,21 +61,6 @@ static inline void fill_randomly(Bed *bed)
             bed->snapshot.spin[3 * i + k] = oz_random_uniform(&random, -100, 100);
         }
     }
-}
-
-static inline int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-/* names: what the tests wrote, ending with NULL. */
-static inline int remove_folder(const char *const *names)
-{
-    for (; *names; names++) {
-        remove(in_folder(*names));
-    }
-    return rmdir(folder);
 }
 
 #endif

@@ -3,20 +3,9 @@
 #ifndef TESTS_HAND_HEAP_H
 #define TESTS_HAND_HEAP_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "hand_folder.h"
 
 #include "observe/snapshot.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 static const double HEAP_DENSITY = 4; /* kg/m^2 */
 

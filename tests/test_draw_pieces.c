@@ -13,7 +13,6 @@ static const double PI = 3.14159265358979323846;
 enum { SIDE = 600, NO_CONTEXT = 77 };
 
 static OzRenderer *renderer;
-static char folder[] = "/tmp/orzo-test-XXXXXX";
 
 /* 4 mm about the origin in 600 pixels, grains alone. */
 static OzLook plain_look(void)
@@ -415,8 +414,7 @@ static void back_ends_draw_the_same(void **state)
 
 static int begin(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder) || oz_renderer_create(&renderer, OZ_GL_AUTO, NULL) != OZ_OK) {
+    if (make_folder(state) != 0 || oz_renderer_create(&renderer, OZ_GL_AUTO, NULL) != OZ_OK) {
         fprintf(stderr, "%s\n", oz_status_text());
         return -1;
     }
@@ -426,11 +424,8 @@ static int begin(void **state)
 static int end(void **state)
 {
     (void)state;
-    char snapshots[256];
     oz_renderer_free(renderer);
-    snprintf(snapshots, sizeof snapshots, "%s/snapshots", folder);
-    rmdir(snapshots);
-    return rmdir(folder);
+    return remove_folder((const char *const[]){"snapshots", NULL});
 }
 
 int main(int argc, char **argv)

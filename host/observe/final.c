@@ -35,6 +35,36 @@ static void write_rows(const OzSnapshot *snapshot, FILE *file)
     }
 }
 
+/* Sums over a flat grain's pieces. */
+typedef struct Sums {
+    double area, mass, turn; /* turn: weighted by mass */
+} Sums;
+
+static Sums sum_pieces(const OzSnapshot *snapshot, int64_t g)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    Sums sums = {0};
+    for (int64_t i = pieces->first[g]; i < pieces->first[g + 1]; i++) {
+        sums.area += pieces->area[i];
+        sums.mass += pieces->mass[i];
+        sums.turn += pieces->mass[i] * (snapshot->piece_angle[i] - pieces->angle[i]);
+    }
+    return sums;
+}
+
+static void write_flat_rows(const OzSnapshot *snapshot, FILE *file)
+{
+    const OzPieces *pieces = snapshot->grains->pieces;
+    fputs(OZ_FINAL_FLAT_HEADER "\n", file);
+    for (int64_t g = 0; g < snapshot->count; g++) {
+        const double *x = &snapshot->position[3 * g], *v = &snapshot->velocity[3 * g];
+        Sums sums = sum_pieces(snapshot, g);
+        fprintf(file, "%lld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%.17g,%.17g\n", (long long)g,
+                x[0], x[1], sums.turn / sums.mass, v[0], v[1], snapshot->spin[3 * g + 2],
+                (long long)(pieces->first[g + 1] - pieces->first[g]), sums.area, sums.mass);
+    }
+}
+
 OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path)
 {
     char *temporary = NULL;
@@ -44,7 +74,7 @@ OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path)
     FILE *file = fopen(temporary, "w");
     bool good = file != NULL;
     if (file) {
-        write_rows(snapshot, file);
+        (snapshot->grains->pieces ? write_flat_rows : write_rows)(snapshot, file);
         good = !ferror(file);
         good = fclose(file) == 0 && good;
     }

@@ -1,6 +1,9 @@
-/* THE list of observables and the function of each. Knows nothing of files and of tap means, which
- * it is handed. */
+/* THE list of observables and the functions of rods' (those of flat grains are in observe/flat.c).
+ * Knows nothing of files and of tap means, which it is handed. */
 #include "observe/observables.h"
+
+#include "observe/flat.h"
+#include "observe/piece_energy.h"
 
 #include <math.h>
 
@@ -78,9 +81,15 @@ static bool nematic(const OzObservation *o, double *value)
     return oz_measure_nematic(o->snapshot, value);
 }
 
+static bool is_flat(const OzSnapshot *snapshot)
+{
+    return snapshot->grains->pieces != NULL;
+}
+
 static bool contact_count(const OzObservation *o, double *value)
 {
-    *value = (double)o->snapshot->contacts.pair_count;
+    const OzSnapshot *s = o->snapshot;
+    *value = (double)(is_flat(s) ? s->pieces.grain_pairs : s->contacts.pair_count);
     return o->snapshot->has_contacts;
 }
 
@@ -116,8 +125,8 @@ static bool speed_max(const OzObservation *o, double *value)
 
 static double kinetic_energy(const OzSnapshot *s)
 {
-    double sum = 0;
-    for (int64_t i = 0; i < s->count; i++) {
+    double sum = is_flat(s) ? oz_piece_energy_translational(s) : 0;
+    for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
         sum += s->grains->mass[i] / 2 * dot(&s->velocity[3 * i], &s->velocity[3 * i]);
     }
     return sum;
@@ -125,8 +134,8 @@ static double kinetic_energy(const OzSnapshot *s)
 
 static double rotational_energy(const OzSnapshot *s)
 {
-    double sum = 0;
-    for (int64_t i = 0; i < s->count; i++) {
+    double sum = is_flat(s) ? oz_piece_energy_rotational(s) : 0;
+    for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
         const double *w = &s->spin[3 * i];
         double along = dot(w, &s->axis[3 * i]);
         double across = dot(w, w) - along * along;
@@ -137,18 +146,40 @@ static double rotational_energy(const OzSnapshot *s)
 
 static double potential_energy(const OzSnapshot *s)
 {
-    double sum = 0;
-    for (int64_t i = 0; i < s->count; i++) {
+    double sum = is_flat(s) ? oz_piece_energy_potential(s) : 0;
+    for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
         sum -= s->grains->mass[i] * dot(s->scene->gravity, &s->position[3 * i]);
     }
     return sum;
 }
 
+static double work_of_walls(const OzSnapshot *s)
+{
+    return is_flat(s) ? s->piece_ledger.work_walls : s->ledger.work_walls;
+}
+
+double oz_observables_lost(const OzSnapshot *snapshot)
+{
+    const OzLedger *ledger = &snapshot->ledger;
+    double lost =
+        is_flat(snapshot) ? oz_piece_energy_lost(snapshot) : ledger->dissipated + ledger->friction;
+    return snapshot->has_ledger ? lost : 0;
+}
+
+static double flat_energy(const OzSnapshot *snapshot)
+{
+    return kinetic_energy(snapshot) + rotational_energy(snapshot) + potential_energy(snapshot) +
+           oz_piece_energy_stored(snapshot) + oz_observables_lost(snapshot) -
+           work_of_walls(snapshot);
+}
+
 double oz_observables_energy(const OzSnapshot *snapshot)
 {
     const OzLedger *ledger = &snapshot->ledger;
-    return kinetic_energy(snapshot) + rotational_energy(snapshot) + potential_energy(snapshot) +
-           ledger->elastic + ledger->dissipated + ledger->friction - ledger->work_walls;
+    return is_flat(snapshot) ? flat_energy(snapshot)
+                             : kinetic_energy(snapshot) + rotational_energy(snapshot) +
+                                   potential_energy(snapshot) + ledger->elastic +
+                                   ledger->dissipated + ledger->friction - ledger->work_walls;
 }
 
 static bool kinetic(const OzObservation *o, double *value)
@@ -174,7 +205,7 @@ enum { ELASTIC, DISSIPATED, FRICTION, WORK_WALLS };
 static bool ledger_entry(const OzObservation *o, double *value)
 {
     const OzLedger *l = &o->snapshot->ledger;
-    double entries[] = {l->elastic, l->dissipated, l->friction, l->work_walls};
+    double entries[] = {l->elastic, l->dissipated, l->friction, work_of_walls(o->snapshot)};
     *value = entries[o->index];
     return o->snapshot->has_ledger;
 }
@@ -187,50 +218,117 @@ static bool residual(const OzObservation *o, double *value)
 
 #define ALWAYS OZ_COLUMN_ALWAYS
 #define LEDGER OZ_COLUMN_LEDGER
+#define RODS   OZ_COLUMN_RODS
+#define FLAT   OZ_COLUMN_TRIGRAINS
+#define ALL    OZ_COLUMN_ALL
 
 /* clang-format off */
 static const OzColumn list[] = {
-    {"step", "1", "steps since the settled bed", ALWAYS, true, step, 0},
-    {"time", "s", "time since the settled bed", ALWAYS, false, time_now, 0},
-    {"tap", "1", "time / period of the first moving wall; empty without one", ALWAYS, false, tap, 0},
+    {"step", "1", "steps since the settled bed", ALL, ALWAYS, true, step, 0},
+    {"time", "s", "time since the settled bed", ALL, ALWAYS, false, time_now, 0},
+    {"tap", "1", "time / period of the first moving wall; empty without one", ALL, ALWAYS, false, tap, 0},
     {"density", "1", "0.95 V/(area H): H above the moving floor, without the top 5 % of the volume; "
-     "this and every density is empty without cylinder or floor", ALWAYS, false, density, 0},
-    {"density_all", "1", "V/(area H), the same H", ALWAYS, false, density_all, 0},
-    {"density_tap_mean", "1", "mean of density over the samples of the last two periods", ALWAYS,
+     "this and every density is empty without cylinder or floor", RODS, ALWAYS, false, density, 0},
+    {"density_all", "1", "V/(area H), the same H", RODS, ALWAYS, false, density_all, 0},
+    {"density_tap_mean", "1", "mean of density over the samples of the last two periods", RODS, ALWAYS,
      false, density_tap_mean, 0},
     {"density_com", "1", "V/(area x twice the centre of mass's height above the moving floor)",
-     ALWAYS, false, density_com, 0},
+     RODS, ALWAYS, false, density_com, 0},
     {"density_slab", "1", "share of the cylinder filled from 2 to 10 mm above the moving floor",
-     ALWAYS, false, density_slab, 0},
-    {"angle", "degrees", "mean angle between shaft and floor, rods only: 0 flat, 90 upright", ALWAYS,
+     RODS, ALWAYS, false, density_slab, 0},
+    {"angle", "degrees", "mean angle between shaft and floor, rods only: 0 flat, 90 upright", RODS, ALWAYS,
      false, angle, 0},
-    {"angle_tap_mean", "degrees", "mean of angle over the samples of the last two periods", ALWAYS,
+    {"angle_tap_mean", "degrees", "mean of angle over the samples of the last two periods", RODS, ALWAYS,
      false, angle_tap_mean, 0},
     {"angle_layer1", "degrees", "angle in the layer on the floor's place at rest, by grain centre; "
-     "empty without rods", ALWAYS, false, angle_layer, 0},
-    {"angle_layer2", "degrees", "the same in the second layer", ALWAYS, false, angle_layer, 1},
-    {"angle_layer3", "degrees", "the same in the third layer", ALWAYS, false, angle_layer, 2},
-    {"angle_layer4", "degrees", "the same in the fourth layer", ALWAYS, false, angle_layer, 3},
-    {"count_layer1", "1", "grains whose centre lies in the first layer", ALWAYS, true, count_layer, 0},
-    {"count_layer2", "1", "the same in the second layer", ALWAYS, true, count_layer, 1},
-    {"count_layer3", "1", "the same in the third layer", ALWAYS, true, count_layer, 2},
-    {"count_layer4", "1", "the same in the fourth layer", ALWAYS, true, count_layer, 3},
-    {"nematic_s", "1", "largest eigenvalue of <3uu - 1>/2, rods only: 1 aligned, 0 isotropic", ALWAYS,
+     "empty without rods", RODS, ALWAYS, false, angle_layer, 0},
+    {"angle_layer2", "degrees", "the same in the second layer", RODS, ALWAYS, false, angle_layer, 1},
+    {"angle_layer3", "degrees", "the same in the third layer", RODS, ALWAYS, false, angle_layer, 2},
+    {"angle_layer4", "degrees", "the same in the fourth layer", RODS, ALWAYS, false, angle_layer, 3},
+    {"count_layer1", "1", "grains whose centre lies in the first layer", RODS, ALWAYS, true, count_layer, 0},
+    {"count_layer2", "1", "the same in the second layer", RODS, ALWAYS, true, count_layer, 1},
+    {"count_layer3", "1", "the same in the third layer", RODS, ALWAYS, true, count_layer, 2},
+    {"count_layer4", "1", "the same in the fourth layer", RODS, ALWAYS, true, count_layer, 3},
+    {"nematic_s", "1", "largest eigenvalue of <3uu - 1>/2, rods only: 1 aligned, 0 isotropic", RODS, ALWAYS,
      false, nematic, 0},
-    {"contact_count", "1", "touching pairs of grains", ALWAYS, true, contact_count, 0},
-    {"overlap_max", "m", "deepest overlap of pairs and walls", ALWAYS, false, overlap_max, 0},
-    {"overlap_mean", "m", "mean overlap of pairs and walls; 0 when nothing touches", ALWAYS, false,
+    {"contact_count", "1", "touching pairs of grains", ALL, ALWAYS, true, contact_count, 0},
+    {"overlap_max", "m", "deepest overlap of pairs and walls", RODS, ALWAYS, false, overlap_max, 0},
+    {"overlap_mean", "m", "mean overlap of pairs and walls; 0 when nothing touches", RODS, ALWAYS, false,
      overlap_mean, 0},
-    {"speed_max", "m/s", "speed of the fastest centre", ALWAYS, false, speed_max, 0},
-    {"kinetic", "J", "kinetic energy of the centres", ALWAYS, false, kinetic, 0},
-    {"rotational", "J", "kinetic energy of the spins", ALWAYS, false, rotational, 0},
-    {"energy_potential", "J", "in gravity, from the origin", LEDGER, false, potential, 0},
-    {"energy_elastic", "J", "stored in contacts now", LEDGER, false, ledger_entry, ELASTIC},
-    {"energy_dissipated", "J", "lost in dashpots so far", LEDGER, false, ledger_entry, DISSIPATED},
-    {"energy_friction", "J", "lost by sliding so far", LEDGER, false, ledger_entry, FRICTION},
-    {"work_walls", "J", "put in by moving walls so far", LEDGER, false, ledger_entry, WORK_WALLS},
-    {"energy_residual", "J", "change of (kinetic + rotational + potential + elastic) + dissipated + "
-     "friction - work_walls since the first row; 0 but for the integrator's error", LEDGER, false,
+    {"speed_max", "m/s", "speed of the fastest centre", ALL, ALWAYS, false, speed_max, 0},
+    {"speed_mean", "m/s", "mean speed of the grains' centres", FLAT, ALWAYS, false,
+     oz_flat_speed_mean, 0},
+    {"spin_mean", "rad/s", "mean of the grains' spins without their signs", FLAT, ALWAYS, false,
+     oz_flat_spin_mean, 0},
+    {"spin_0", "rad/s", "spin of the first grain", FLAT, ALWAYS, false, oz_flat_spin, 0},
+    {"spin_1", "rad/s", "spin of the second grain", FLAT, ALWAYS, false, oz_flat_spin, 1},
+    {"kinetic", "J", "kinetic energy of the centres (trigrains: of their pieces')", ALL, ALWAYS, false, kinetic, 0},
+    {"rotational", "J", "kinetic energy of the spins (trigrains: of their pieces')", ALL, ALWAYS, false, rotational, 0},
+    {"energy_contact", "J", "stored in overlaps now", FLAT, ALWAYS, false, oz_flat_stored, 0},
+    {"energy_beam", "J", "stored in beams now", FLAT, ALWAYS, false, oz_flat_stored, 1},
+    {"contact_number", "1", "grains that a grain touches, on average", FLAT, ALWAYS, false,
+     oz_flat_contact_number, 0},
+    {"wall_touches", "1", "contacts of pieces with walls", FLAT, ALWAYS, true, oz_flat_wall_touches, 0},
+    {"touches_i", "1", "contacts of triangles, kind i: two crossings on one edge", FLAT, ALWAYS, true,
+     oz_flat_touches, OZ_TOUCH_I},
+    {"touches_ii", "1", "two crossings on different edges of both", FLAT, ALWAYS, true,
+     oz_flat_touches, OZ_TOUCH_II},
+    {"touches_iii", "1", "four crossings, two on each of two edges of both", FLAT, ALWAYS, true,
+     oz_flat_touches, OZ_TOUCH_III},
+    {"touches_iv", "1", "four crossings, one triangle cut on all edges", FLAT, ALWAYS, true,
+     oz_flat_touches, OZ_TOUCH_IV},
+    {"touches_v", "1", "six crossings", FLAT, ALWAYS, true, oz_flat_touches, OZ_TOUCH_V},
+    {"touches_vi", "1", "four crossings, both triangles cut on all edges", FLAT, ALWAYS, true,
+     oz_flat_touches, OZ_TOUCH_VI},
+    {"touches_disc", "1", "contacts of discs", FLAT, ALWAYS, true, oz_flat_touches, OZ_TOUCH_DISC},
+    {"share_i", "1", "kind i among the contacts of triangles; empty without any", FLAT, ALWAYS, false,
+     oz_flat_touch_share, OZ_TOUCH_I},
+    {"share_ii", "1", "the same, kind ii", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_II},
+    {"share_iii", "1", "the same, kind iii", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_III},
+    {"share_iv", "1", "the same, kind iv", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_IV},
+    {"share_v", "1", "the same, kind v", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_V},
+    {"share_vi", "1", "the same, kind vi", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_VI},
+    {"overlap_area_max", "m^2", "largest overlap of triangles", FLAT, ALWAYS, false,
+     oz_flat_overlap_max, 0},
+    {"overlap_area_mean", "m^2", "mean overlap of triangles; 0 when none touch", FLAT, ALWAYS, false,
+     oz_flat_overlap_mean, 0},
+    {"stretch_min", "1", "shortest beam over its length at rest", FLAT, ALWAYS, false, oz_flat_beams, 0},
+    {"stretch_max", "1", "longest beam over its length at rest", FLAT, ALWAYS, false, oz_flat_beams, 1},
+    {"bend_max", "degrees", "largest bending angle of a beam's end", FLAT, ALWAYS, false,
+     oz_flat_beams, 2},
+    {"outflow_count", "1", "grains whose centre is below observe.outlet; this and the next two are "
+     "empty without it", FLAT, ALWAYS, true, oz_flat_outflow, 0},
+    {"outflow_mass", "kg", "their mass, a metre deep", FLAT, ALWAYS, false, oz_flat_outflow, 1},
+    {"outflow_rate", "kg/s", "its growth since the row before", FLAT, ALWAYS, false,
+     oz_flat_outflow, 2},
+    {"inclination", "degrees", "slope of a line fitted to the bed's surface in the middle half of a "
+     "drum, positive up to where the drum carries it; this and the next are empty without a drum",
+     FLAT, ALWAYS, false, oz_flat_inclination, 0},
+    {"inclination_centre", "degrees", "direction from the drum's axis to the centre of mass, against "
+     "the vertical: the inclination of an even bed, with less noise", FLAT, ALWAYS, false,
+     oz_flat_inclination, 1},
+    {"inclination_mean", "degrees", "mean of inclination over the later half of the rows so far",
+     FLAT, ALWAYS, false, oz_flat_inclination, 2},
+    {"inclination_deviation", "degrees", "its standard deviation over them", FLAT, ALWAYS, false,
+     oz_flat_inclination, 3},
+    {"avalanche_count", "1", "falls of inclination_centre by half a degree or more that have ended "
+     "in a rise by half of that", FLAT, ALWAYS, true, oz_flat_inclination, 4},
+    {"avalanche_size", "degrees", "how far the last of them went down; empty before the first", FLAT,
+     ALWAYS, false, oz_flat_inclination, 5},
+    {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},
+    {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, ledger_entry, ELASTIC},
+    {"energy_dissipated", "J", "lost in dashpots so far", RODS, LEDGER, false, ledger_entry, DISSIPATED},
+    {"energy_friction", "J", "lost by sliding so far", RODS, LEDGER, false, ledger_entry, FRICTION},
+    {"energy_beam_axial", "J", "lost along beams so far", FLAT, LEDGER, false, oz_flat_ledger, 0},
+    {"energy_beam_bending", "J", "lost in beams' bending so far", FLAT, LEDGER, false,
+     oz_flat_ledger, 1},
+    {"energy_disc_damping", "J", "lost in discs' normal damping so far", FLAT, LEDGER, false,
+     oz_flat_ledger, 2},
+    {"energy_disc_friction", "J", "lost in discs' sliding so far", FLAT, LEDGER, false,
+     oz_flat_ledger, 3},
+    {"work_walls", "J", "put in by moving walls so far", ALL, LEDGER, false, ledger_entry, WORK_WALLS},
+    {"energy_residual", "J", "change of (kinetic + rotational + potential + stored) + all that is lost "
+     "- work_walls since the first row; 0 but for the integrator's error", ALL, LEDGER, false,
      residual, 0},
     {0},
 };

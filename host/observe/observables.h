@@ -3,13 +3,15 @@
 #ifndef OZ_OBSERVE_OBSERVABLES_H
 #define OZ_OBSERVE_OBSERVABLES_H
 
+#include "observe/flow.h"
 #include "observe/measure.h"
 
 /* Everything that a value of one row may depend on. */
 typedef struct OzObservation {
     OzMeasure *measure;
     const OzSnapshot *snapshot;
-    int index; /* of the column asked for                */
+    const OzFlow *flow; /* of flat grains, the snapshot seen */
+    int index;          /* of the column asked for                */
     OzLayer layers[OZ_MEASURE_LAYERS];
     bool has_density_mean, has_angle_mean;
     double density_mean, angle_mean; /* tap means, by the series               */
@@ -19,9 +21,17 @@ typedef struct OzObservation {
 
 typedef enum OzColumnNeed { OZ_COLUMN_ALWAYS, OZ_COLUMN_LEDGER } OzColumnNeed;
 
+/* The models that have a column: bits. */
+enum {
+    OZ_COLUMN_RODS = 1 << OZ_MODEL_RODS,
+    OZ_COLUMN_TRIGRAINS = 1 << OZ_MODEL_TRIGRAINS,
+    OZ_COLUMN_ALL = OZ_COLUMN_RODS | OZ_COLUMN_TRIGRAINS
+};
+
 /* One observable. value gives true and *value, or false for an empty cell. */
 typedef struct OzColumn {
     const char *name, *unit, *meaning;
+    int models;
     OzColumnNeed need;
     bool whole; /* printed as a whole number */
     bool (*value)(const OzObservation *observation, double *value);
@@ -31,8 +41,11 @@ typedef struct OzColumn {
 /* The rows in the order of series.csv, ending with a NULL name. */
 const OzColumn *oz_observables_list(void);
 
-/* Kinetic + rotational + potential + elastic + dissipated + friction - work of the walls, J:
+/* Kinetic + rotational + potential + stored + dissipated (friction too) - work of the walls, J:
  * constant but for the error of integration. */
 double oz_observables_energy(const OzSnapshot *snapshot);
+
+/* What of it is dissipated, friction too, J; 0 without a ledger. */
+double oz_observables_lost(const OzSnapshot *snapshot);
 
 #endif

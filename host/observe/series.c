@@ -26,6 +26,7 @@ struct OzSeries {
     bool has_start;
     double energy_start; /* J, of the first row */
     OzSurplus surplus;
+    OzFlow flow;
 };
 
 const OzColumn *oz_series_columns(void)
@@ -58,7 +59,8 @@ static bool ring_mean(const Ring *ring, double *mean)
 
 static bool has_column(const OzSeries *series, const OzColumn *column)
 {
-    return column->need == OZ_COLUMN_ALWAYS || series->scene->observe.ledger;
+    bool known = column->need == OZ_COLUMN_ALWAYS || series->scene->observe.ledger;
+    return known && (column->models & 1 << series->scene->model) != 0;
 }
 
 /* Ends the row; whatever failed since the last one shows here. */
@@ -121,7 +123,8 @@ void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot)
 
 static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
 {
-    OzObservation observation = {.measure = &series->measure, .snapshot = snapshot};
+    OzObservation observation = {
+        .measure = &series->measure, .snapshot = snapshot, .flow = &series->flow};
     oz_measure_layers(&series->measure, snapshot, observation.layers);
     observation.has_density_mean = ring_mean(&series->density, &observation.density_mean);
     observation.has_angle_mean = ring_mean(&series->angle, &observation.angle_mean);
@@ -146,6 +149,10 @@ static void write_cell(FILE *file, const OzColumn *column, OzObservation *observ
 
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
 {
+    OzStatus status = oz_flow_see(&series->flow, snapshot);
+    if (status != OZ_OK) {
+        return status;
+    }
     OzObservation observation = observe(series, snapshot);
     const char *comma = "";
     for (const OzColumn *column = oz_series_columns(); column->name; column++) {
@@ -159,8 +166,13 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
         series->has_start = true;
         series->energy_start = oz_observables_energy(snapshot);
     }
-    OzStatus status = end_row(series);
+    status = end_row(series);
     return status == OZ_OK ? oz_surplus_check(&series->surplus, snapshot) : status;
+}
+
+OzStatus oz_series_write_spectrum(const OzSeries *series, const char *path)
+{
+    return oz_flow_write_spectrum(&series->flow, series->scene->observe.interval, path);
 }
 
 OzStatus oz_series_free(OzSeries *series)
@@ -173,6 +185,7 @@ OzStatus oz_series_free(OzSeries *series)
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
     }
     oz_measure_free(&series->measure);
+    oz_flow_free(&series->flow);
     free(series->density.value);
     free(series->angle.value);
     free(series->path);

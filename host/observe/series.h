@@ -10,8 +10,8 @@ typedef struct OzSeries OzSeries;
  * the README. */
 const OzColumn *oz_series_columns(void);
 
-/* Opens path and writes the header row; columns that the scene cannot have (ledger off) are absent.
- * scene and grains are borrowed. Fails with OZ_ERR_FILE, naming path. */
+/* Opens path and writes the header row; columns that the scene cannot have (ledger off, another
+ * model) are absent. scene and grains are borrowed. Fails with OZ_ERR_FILE, naming path. */
 OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *scene,
                           const OzGrains *grains);
 
@@ -23,6 +23,10 @@ void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot);
 /* Writes one row and flushes. Needs contacts and, with the ledger on, the ledger: their cells are
  * empty otherwise. energy_residual counts from the first row written. */
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot);
+
+/* After the last row: writes what a drum's inclination is made of (oz_flow_write_spectrum); without
+ * a drum it writes no file. */
+OzStatus oz_series_write_spectrum(const OzSeries *series, const char *path);
 
 /* Closes; NULL is fine. */
 OzStatus oz_series_free(OzSeries *series);

@@ -15,12 +15,10 @@ static bool is_known(const OzSnapshot *snapshot)
     return snapshot->has_contacts;
 }
 
-/* Kinetic, rotational, potential and elastic energy, less the work of the walls. */
+/* Kinetic, rotational, potential and stored energy, less the work of the walls. */
 static double mechanical(const OzSnapshot *snapshot)
 {
-    const OzLedger *ledger = &snapshot->ledger;
-    double lost = snapshot->has_ledger ? ledger->dissipated + ledger->friction : 0;
-    return oz_observables_energy(snapshot) - lost;
+    return oz_observables_energy(snapshot) - oz_observables_lost(snapshot);
 }
 
 static double fall_of_a_diameter(const OzSnapshot *snapshot, const double *gravity)

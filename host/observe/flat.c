@@ -1,0 +1,133 @@
+/* One function for each kind of column of flat grains. */
+#include "observe/flat.h"
+
+#include <math.h>
+
+static const double DEGREES = 180 / 3.14159265358979323846;
+
+bool oz_flat_speed_mean(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    double sum = 0;
+    for (int64_t g = 0; g < s->count; g++) {
+        sum += hypot(s->velocity[3 * g], s->velocity[3 * g + 1]);
+    }
+    *value = sum / fmax((double)s->count, 1);
+    return s->count > 0;
+}
+
+bool oz_flat_spin_mean(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    double sum = 0;
+    for (int64_t g = 0; g < s->count; g++) {
+        sum += fabs(s->spin[3 * g + 2]);
+    }
+    *value = sum / fmax((double)s->count, 1);
+    return s->count > 0;
+}
+
+bool oz_flat_spin(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    bool there = observation->index < s->count;
+    *value = there ? s->spin[3 * observation->index + 2] : 0;
+    return there;
+}
+
+bool oz_flat_contact_number(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    *value = 2 * (double)s->pieces.grain_pairs / fmax((double)s->count, 1);
+    return s->has_contacts && s->count > 0;
+}
+
+bool oz_flat_wall_touches(const OzObservation *observation, double *value)
+{
+    *value = (double)observation->snapshot->pieces.wall_touches;
+    return observation->snapshot->has_contacts;
+}
+
+bool oz_flat_touches(const OzObservation *observation, double *value)
+{
+    *value = (double)observation->snapshot->pieces.touches[observation->index];
+    return observation->snapshot->has_contacts;
+}
+
+static double triangle_touches(const OzSnapshot *snapshot)
+{
+    int64_t sum = 0;
+    for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
+        sum += k == OZ_TOUCH_DISC ? 0 : snapshot->pieces.touches[k];
+    }
+    return (double)sum;
+}
+
+bool oz_flat_touch_share(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    double all = triangle_touches(s);
+    *value = (double)s->pieces.touches[observation->index] / fmax(all, 1);
+    return s->has_contacts && all > 0;
+}
+
+bool oz_flat_overlap_max(const OzObservation *observation, double *value)
+{
+    *value = observation->snapshot->pieces.overlap_max;
+    return observation->snapshot->has_contacts;
+}
+
+bool oz_flat_overlap_mean(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    *value = s->pieces.overlap_sum / fmax(triangle_touches(s), 1);
+    return s->has_contacts;
+}
+
+bool oz_flat_beams(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    const double values[] = {s->pieces.stretch_min, s->pieces.stretch_max,
+                             DEGREES * s->pieces.bend_max};
+    *value = values[observation->index];
+    return s->has_contacts && s->grains->pieces->beam_count > 0;
+}
+
+bool oz_flat_stored(const OzObservation *observation, double *value)
+{
+    const OzPieceSums *sums = &observation->snapshot->pieces;
+    *value = observation->index == 0 ? sums->contact_energy : sums->beam_energy;
+    return observation->snapshot->has_contacts;
+}
+
+bool oz_flat_ledger(const OzObservation *observation, double *value)
+{
+    const OzPieceLedger *l = &observation->snapshot->piece_ledger;
+    const double values[] = {l->beam_axial, l->beam_bending, l->disc_damping, l->disc_friction};
+    *value = values[observation->index];
+    return observation->snapshot->has_ledger;
+}
+
+bool oz_flat_outflow(const OzObservation *observation, double *value)
+{
+    const OzFlow *flow = observation->flow;
+    const double values[] = {(double)flow->out_count, flow->out_mass, flow->out_rate};
+    *value = values[observation->index];
+    return observation->index == 2 ? flow->has_rate : flow->has_outlet;
+}
+
+bool oz_flat_inclination(const OzObservation *observation, double *value)
+{
+    const OzFlow *flow = observation->flow;
+    bool any = flow->sample_count > 0;
+    const double values[] = {flow->surface,
+                             flow->centre,
+                             flow->mean,
+                             flow->deviation,
+                             (double)flow->avalanche_count,
+                             flow->avalanche_size};
+    const bool known[] = {flow->has_surface,        flow->has_centre, any, any, any,
+                          flow->avalanche_count > 0};
+    *value = values[observation->index];
+    return known[observation->index];
+}
