@@ -10,6 +10,7 @@
 #include "compute/stiffness.h"
 #include "model/contact.h"
 #include "model/place.h"
+#include "study/report_ensemble_table.h"
 #include "study/report_map.h"
 #include "study/report_point.h"
 #include "study/report_table.h"
@@ -18,6 +19,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static OzDevice device;
 static const OzOptions no_options;
@@ -250,6 +252,84 @@ static void test_check_and_run_warn_of_the_bed(void **state)
     assert_int_equal(0, system(command));
 }
 
+static int count_lines(const char *path, const char *with)
+{
+    char line[1024];
+    int count = 0;
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file)) {
+        count += strstr(line, with) != NULL;
+    }
+    fclose(file);
+    return count;
+}
+
+/* The study itself, with a bed of a dozen grains: a row for each step, with numbers in it. */
+static void test_ensemble_of_a_tiny_bed(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/orzo_test_report_XXXXXX", command[1024], path[128];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/bed.yaml", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "model: rods\ntime: {step: 2e-5, taps: 2}\n"
+                  "contact: {contact_time: 6e-4, restitution: 0.4, friction: 0.1}\n"
+                  "grains:\n  - {kind: random, count: 12, diameter: 0.5e-3, aspect: 2}\n"
+                  "walls:\n  - {kind: plane, motion: {frequency: 30, acceleration_ratio: 2}}\n"
+                  "  - {kind: cylinder, diameter: 3e-3}\nsettle: {drag: 70, rest_time: 0.02}\n");
+    fclose(file);
+    snprintf(command, sizeof command,
+             "'%s' report --ensemble %s --quick --seeds 1..2 --set integrator=velocity-verlet "
+             "-o %s/out >%s/said 2>&1",
+             ORZO_PROGRAM, path, folder, folder);
+    assert_int_equal(0, system(command));
+    snprintf(path, sizeof path, "%s/out/ensemble.csv", folder);
+    assert_int_equal(3, count_lines(path, ",")); /* header, 20 and 40 steps */
+    assert_int_equal(1, count_lines(path, "velocity-verlet,20,2,"));
+    assert_int_equal(1, count_lines(path, "velocity-verlet,40,2,"));
+    assert_int_equal(0, count_lines(path, ",,"));
+    snprintf(path, sizeof path, "%s/out/ensemble.png", folder);
+    assert_int_equal(system("command -v gnuplot >/dev/null") == 0, access(path, R_OK) == 0);
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    assert_int_equal(0, system(command));
+}
+
+/* Means over the later half: rows of tap 2 and later. */
+static void test_a_member_counts_its_later_half(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/orzo_test_report_XXXXXX";
+    double values[OZ_MEMBER_QUANTITIES], lift;
+    OzScene scene = {0};
+    OzGrains grains = {0};
+    const char *text = "model: rods\ntime: {step: 1e-5, duration: 1}\n"
+                       "contact: {contact_time: 1e-3, restitution: 0.5}\ngrains:\n"
+                       "  - {kind: lattice, diameter: 5e-3, cells: [2, 1, 1], spacing: [1, 1, 1],"
+                       " position: [0, 0, 0]}\n";
+    FILE *file = fdopen(mkstemp(path), "w");
+    assert_non_null(file);
+    fprintf(file, "step,tap,density_tap_mean,angle_tap_mean,contact_count,work_walls\n"
+                  "0,0,0.9,80,9,7\n1,2,0.5,20,3,10\n2,4,0.6,30,5,16\n");
+    fclose(file);
+    assert_int_equal(OZ_OK, oz_scene_parse(&scene, "two", text, NULL, 0));
+    assert_int_equal(OZ_OK, oz_place_grains(&grains, &scene));
+    assert_int_equal(OZ_OK, oz_report_member_read(values, path, &scene, &grains));
+    lift = 2 * grains.mass[0] * 9.81 * 5e-3;
+    const double expected[] = {0.55, 25, 4, 3 / lift};
+    for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
+        assert_true(fabs(values[q] / expected[q] - 1) < 1e-12); /* rounding of a few sums */
+    }
+    OzEnsemblePoint point = {.members = 2, .value = {{1, 3}}};
+    OzEnsembleMoments moments = oz_report_ensemble_table_moments(&point, 0);
+    assert_true(fabs(moments.mean - 2) < 1e-12 && fabs(moments.spread - sqrt(2)) < 1e-12);
+    assert_true(fabs(moments.interval - 12.706) < 1e-3); /* t of one degree, times 1 */
+    unlink(path);
+    oz_grains_free(&grains);
+    oz_scene_free(&scene);
+}
+
 static OzMapVerdict verdict_at(OzIntegrator integrator, double steps, double restitution)
 {
     OzMapVerdict verdict = OZ_MAP_EXPLODED;
@@ -286,6 +366,8 @@ int main(void)
         cmocka_unit_test(test_sentence_and_setting),
         cmocka_unit_test(test_an_end_is_stiffer_than_a_centre),
         cmocka_unit_test(test_check_and_run_warn_of_the_bed),
+        cmocka_unit_test(test_ensemble_of_a_tiny_bed),
+        cmocka_unit_test(test_a_member_counts_its_later_half),
         cmocka_unit_test(test_the_map_meets_theory),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);

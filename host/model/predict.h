@@ -10,6 +10,9 @@
 
 #include <stdbool.h>
 
+/* Integrators that move rods: the first of the list (OzIntegrator). */
+#define OZ_PREDICT_INTEGRATORS 3
+
 /* Phases of first touch over which a prediction is averaged. */
 #define OZ_PREDICT_PHASES 64
 

@@ -5,8 +5,10 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "model/predict.h"
 #include "scene/keys.h"
 #include "study/report_bed.h"
+#include "study/report_ensemble.h"
 #include "study/report_extreme.h"
 #include "study/report_map.h"
 #include "study/report_plot.h"
@@ -43,15 +45,6 @@ typedef struct Report {
     int count;
     char *folder;
 } Report;
-
-static int count_integrators(void)
-{
-    int count = 0;
-    for (const char *const *name = oz_keys_find("integrator")->choices; *name; name++) {
-        count++;
-    }
-    return count;
-}
 
 /* "scenes/report/bounce.yaml" is the case "bounce". */
 static OzStatus find_case(const OzReportCase **row, const char *path)
@@ -108,7 +101,7 @@ static OzStatus study_scene(Report *report, const char *path, const OzReportCase
                        .repeats = REPEATS};
     OzReportPoint like = {0};
     OZ_TRY(oz_report_point_truth(&like.truth, &job));
-    for (int i = 0; i < count_integrators(); i++) {
+    for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
         for (int p = 0; p < PRECISIONS; p++) {
             like.integrator = (OzIntegrator)i;
             like.precision = p == 0 ? OZ_PRECISION_FLOAT : OZ_PRECISION_DOUBLE;
@@ -168,6 +161,8 @@ OzStatus oz_report_run(const OzOptions *options)
     } else if (options->path_count == 0) {
         OZ_TRY(oz_status_fail(OZ_ERR_INPUT,
                               "orzo report: no scene; expected SCENE..., --extreme or --map"));
+    } else if (options->ensemble) {
+        OZ_TRY(oz_report_ensemble_run(options, report.folder));
     } else if (options->stability) {
         for (int i = 0; i < options->path_count; i++) {
             OZ_TRY(oz_report_bed_say(options->paths[i], options->settings, options->setting_count,

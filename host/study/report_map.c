@@ -132,7 +132,7 @@ static void send_theory(FILE *gnuplot, int integrator)
     fprintf(gnuplot, "EOD\n");
 }
 
-static OzStatus draw(const char *folder, const char *csv, int integrators)
+static OzStatus draw(const char *folder, const char *csv)
 {
     if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
         oz_log_line("no %s/stability.png: gnuplot is not installed", folder);
@@ -150,8 +150,8 @@ static OzStatus draw(const char *folder, const char *csv, int integrators)
         "times'\nset logscale x\nset xrange [%g:%g]\nset yrange [0:1]\n"
         "set xlabel 'steps per contact'\nset ylabel 'restitution'\nset key below\nset bmargin 6\n"
         "set datafile separator whitespace\n",
-        folder, integrators, STEPS_LOW, STEPS_HIGH);
-    for (int i = 0; i < integrators; i++) {
+        folder, OZ_PREDICT_INTEGRATORS, STEPS_LOW, STEPS_HIGH);
+    for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
         const char *name = oz_keys_choice_name("integrator", i);
         send_theory(gnuplot, i);
         fprintf(gnuplot, "set title '%s'\nplot ", name);
@@ -175,7 +175,6 @@ OzStatus oz_report_map_draw(const char *folder)
 {
     OzStatus status = OZ_OK;
     char path[PATH_SIZE];
-    int integrators = 0;
     OZ_TRY(oz_file_make_folder(folder));
     snprintf(path, sizeof path, "%s/stability.csv", folder);
     FILE *csv = fopen(path, "w");
@@ -183,14 +182,14 @@ OzStatus oz_report_map_draw(const char *folder)
         return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
     }
     fprintf(csv, "integrator,steps_per_contact,restitution,amplitude,verdict,meaning\n");
-    for (; status == OZ_OK && oz_keys_find("integrator")->choices[integrators]; integrators++) {
-        status = write_map(csv, integrators);
+    for (int i = 0; status == OZ_OK && i < OZ_PREDICT_INTEGRATORS; i++) {
+        status = write_map(csv, i);
     }
     if (fclose(csv) != 0 && status == OZ_OK) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
     }
     OZ_TRY(status);
-    OZ_TRY(draw(folder, path, integrators));
+    OZ_TRY(draw(folder, path));
     oz_log_line("%s/stability.csv and stability.png", folder);
 done:
     return status;

@@ -1,0 +1,34 @@
+/* Ensembles in words and pictures: means over seeds with their spread and interval. */
+#ifndef OZ_STUDY_REPORT_ENSEMBLE_TABLE_H
+#define OZ_STUDY_REPORT_ENSEMBLE_TABLE_H
+
+#include "study/report_member.h"
+
+#include <stdio.h>
+
+enum { OZ_ENSEMBLE_SEEDS_MAX = 256 };
+
+/* One setting. */
+typedef struct OzEnsemblePoint {
+    OzIntegrator integrator;
+    int steps;      /* per contact time                                              */
+    double seconds; /* wall clock of all members                                     */
+    int members;    /* that reached the end                                          */
+    double value[OZ_MEMBER_QUANTITIES][OZ_ENSEMBLE_SEEDS_MAX];
+    char reason[200]; /* why there are no members, or not all; empty: there are       */
+} OzEnsemblePoint;
+
+/* Over the members of a point; interval: half-width at 95 %, infinite for fewer than two. */
+typedef struct OzEnsembleMoments {
+    double mean, spread, interval;
+} OzEnsembleMoments;
+
+OzEnsembleMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity);
+
+void oz_report_ensemble_table_print(FILE *file, const OzEnsemblePoint *points, int count);
+
+/* Writes folder/ensemble.csv and, where there is gnuplot, folder/ensemble.png. */
+OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,
+                                        const OzEnsemblePoint *points, int count);
+
+#endif

@@ -1,0 +1,25 @@
+/* What one member of an ensemble says: numbers of its later half, read from its series.csv. */
+#ifndef OZ_STUDY_REPORT_MEMBER_H
+#define OZ_STUDY_REPORT_MEMBER_H
+
+#include "model/grains.h"
+
+/* One measured quantity. */
+typedef struct OzMemberQuantity {
+    const char *name, *unit; /* name: of columns too                                        */
+    const char *column; /* of series.csv                                                       */
+    bool per_tap;       /* its growth in a tap instead of its mean                              */
+    double (*unit_of)(const OzScene *scene, const OzGrains *grains); /* divides; NULL: 1        */
+} OzMemberQuantity;
+
+enum { OZ_MEMBER_QUANTITIES = 4 };
+
+/* THE list: density, angle, contacts of a grain, energy that walls put in during a tap. */
+extern const OzMemberQuantity oz_report_member_quantities[OZ_MEMBER_QUANTITIES];
+
+/* Fills values (in the list's order) from the rows whose tap is at least half of the last one's.
+ * Fails with OZ_ERR_FILE when a column is not there or a number is missing. */
+OzStatus oz_report_member_read(double values[OZ_MEMBER_QUANTITIES], const char *path,
+                               const OzScene *scene, const OzGrains *grains);
+
+#endif
