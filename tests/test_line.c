@@ -3,6 +3,8 @@
  * skew ones; energy over a slow turn and in collisions. */
 #include "rig.h"
 
+#include "study/report_parallel.h"
+
 #include "compute/dialect.h"
 
 static const double radius = 0.5e-3, half = 2e-3;
@@ -300,6 +302,23 @@ static void test_an_aligned_bed_keeps_its_energy(void **state)
     }
 }
 
+/* The report's own bed: torque under line is smooth, under single it jumps. */
+static void test_the_report_tells_them_apart(void **state)
+{
+    (void)state;
+    const char *path = ORZO_SCENES "/report/aligned.yaml";
+    OzParallelNoise line, fine, single;
+    OzOptions none = {0};
+    assert_int_equal(OZ_OK, oz_report_parallel_measure(&line, path, OZ_PARALLEL_LINE, 30, &none));
+    assert_int_equal(OZ_OK, oz_report_parallel_measure(&fine, path, OZ_PARALLEL_LINE, 90, &none));
+    assert_int_equal(OZ_OK,
+                     oz_report_parallel_measure(&single, path, OZ_PARALLEL_SINGLE, 30, &none));
+    assert_true(fabs(line.energy) < 5e-3 && single.energy > 0.1); /* reasons above */
+    /* a smooth torque's change falls with the step, to a third; edges of contacts leave it at half
+     */
+    assert_true(fine.jump < 0.5 * line.jump && single.jump > 2 * line.jump);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -310,6 +329,7 @@ int main(void)
         cmocka_unit_test(test_a_slow_loop_gives_no_energy),
         cmocka_unit_test(test_energy_balances),
         cmocka_unit_test(test_an_aligned_bed_keeps_its_energy),
+        cmocka_unit_test(test_the_report_tells_them_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

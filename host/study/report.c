@@ -137,7 +137,8 @@ static OzStatus study_scenes(Report *report)
             continue;
         }
         OZ_TRY(found);
-        OZ_TRY(study_scene(report, options->paths[i], row));
+        OZ_TRY(row->study ? row->study(options->paths[i], report->folder, options)
+                          : study_scene(report, options->paths[i], row));
     }
     oz_log_line("%d settings in %.0f s; %s/report.csv and pictures", report->count,
                 oz_clock_now() - start, report->folder);

@@ -2,6 +2,7 @@
 #include "study/report_cases.h"
 
 #include "model/contact.h"
+#include "study/report_parallel.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -139,16 +140,17 @@ static double value_residual(const OzSnapshot *end)
 }
 
 static const OzReportCase rows[] = {
-    {"normal_hit", "restitution", "", true, value_restitution, exact_restitution},
-    {"oblique_smooth", "spin after the hit", "", true, value_spin, NULL},
-    {"oblique_rough", "spin after the hit", "", true, value_spin, NULL},
-    {"rolling_sphere", "way travelled", "", false, value_way, NULL},
-    {"rolling_rod", "way travelled", "", false, value_way, NULL},
-    {"free_rotation", "direction of the shaft", "rad", false, value_axis, exact_nothing},
-    {"rest", "overlap at rest", "", false, value_overlap, exact_overlap},
-    {"bounce", "height of the third bounce", "", true, value_apex, NULL},
-    {"ten_rods", "energy", "of the energy", false, value_residual, exact_nothing},
-    {NULL, NULL, NULL, false, NULL, NULL},
+    {"normal_hit", "restitution", "", true, value_restitution, exact_restitution, NULL},
+    {"oblique_smooth", "spin after the hit", "", true, value_spin, NULL, NULL},
+    {"oblique_rough", "spin after the hit", "", true, value_spin, NULL, NULL},
+    {"rolling_sphere", "way travelled", "", false, value_way, NULL, NULL},
+    {"rolling_rod", "way travelled", "", false, value_way, NULL, NULL},
+    {"free_rotation", "direction of the shaft", "rad", false, value_axis, exact_nothing, NULL},
+    {"rest", "overlap at rest", "", false, value_overlap, exact_overlap, NULL},
+    {"bounce", "height of the third bounce", "", true, value_apex, NULL, NULL},
+    {"ten_rods", "energy", "of the energy", false, value_residual, exact_nothing, NULL},
+    {"aligned", "energy", "of the energy", false, NULL, NULL, oz_report_parallel_study},
+    {NULL, NULL, NULL, false, NULL, NULL, NULL},
 };
 
 const OzReportCase *oz_report_cases_all(void)

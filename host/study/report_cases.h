@@ -3,6 +3,7 @@
 #ifndef OZ_STUDY_REPORT_CASES_H
 #define OZ_STUDY_REPORT_CASES_H
 
+#include "cli.h"
 #include "observe/snapshot.h"
 
 typedef struct OzReportCase {
@@ -13,6 +14,8 @@ typedef struct OzReportCase {
                          a step                                                                 */
     double (*value)(const OzSnapshot *end);
     double (*exact)(const OzSnapshot *end); /* NULL: the reference in small steps is the truth */
+    OzStatus (*study)(const char *path, const char *folder,
+                      const OzOptions *options); /* NULL; or in place of all the above */
 } OzReportCase;
 
 /* The rows, ending with one whose scene is NULL. */
