@@ -37,7 +37,7 @@ static double length_of(const OzWall *wall)
     return fmax(fmax(segment, wall->diameter), fmax(wall->width, wall->height));
 }
 
-double oz_piece_walls_thickness(const OzWall *wall, double size)
+static double thickness_of(const OzWall *wall, double size)
 {
     return wall->thickness > 0 ? wall->thickness : size > 0 ? size : length_of(wall) / 20;
 }
@@ -217,7 +217,7 @@ static void put_strip(OzPatch *patch, const Strip *strip)
 OzStatus oz_piece_walls_make(OzPatch *patch, const OzWall *wall, double size)
 {
     OzStatus status = OZ_OK;
-    Strips strips = {.thickness = oz_piece_walls_thickness(wall, size)};
+    Strips strips = {.thickness = thickness_of(wall, size)};
     int vertices = 0, triangles = 0;
     list_strips(&strips, wall);
     for (int i = 0; i < strips.count; i++) {

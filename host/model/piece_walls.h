@@ -11,7 +11,4 @@
  * thickness get that of two grains of size (m), or a twentieth of their own where size is 0. */
 OzStatus oz_piece_walls_make(OzPatch *patch, const OzWall *wall, double size);
 
-/* That thickness, m. */
-double oz_piece_walls_thickness(const OzWall *wall, double size);
-
 #endif

@@ -40,19 +40,26 @@ static bool meet(const double *a, const double *b, const double *c, const double
            (cda == 0 && within(c, d, a)) || (cdb == 0 && within(c, d, b));
 }
 
+static OzStatus check_twins(const double *p, int n, const char *where)
+{
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < i; j++) {
+            if (square(p + 2 * i, p + 2 * j) == 0) {
+                return oz_status_fail(
+                    OZ_ERR_INPUT,
+                    "%s: corners %d and %d of the grain are the same point (%g, %g); expected each "
+                    "once, the first not repeated at the end",
+                    where, j, i, p[2 * i], p[2 * i + 1]);
+            }
+        }
+    }
+    return OZ_OK;
+}
+
 static OzStatus check_corners(const double *p, int n, const char *where)
 {
     for (int i = 0; i < n; i++) {
         const double *a = p + 2 * ((i + n - 1) % n), *b = p + 2 * i, *c = p + 2 * ((i + 1) % n);
-        for (int j = 0; j < i; j++) {
-            if (square(b, p + 2 * j) == 0) {
-                return oz_status_fail(
-                    OZ_ERR_INPUT,
-                    "%s: corners %d and %d of the grain are the same point (%g, %g);"
-                    " expected each once, the first not repeated at the end",
-                    where, j, i, b[0], b[1]);
-            }
-        }
         if (fabs(cross(a, b, c)) <= FLATNESS * (square(a, b) + square(b, c))) {
             return oz_status_fail(OZ_ERR_INPUT,
                                   "%s: corner %d (%g, %g) of the grain lies on the line of its "
@@ -233,6 +240,7 @@ OzStatus oz_triangulation_make(OzPatch *patch, const double *corners, int corner
         return oz_status_fail(OZ_ERR_INPUT, "%s: a grain of %d corners; expected 3 to %d", where,
                               corner_count, OZ_TRIANGULATION_CORNERS_MAX);
     }
+    OZ_TRY(check_twins(corners, corner_count, where));
     OZ_TRY(check_corners(corners, corner_count, where));
     OZ_TRY(check_edges(corners, corner_count, where));
     OZ_TRY(OZ_NEW(&ring.corner, corner_count));
