@@ -3,6 +3,7 @@
 #include "observe/frames.h"
 
 #include "base/memory.h"
+#include "observe/frame_pieces.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -13,7 +14,8 @@
 static const char MAGIC[8] = "ozframes";
 enum {
     BYTE_ORDER_MARK = 0x01020304,
-    FORMAT_VERSION = 1,
+    RODS_VERSION = 1,
+    FLAT_VERSION = 2,
     HEAD_BYTES = 32,
     GRAIN_BYTES = 3 * 8 + 4, /* diameter, length, mass, population                     */
     FRAME_HEAD_BYTES = 32,
@@ -28,43 +30,13 @@ struct OzFrames {
     char *path;
     int64_t count;
     int wall_count;
+    bool is_flat;
+    OzPieceCounts pieces; /* zero for rods */
     size_t frame_bytes;
     unsigned char *frame; /* room for one frame                            */
     size_t left;          /* reading: bytes of the file not yet read       */
     int64_t frame_number; /* reading: frames given so far                  */
 };
-
-/* A place in a block of bytes that moves on as values are packed or unpacked. */
-typedef unsigned char *Cursor;
-
-static void pack(Cursor *at, const void *value, size_t bytes)
-{
-    memcpy(*at, value, bytes);
-    *at += bytes;
-}
-
-static void unpack(Cursor *at, void *value, size_t bytes)
-{
-    memcpy(value, *at, bytes);
-    *at += bytes;
-}
-
-static void pack_floats(Cursor *at, const double *values, int64_t count)
-{
-    for (int64_t i = 0; i < count; i++) {
-        float value = (float)values[i];
-        pack(at, &value, sizeof value);
-    }
-}
-
-static void unpack_floats(Cursor *at, double *values, int64_t count)
-{
-    for (int64_t i = 0; i < count; i++) {
-        float value;
-        unpack(at, &value, sizeof value);
-        values[i] = (double)value;
-    }
-}
 
 /* FNV-1a (Fowler, Noll, Vo): any single changed byte changes it. */
 static uint64_t checksum(const unsigned char *bytes, size_t length)
@@ -88,21 +60,29 @@ static bool is_sealed(const unsigned char *block, size_t bytes)
     return memcmp(block + bytes - CHECKSUM_BYTES, &sum, sizeof sum) == 0;
 }
 
-static size_t static_bytes(int64_t count)
+static size_t head_bytes(const OzFrames *frames)
 {
-    return HEAD_BYTES + (size_t)count * GRAIN_BYTES + CHECKSUM_BYTES;
+    return HEAD_BYTES + (frames->is_flat ? OZ_FRAME_PIECES_HEAD : 0);
 }
 
-static size_t frame_bytes(int64_t count, int wall_count)
+static size_t static_bytes(const OzFrames *frames)
 {
-    return FRAME_HEAD_BYTES + (size_t)count * FRAME_GRAIN_BYTES +
-           (size_t)wall_count * FRAME_WALL_BYTES + CHECKSUM_BYTES;
+    size_t pieces = frames->is_flat ? oz_frame_pieces_static_bytes(&frames->pieces) : 0;
+    return head_bytes(frames) + (size_t)frames->count * GRAIN_BYTES + pieces + CHECKSUM_BYTES;
+}
+
+static size_t frame_bytes(const OzFrames *frames)
+{
+    size_t state = frames->is_flat ? oz_frame_pieces_bytes(&frames->pieces)
+                                   : (size_t)frames->count * FRAME_GRAIN_BYTES;
+    return FRAME_HEAD_BYTES + state + (size_t)frames->wall_count * FRAME_WALL_BYTES +
+           CHECKSUM_BYTES;
 }
 
 static OzStatus refuse(const OzFrames *frames, const char *why)
 {
-    return oz_status_fail(OZ_ERR_INPUT, "%s: %s; expected a frames.bin of orzo, version %d",
-                          frames->path, why, FORMAT_VERSION);
+    return oz_status_fail(OZ_ERR_INPUT, "%s: %s; expected a frames.bin of orzo, version %d or %d",
+                          frames->path, why, RODS_VERSION, FLAT_VERSION);
 }
 
 static OzStatus write_block(OzFrames *frames, unsigned char *block, size_t bytes)
@@ -118,21 +98,27 @@ static OzStatus write_static(OzFrames *frames, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
     unsigned char *block = NULL;
-    uint32_t marks[2] = {BYTE_ORDER_MARK, FORMAT_VERSION};
+    uint32_t marks[2] = {BYTE_ORDER_MARK, frames->is_flat ? FLAT_VERSION : RODS_VERSION};
     uint32_t walls[2] = {(uint32_t)frames->wall_count, 0};
-    size_t bytes = static_bytes(frames->count), column = (size_t)frames->count * sizeof(double);
+    size_t bytes = static_bytes(frames), column = (size_t)frames->count * sizeof(double);
     OZ_TRY(OZ_NEW(&block, bytes));
-    Cursor at = block;
-    pack(&at, MAGIC, sizeof MAGIC);
-    pack(&at, marks, sizeof marks);
-    pack(&at, &frames->count, sizeof frames->count);
-    pack(&at, walls, sizeof walls);
-    pack(&at, grains->diameter, column);
-    pack(&at, grains->length, column);
-    pack(&at, grains->mass, column);
+    OzBytes at = block;
+    oz_bytes_pack(&at, MAGIC, sizeof MAGIC);
+    oz_bytes_pack(&at, marks, sizeof marks);
+    oz_bytes_pack(&at, &frames->count, sizeof frames->count);
+    oz_bytes_pack(&at, walls, sizeof walls);
+    if (frames->is_flat) {
+        oz_frame_pieces_pack_head(&at, &frames->pieces);
+    }
+    oz_bytes_pack(&at, grains->diameter, column);
+    oz_bytes_pack(&at, grains->length, column);
+    oz_bytes_pack(&at, grains->mass, column);
     for (int64_t i = 0; i < frames->count; i++) {
         int32_t population = (int32_t)grains->population[i];
-        pack(&at, &population, sizeof population);
+        oz_bytes_pack(&at, &population, sizeof population);
+    }
+    if (frames->is_flat) {
+        oz_frame_pieces_pack_static(&at, grains->pieces);
     }
     OZ_TRY(write_block(frames, block, bytes));
 done:
@@ -161,7 +147,11 @@ OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *sc
     OZ_TRY(open_file(frames, path, "wb"));
     (*frames)->count = grains->count;
     (*frames)->wall_count = scene->wall_count;
-    (*frames)->frame_bytes = frame_bytes(grains->count, scene->wall_count);
+    (*frames)->is_flat = grains->pieces != NULL;
+    if (grains->pieces) {
+        (*frames)->pieces = oz_frame_pieces_count(grains->pieces);
+    }
+    (*frames)->frame_bytes = frame_bytes(*frames);
     OZ_TRY(OZ_NEW(&(*frames)->frame, (*frames)->frame_bytes));
     OZ_TRY(write_static(*frames, grains));
 done:
@@ -176,16 +166,20 @@ OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose
 {
     uint64_t bytes = frames->frame_bytes;
     uint32_t purposes[2] = {(uint32_t)purpose, 0};
-    Cursor at = frames->frame;
-    pack(&at, &bytes, sizeof bytes);
-    pack(&at, purposes, sizeof purposes);
-    pack(&at, &snapshot->step, sizeof snapshot->step);
-    pack(&at, &snapshot->time, sizeof snapshot->time);
-    pack_floats(&at, snapshot->wall_offset, frames->wall_count);
-    pack_floats(&at, snapshot->wall_velocity, frames->wall_count);
-    pack_floats(&at, snapshot->position, 3 * frames->count);
-    pack_floats(&at, snapshot->quaternion, 4 * frames->count);
-    pack_floats(&at, snapshot->velocity, 3 * frames->count);
+    OzBytes at = frames->frame;
+    oz_bytes_pack(&at, &bytes, sizeof bytes);
+    oz_bytes_pack(&at, purposes, sizeof purposes);
+    oz_bytes_pack(&at, &snapshot->step, sizeof snapshot->step);
+    oz_bytes_pack(&at, &snapshot->time, sizeof snapshot->time);
+    oz_bytes_pack_floats(&at, snapshot->wall_offset, frames->wall_count);
+    oz_bytes_pack_floats(&at, snapshot->wall_velocity, frames->wall_count);
+    if (frames->is_flat) {
+        oz_frame_pieces_pack(&at, snapshot);
+    } else {
+        oz_bytes_pack_floats(&at, snapshot->position, 3 * frames->count);
+        oz_bytes_pack_floats(&at, snapshot->quaternion, 4 * frames->count);
+        oz_bytes_pack_floats(&at, snapshot->velocity, 3 * frames->count);
+    }
     return write_block(frames, frames->frame, frames->frame_bytes);
 }
 
@@ -227,31 +221,66 @@ static OzStatus measure_file(OzFrames *frames)
     return OZ_OK;
 }
 
-/* Reads the head into block and checks that the grains it promises are there. */
-static OzStatus read_head(OzFrames *frames, unsigned char block[HEAD_BYTES])
+static bool counts_are_possible(const OzFrames *frames)
+{
+    const OzPieceCounts *p = &frames->pieces;
+    const int64_t counts[] = {frames->count, p->walls,       p->beams,
+                              p->outlines,   p->free_pieces, p->wall_pieces};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        if (counts[i] < 0 || counts[i] > COUNT_MAX) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Reads the part of the head that all files have into block. */
+static OzStatus read_common_head(OzFrames *frames, unsigned char *block)
 {
     OzStatus status = OZ_OK;
     char magic[sizeof MAGIC];
     uint32_t marks[2], walls[2];
-    size_t size = frames->left;
     OZ_TRY(read_block(frames, block, HEAD_BYTES));
-    Cursor at = block;
-    unpack(&at, magic, sizeof magic);
-    unpack(&at, marks, sizeof marks);
-    unpack(&at, &frames->count, sizeof frames->count);
-    unpack(&at, walls, sizeof walls);
+    OzBytes at = block;
+    oz_bytes_unpack(&at, magic, sizeof magic);
+    oz_bytes_unpack(&at, marks, sizeof marks);
+    oz_bytes_unpack(&at, &frames->count, sizeof frames->count);
+    oz_bytes_unpack(&at, walls, sizeof walls);
     if (memcmp(magic, MAGIC, sizeof MAGIC) != 0) {
         status = refuse(frames, "not a file of frames");
     } else if (marks[0] != BYTE_ORDER_MARK) {
         status = refuse(frames, "written on a machine with another byte order");
-    } else if (marks[1] != FORMAT_VERSION) {
+    } else if (marks[1] != RODS_VERSION && marks[1] != FLAT_VERSION) {
         status = refuse(frames, "another version of the format");
-    } else if (frames->count < 0 || frames->count > COUNT_MAX || walls[0] > COUNT_MAX) {
+    }
+    frames->is_flat = marks[1] == FLAT_VERSION;
+    frames->pieces.grains = frames->count;
+    frames->pieces.walls = walls[0];
+    frames->wall_count = walls[0] > COUNT_MAX ? COUNT_MAX : (int)walls[0];
+done:
+    return status;
+}
+
+/* Reads the head into block and checks that the grains it promises are there. */
+static OzStatus read_head(OzFrames *frames, unsigned char *block)
+{
+    OzStatus status = OZ_OK;
+    size_t size = frames->left;
+    OZ_TRY(read_common_head(frames, block));
+    if (frames->is_flat && frames->left < OZ_FRAME_PIECES_HEAD) {
+        status = refuse(frames, "too short");
+        goto done;
+    }
+    if (frames->is_flat) {
+        OzBytes at = block + HEAD_BYTES;
+        OZ_TRY(read_block(frames, at, OZ_FRAME_PIECES_HEAD));
+        oz_frame_pieces_unpack_head(&at, &frames->pieces);
+    }
+    if (!counts_are_possible(frames)) {
         status = refuse(frames, "damaged: impossible number of grains or walls");
-    } else if (static_bytes(frames->count) > size) {
+    } else if (static_bytes(frames) > size) {
         status = refuse(frames, "cut short or damaged before its first frame");
     }
-    frames->wall_count = (int)walls[0];
 done:
     return status;
 }
@@ -263,17 +292,17 @@ static bool grain_is_sound(const OzGrains *grains, int64_t i)
            mass < 1e30 && grains->population[i] >= 0;
 }
 
-static OzStatus unpack_grains(const OzFrames *frames, OzGrains *grains, Cursor at)
+static OzStatus unpack_grains(const OzFrames *frames, OzGrains *grains, OzBytes *from)
 {
     OzStatus status = OZ_OK;
     size_t column = (size_t)frames->count * sizeof(double);
     OZ_TRY(oz_grains_create(grains, frames->count));
-    unpack(&at, grains->diameter, column);
-    unpack(&at, grains->length, column);
-    unpack(&at, grains->mass, column);
+    oz_bytes_unpack(from, grains->diameter, column);
+    oz_bytes_unpack(from, grains->length, column);
+    oz_bytes_unpack(from, grains->mass, column);
     for (int64_t i = 0; i < frames->count; i++) {
         int32_t population;
-        unpack(&at, &population, sizeof population);
+        oz_bytes_unpack(from, &population, sizeof population);
         grains->population[i] = population;
         if (!grain_is_sound(grains, i)) {
             status = refuse(frames, "damaged: impossible size or mass of a grain");
@@ -289,20 +318,35 @@ done:
     return status;
 }
 
+static OzStatus unpack_pieces(const OzFrames *frames, OzGrains *grains, OzBytes *from)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_pieces_create(&grains->pieces, &frames->pieces));
+    if (!oz_frame_pieces_unpack_static(from, grains->pieces)) {
+        status = refuse(frames, "damaged: impossible pieces of grains or walls");
+    }
+done:
+    return status;
+}
+
 static OzStatus read_static(OzFrames *frames, OzGrains *grains)
 {
     OzStatus status = OZ_OK;
-    unsigned char head[HEAD_BYTES], *block = NULL;
+    unsigned char head[HEAD_BYTES + OZ_FRAME_PIECES_HEAD], *block = NULL;
     OZ_TRY(read_head(frames, head));
-    size_t bytes = static_bytes(frames->count);
+    size_t bytes = static_bytes(frames), known = head_bytes(frames);
     OZ_TRY(OZ_NEW(&block, bytes));
-    memcpy(block, head, HEAD_BYTES);
-    OZ_TRY(read_block(frames, block + HEAD_BYTES, bytes - HEAD_BYTES));
+    memcpy(block, head, known);
+    OZ_TRY(read_block(frames, block + known, bytes - known));
     if (!is_sealed(block, bytes)) {
         status = refuse(frames, "damaged: the checksum of its grains is wrong");
         goto done;
     }
-    OZ_TRY(unpack_grains(frames, grains, block + HEAD_BYTES));
+    OzBytes at = block + known;
+    OZ_TRY(unpack_grains(frames, grains, &at));
+    if (frames->is_flat) {
+        OZ_TRY(unpack_pieces(frames, grains, &at));
+    }
 done:
     free(block);
     return status;
@@ -315,7 +359,7 @@ OzStatus oz_frames_open(OzFrames **frames, const char *path, OzGrains *grains)
     OZ_TRY(open_file(frames, path, "rb"));
     OZ_TRY(measure_file(*frames));
     OZ_TRY(read_static(*frames, grains));
-    (*frames)->frame_bytes = frame_bytes((*frames)->count, (*frames)->wall_count);
+    (*frames)->frame_bytes = frame_bytes(*frames);
     /* Without one whole frame none is ever read, and no room is needed for it. */
     if ((*frames)->frame_bytes <= (*frames)->left) {
         OZ_TRY(OZ_NEW(&(*frames)->frame, (*frames)->frame_bytes));
@@ -329,21 +373,30 @@ done:
     return status;
 }
 
+static void unpack_standing(OzBytes *at, OzSnapshot *snapshot)
+{
+    oz_bytes_unpack_floats(at, snapshot->position, 3 * snapshot->count);
+    oz_bytes_unpack_floats(at, snapshot->quaternion, 4 * snapshot->count);
+    oz_bytes_unpack_floats(at, snapshot->velocity, 3 * snapshot->count);
+    memset(snapshot->spin, 0, (size_t)(3 * snapshot->count) * sizeof *snapshot->spin);
+    oz_snapshot_turn_axes(snapshot);
+}
+
 static void unpack_frame(const OzFrames *frames, OzSnapshot *snapshot, int *purpose)
 {
     uint32_t purposes[2];
-    Cursor at = frames->frame + sizeof(uint64_t);
-    unpack(&at, purposes, sizeof purposes);
-    unpack(&at, &snapshot->step, sizeof snapshot->step);
-    unpack(&at, &snapshot->time, sizeof snapshot->time);
-    unpack_floats(&at, snapshot->wall_offset, frames->wall_count);
-    unpack_floats(&at, snapshot->wall_velocity, frames->wall_count);
-    unpack_floats(&at, snapshot->position, 3 * frames->count);
-    unpack_floats(&at, snapshot->quaternion, 4 * frames->count);
-    unpack_floats(&at, snapshot->velocity, 3 * frames->count);
-    memset(snapshot->spin, 0, (size_t)(3 * frames->count) * sizeof *snapshot->spin);
+    OzBytes at = frames->frame + sizeof(uint64_t);
+    oz_bytes_unpack(&at, purposes, sizeof purposes);
+    oz_bytes_unpack(&at, &snapshot->step, sizeof snapshot->step);
+    oz_bytes_unpack(&at, &snapshot->time, sizeof snapshot->time);
+    oz_bytes_unpack_floats(&at, snapshot->wall_offset, frames->wall_count);
+    oz_bytes_unpack_floats(&at, snapshot->wall_velocity, frames->wall_count);
+    if (frames->is_flat) {
+        oz_frame_pieces_unpack(&at, snapshot);
+    } else {
+        unpack_standing(&at, snapshot);
+    }
     snapshot->has_contacts = snapshot->has_ledger = false;
-    oz_snapshot_turn_axes(snapshot);
     *purpose = (int)purposes[0];
 }
 
@@ -352,11 +405,15 @@ OzStatus oz_frames_next(OzFrames *frames, OzSnapshot *snapshot, int *purpose, bo
     OzStatus status = OZ_OK;
     uint64_t bytes = 0;
     *more = false;
-    if (snapshot->count != frames->count || snapshot->scene->wall_count != frames->wall_count) {
+    int64_t pieces = frames->pieces.free_pieces + frames->pieces.wall_pieces;
+    if (snapshot->count != frames->count || snapshot->scene->wall_count != frames->wall_count ||
+        snapshot->piece_count != pieces) {
         return oz_status_fail(OZ_ERR_INPUT,
-                              "%s holds %lld grains and %d walls, the scene %lld and %d",
+                              "%s holds %lld grains, %d walls and %lld pieces, the scene %lld, %d "
+                              "and %lld",
                               frames->path, (long long)frames->count, frames->wall_count,
-                              (long long)snapshot->count, snapshot->scene->wall_count);
+                              (long long)pieces, (long long)snapshot->count,
+                              snapshot->scene->wall_count, (long long)snapshot->piece_count);
     }
     if (frames->frame_bytes > frames->left) {
         return OZ_OK;

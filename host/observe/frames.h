@@ -10,6 +10,13 @@
  *           f32 position[3 count]; f32 quaternion[4 count]; f32 velocity[3 count]
  *           u64 checksum of this frame
  *   ...     further frames to the end of the file
+ * Version 2, of trigrains, differs thus:
+ *   head    followed by i64 pieces of grains; i64 of walls; i64 beam_count; i64 outline_count
+ *   grains  followed by i32 first[count + wall_count + 1]; for all pieces f64 radius, corner x 6,
+ *           area, mass, inertia, angle (array after array); i32 beam_a, beam_b, outline_piece,
+ *           outline_edge (array after array)
+ *   frame   f32 piece_position[2 pieces]; f32 piece_angle[pieces]; f32 piece_velocity[2 pieces] in
+ *           the place of position, quaternion and velocity
  * SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
 #ifndef OZ_OBSERVE_FRAMES_H
 #define OZ_OBSERVE_FRAMES_H
@@ -32,8 +39,9 @@ OzStatus
 oz_frames_finish(OzFrames *frames); /* closes and frees, also after reading; NULL is fine */
 
 /* Opens for reading: *grains receives geometry, mass, inertia and population, at the origin and
- * upright (the caller frees). A damaged or foreign file is refused by name with OZ_ERR_INPUT; a
- * file cut short by a crash gives its whole frames. Nothing larger than the file is ever allocated.
+ * upright, and trigrains' pieces (the caller frees). A damaged or foreign file is refused by name
+ * with OZ_ERR_INPUT; a file cut short by a crash gives its whole frames. Nothing larger than the
+ * file is ever allocated.
  */
 OzStatus oz_frames_open(OzFrames **frames, const char *path, OzGrains *grains);
 
