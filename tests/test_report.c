@@ -58,7 +58,9 @@ static OzReportPoint measured(const char *scene, OzIntegrator integrator, int st
 {
     char path[512];
     OzReportJob job = job_of(scene, path);
-    OzReportPoint point = {.integrator = integrator,
+    OzReportPoint point = {.device = &device,
+                           .label = "",
+                           .integrator = integrator,
                            .precision = OZ_PRECISION_DOUBLE,
                            .steps = steps,
                            .truth = truth_of(scene)};
@@ -148,6 +150,7 @@ static void test_unstable_settings_say_why(void **state)
 static OzReportPoint made_up(int steps, double wall, double error)
 {
     return (OzReportPoint){.scene = "made_up",
+                           .label = "",
                            .row = oz_report_cases_find("normal_hit"),
                            .steps = steps,
                            .step = 1e-3 / steps,
@@ -171,6 +174,8 @@ static void test_front_cheapest_and_order(void **state)
     assert_int_equal(20, oz_report_table_cheapest(points, 5, 0.03)->steps);
     assert_null(oz_report_table_cheapest(points, 5, 1e-3));
     assert_true(fabs(oz_report_table_order(points, 5, &points[0]) - 2) < 1e-9);
+    points[2].device = &device; /* another device is another curve: two points have no order */
+    assert_true(isnan(oz_report_table_order(points, 5, &points[0])));
 }
 
 static void test_sentence_and_setting(void **state)
@@ -179,11 +184,13 @@ static void test_sentence_and_setting(void **state)
     char *text = NULL;
     size_t size = 0;
     OzReportPoint point = made_up(20, 2, 0.025);
+    point.label = "gpu";
     FILE *file = open_memstream(&text, &size);
     assert_non_null(file);
     oz_report_table_say(file, &point, 1, 0.03, true);
     fclose(file);
     assert_non_null(strstr(text, "for an error of 3 % in restitution use euler, float"));
+    assert_non_null(strstr(text, "2 seconds per simulated second on gpu\n"));
     assert_non_null(strstr(text, "time:\n  step: 5e-05\nintegrator: euler\nprecision: float\n"));
     free(text);
 }

@@ -30,7 +30,8 @@ enum {
     PHASES = 32,
     PHASES_QUICK = 8,
     REPEATS = 5,
-    METHODS_MOST = 32
+    DEVICES_MOST = 4,
+    METHODS_MOST = 8 * DEVICES_MOST /* integrators x precisions x devices */
 };
 
 /* Without --tolerance. */
@@ -40,7 +41,11 @@ static const char *const folder_default = "report";
 
 typedef struct Report {
     const OzOptions *options;
-    OzDevice device;
+    OzDevice devices[DEVICES_MOST];
+    char *device_list; /* cut at its commas: labels point into it    */
+    const char *labels[DEVICES_MOST];
+    char device_names[DEVICES_MOST * 160]; /* of all, for pictures */
+    int device_count;
     OzReportPoint *points;
     int count;
     char *folder;
@@ -87,6 +92,24 @@ done:
     return status;
 }
 
+static OzStatus study_device(Report *report, OzReportJob *job, OzReportPoint *like, int d)
+{
+    OzStatus status = OZ_OK;
+    job->device = like->device = &report->devices[d];
+    like->label = report->device_count > 1 ? report->labels[d] : "";
+    for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
+        for (int p = 0; p < PRECISIONS; p++) {
+            like->integrator = (OzIntegrator)i;
+            like->precision = p == 0 ? OZ_PRECISION_FLOAT : OZ_PRECISION_DOUBLE;
+            if (like->precision == OZ_PRECISION_FLOAT || like->device->has_double) {
+                OZ_TRY(study_method(report, job, like));
+            }
+        }
+    }
+done:
+    return status;
+}
+
 static OzStatus study_scene(Report *report, const char *path, const OzReportCase *row)
 {
     OzStatus status = OZ_OK;
@@ -94,28 +117,46 @@ static OzStatus study_scene(Report *report, const char *path, const OzReportCase
     double tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE;
     int first = report->count;
     OzReportJob job = {.options = options,
-                       .device = &report->device,
                        .path = path,
                        .row = row,
                        .phases = options->quick ? PHASES_QUICK : PHASES,
                        .repeats = REPEATS};
     OzReportPoint like = {0};
     OZ_TRY(oz_report_point_truth(&like.truth, &job));
-    for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
-        for (int p = 0; p < PRECISIONS; p++) {
-            like.integrator = (OzIntegrator)i;
-            like.precision = p == 0 ? OZ_PRECISION_FLOAT : OZ_PRECISION_DOUBLE;
-            if (like.precision == OZ_PRECISION_FLOAT || report->device.has_double) {
-                OZ_TRY(study_method(report, &job, &like));
-            }
-        }
+    for (int d = 0; d < report->device_count; d++) {
+        OZ_TRY(study_device(report, &job, &like, d));
     }
     oz_report_table_front(report->points + first, report->count - first);
     oz_report_table_say(stdout, report->points + first, report->count - first, tolerance,
                         options->tolerance > 0);
     fflush(stdout);
-    OZ_TRY(oz_report_plot_draw(report->folder, report->device.name, report->points + first,
+    OZ_TRY(oz_report_plot_draw(report->folder, report->device_names, report->points + first,
                                report->count - first));
+done:
+    return status;
+}
+
+/* Those of --device cpu,gpu, or the one that a run would take. */
+static OzStatus open_devices(Report *report)
+{
+    OzStatus status = OZ_OK;
+    const OzOptions *options = report->options;
+    OZ_TRY(oz_memory_text(&report->device_list, options->device ? options->device : "auto"));
+    for (char *rest = report->device_list; rest;) {
+        int d = report->device_count;
+        if (d == DEVICES_MOST) {
+            status = oz_status_fail(OZ_ERR_INPUT, "--device %s: at most %d devices",
+                                    options->device, DEVICES_MOST);
+            goto done;
+        }
+        report->labels[d] = strsep(&rest, ",");
+        OZ_TRY(oz_device_open(&report->devices[d], report->labels[d], d ? 0 : options->threads));
+        report->device_count++;
+        printf("device: %s\n", report->devices[d].name);
+        size_t length = strlen(report->device_names);
+        snprintf(report->device_names + length, sizeof report->device_names - length, "%s%.150s",
+                 d ? " | " : "", report->devices[d].name);
+    }
 done:
     return status;
 }
@@ -126,9 +167,8 @@ static OzStatus study_scenes(Report *report)
     const OzOptions *options = report->options;
     double start = oz_clock_now();
     OZ_TRY(OZ_NEW(&report->points, options->path_count * METHODS_MOST * RUNGS));
-    OZ_TRY(oz_device_open(&report->device, options->device, options->threads));
+    OZ_TRY(open_devices(report));
     OZ_TRY(oz_file_make_folder(report->folder));
-    printf("device: %s\n", report->device.name);
     for (int i = 0; i < options->path_count; i++) {
         const OzReportCase *row = NULL;
         OzStatus found = find_case(&row, options->paths[i]);
@@ -173,7 +213,10 @@ OzStatus oz_report_run(const OzOptions *options)
         OZ_TRY(study_scenes(&report));
     }
 done:
-    oz_device_close(&report.device);
+    for (int d = 0; d < report.device_count; d++) {
+        oz_device_close(&report.devices[d]);
+    }
+    free(report.device_list);
     free(report.points);
     free(report.folder);
     if (status != OZ_OK) {

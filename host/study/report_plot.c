@@ -12,15 +12,10 @@
 /* Where an error of nothing is drawn: below any rounding. */
 #define LEAST_ERROR 1e-17
 
-static bool same_curve(const OzReportPoint *a, const OzReportPoint *b)
-{
-    return a->integrator == b->integrator && a->precision == b->precision;
-}
-
 static bool begins_curve(const OzReportPoint *points, int i)
 {
     for (int before = 0; before < i; before++) {
-        if (points[before].good && same_curve(&points[before], &points[i])) {
+        if (points[before].good && oz_report_table_alike(&points[before], &points[i])) {
             return false;
         }
     }
@@ -41,7 +36,7 @@ static void send_data(FILE *gnuplot, const OzReportPoint *points, int count)
         if (begins_curve(points, i)) {
             fprintf(gnuplot, "$curve%d << EOD\n", i);
             for (int j = i; j < count; j++) {
-                if (points[j].good && same_curve(&points[i], &points[j])) {
+                if (points[j].good && oz_report_table_alike(&points[i], &points[j])) {
                     send_row(gnuplot, &points[j]);
                 }
             }
@@ -66,8 +61,9 @@ static void send_curve(FILE *gnuplot, const OzReportPoint *points, int count, in
     bool is_double = p->precision == OZ_PRECISION_DOUBLE;
     double order = oz_report_table_order(points, count, p);
     char title[128];
-    snprintf(title, sizeof title, "%s, %s", oz_keys_choice_name("integrator", (int)p->integrator),
-             oz_keys_choice_name("precision", (int)p->precision));
+    snprintf(
+        title, sizeof title, "%s, %s%s%.40s", oz_keys_choice_name("integrator", (int)p->integrator),
+        oz_keys_choice_name("precision", (int)p->precision), p->label[0] ? ", " : "", p->label);
     if (is_double && isfinite(order)) {
         size_t length = strlen(title);
         snprintf(title + length, sizeof title - length, " (order %.1f)", order);

@@ -12,9 +12,9 @@
 #define OZ_REPORT_POINT_TRUTH 10000
 
 typedef struct OzReportJob {
-    const OzOptions *options; /* settings, device, source folder, --force */
-    const OzDevice *device;
-    const char *path; /* scene file                                       */
+    const OzOptions *options; /* settings, source folder, --force */
+    const OzDevice *device;   /* that of the points */
+    const char *path;         /* scene file                                       */
     const OzReportCase *row;
     int phases;  /* copies side by side, each starting earlier by another share of a step, evenly
                     stratified  (without phases of first touch all alike)  */
@@ -24,6 +24,8 @@ typedef struct OzReportJob {
 typedef struct OzReportPoint {
     char scene[64];
     const OzReportCase *row;
+    const OzDevice *device; /* borrowed                                          */
+    const char *label;      /* the device as it was asked for; "" when it is the only one */
     OzIntegrator integrator;
     OzPrecision precision;
     int steps;        /* per contact time                                     */

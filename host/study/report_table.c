@@ -51,13 +51,17 @@ const OzReportPoint *oz_report_table_cheapest(const OzReportPoint *points, int c
     return best;
 }
 
+bool oz_report_table_alike(const OzReportPoint *a, const OzReportPoint *b)
+{
+    return a->integrator == b->integrator && a->precision == b->precision && a->device == b->device;
+}
+
 double oz_report_table_order(const OzReportPoint *points, int count, const OzReportPoint *like)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (int i = 0; i < count; i++) {
         const OzReportPoint *p = &points[i];
-        if (p->good && p->integrator == like->integrator && p->precision == like->precision &&
-            p->error_rms > ROUNDING) {
+        if (p->good && oz_report_table_alike(p, like) && p->error_rms > ROUNDING) {
             double a = log(p->step), b = log(p->error_rms);
             n += 1;
             x += a;
@@ -73,9 +77,9 @@ static void say_failures(FILE *file, const OzReportPoint *points, int count)
 {
     for (int i = 0; i < count; i++) {
         if (!points[i].good) {
-            fprintf(file, "  left out: %s, %s, %d steps per contact: %s\n",
+            fprintf(file, "  left out: %s, %s, %d steps per contact%s%s: %s\n",
                     integrator_name(&points[i]), precision_name(&points[i]), points[i].steps,
-                    points[i].reason);
+                    points[i].label[0] ? " on " : "", points[i].label, points[i].reason);
         }
     }
 }
@@ -103,9 +107,9 @@ void oz_report_table_say(FILE *file, const OzReportPoint *points, int count, dou
     if (best) {
         fprintf(file,
                 "%s: for an error of %s in %s use %s, %s, at dt = %.4g s (%d steps per contact): "
-                "%.3g seconds per simulated second\n",
+                "%.3g seconds per simulated second%s%s\n",
                 points[0].scene, error, row->quantity, integrator_name(best), precision_name(best),
-                best->step, best->steps, best->wall);
+                best->step, best->steps, best->wall, best->label[0] ? " on " : "", best->label);
     } else {
         fprintf(file, "%s: no setting of this ladder keeps the error in %s below %s\n",
                 points[0].scene, row->quantity, error);
@@ -126,7 +130,7 @@ static void write_row(FILE *file, const OzReportPoint *p)
     } else {
         fprintf(file, ",,,,,,");
     }
-    fprintf(file, "\"%s\"\n", p->reason);
+    fprintf(file, "\"%s\",\"%s\"\n", p->reason, p->device ? p->device->name : "");
 }
 
 OzStatus oz_report_table_write(const char *folder, const OzReportPoint *points, int count)
@@ -142,7 +146,7 @@ OzStatus oz_report_table_write(const char *folder, const OzReportPoint *points, 
     }
     fprintf(file, "scene,quantity,integrator,precision,steps_per_contact,step,"
                   "evaluations_per_simulated_s,truth,error_rms,error_max,wall_per_simulated_s,"
-                  "wall_low,wall_high,pareto,reason\n");
+                  "wall_low,wall_high,pareto,reason,device\n");
     for (int i = 0; i < count; i++) {
         write_row(file, &points[i]);
     }

@@ -14,8 +14,11 @@ void oz_report_table_front(OzReportPoint *points, int count);
 const OzReportPoint *oz_report_table_cheapest(const OzReportPoint *points, int count,
                                               double tolerance);
 
+/* Whether two points are of one method: integrator, precision and device. */
+bool oz_report_table_alike(const OzReportPoint *a, const OzReportPoint *b);
+
 /* The order at which one method's RMS error falls with the step, fitted over its good points
- * (points of the same integrator and precision as like); NAN where errors are mere rounding or too
+ * (those alike); NAN where errors are mere rounding or too
  * few. */
 double oz_report_table_order(const OzReportPoint *points, int count, const OzReportPoint *like);
 
