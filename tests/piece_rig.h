@@ -80,10 +80,10 @@ static inline void rig_square(PieceRig *rig, int g, double edge, const double ce
         must(oz_pieces_set_triangle(pieces, 4 * g + k, corners, density));
         memcpy(&pieces->velocity[2 * (4 * g + k)], velocity, 2 * sizeof(double));
     }
+    const int ends[4][2] = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
     for (int k = 0; k < 4; k++) {
-        int one = 4 * g + k, next = 4 * g + (k + 1) % 4;
-        pieces->beam_a[4 * g + k] = one < next ? one : next;
-        pieces->beam_b[4 * g + k] = one < next ? next : one;
+        pieces->beam_a[4 * g + k] = 4 * g + ends[k][0];
+        pieces->beam_b[4 * g + k] = 4 * g + ends[k][1];
         oz_pieces_rest_beam(pieces, 4 * g + k);
     }
 }

@@ -1,0 +1,27 @@
+/* The largest step at which grains of beams, and contacts of pieces, are stable. */
+#ifndef OZ_MODEL_BEAM_LIMITS_H
+#define OZ_MODEL_BEAM_LIMITS_H
+
+#include "model/grains.h"
+
+/* What sets the largest step of a scene of pieces. */
+typedef struct OzBeamLimit {
+    int64_t grain;       /* of the stiffest                                                    */
+    int64_t beam;        /* that holds most of its fastest vibration; -1: a contact does       */
+    double rate;         /* rad/s: fastest vibration of that grain, a whole edge in contact    */
+    double damping;      /* 1/s: fastest loss of speed, twice the decay of a vibration         */
+    double largest_step; /* s; INFINITY without anything stiff                                 */
+} OzBeamLimit;
+
+/* Below which a vibration of this angular frequency without damping, with a damping force that
+ * takes speed at this rate (1/s), is stable, s. gear4: c dt / 0.3 + (w dt)^2 < 1 and w dt < 0.55
+ * (beyond that one without damping grows by more than a hundredth in a period; below, by less);
+ * velocity-verlet: (w dt)^2 + 4 c dt < 4; rk4: c dt / 2.78 + (w dt / 2.82)^2 < 1. */
+double oz_beam_limits_step(OzIntegrator integrator, double rate, double damping);
+
+/* For the scene's integrator and substeps. Every grain's beams are taken at rest; every piece may
+ * also press another, alike, with the whole of its longest edge (discs: hooke's binary hit, or
+ * hertz at an overlap of a tenth of the radius). Fails with OZ_ERR_MEMORY. */
+OzStatus oz_beam_limits_find(OzBeamLimit *limit, const OzScene *scene, const OzGrains *grains);
+
+#endif
