@@ -1,0 +1,18 @@
+/* Which scenes of trigrains may be members of one simulation, and how many a device holds. */
+#ifndef OZ_COMPUTE_PIECE_COMPANY_H
+#define OZ_COMPUTE_PIECE_COMPANY_H
+
+#include "compute/sim.h"
+
+#include <stdbool.h>
+
+/* Whether two scenes can share launches: the same kernel switches, step, number of walls and
+ * settling. Numbers of pieces may differ. */
+bool oz_piece_company_fits(const OzDevice *device, const OzMember *a, const OzMember *b);
+
+/* How many members like this one fit the device's memory at a time, lists grown by half included;
+ * at least 1. *bytes receives what one needs. */
+OzStatus oz_piece_company_most(const OzDevice *device, const OzMember *member, int64_t *most,
+                               double *bytes);
+
+#endif

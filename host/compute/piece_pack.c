@@ -1,0 +1,252 @@
+/* Packing and unpacking pieces. */
+#include "compute/piece_pack.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Words of a state and of a coordinate are told apart by the device's order, not by a macro, here.
+ */
+static int state_words(const OzPieceArrays *arrays)
+{
+    return 3 * arrays->switches.order;
+}
+
+/* Where word `word` of a slot is in an array of blocks of `words` words. */
+static size_t at(const OzPieceArrays *arrays, int slot, int words, int word)
+{
+    int lanes = arrays->switches.lanes;
+    return ((size_t)(slot / lanes) * (size_t)words + (size_t)word) * (size_t)lanes +
+           (size_t)(slot % lanes);
+}
+
+static double inverse(double value)
+{
+    return value > 0 ? 1 / value : 0;
+}
+
+/* How far a piece may go in one step: half of what it is thick, or a disc's radius, so that none
+ * can pass through another unseen. */
+static double stride_most(const OzPieces *pieces, int64_t i)
+{
+    return 0.5 * fmin(pieces->reach[i], pieces->area[i] / pieces->reach[i]);
+}
+
+static OzStatus write_shapes(OzPieceArrays *arrays, int member, const OzPieces *pieces)
+{
+    OzStatus status = OZ_OK;
+    const OzPieceSizes *z = &arrays->sizes;
+    size_t count = (size_t)z->slots * OZ_PIECE_SHAPE;
+    double *words = NULL;
+    OZ_TRY(OZ_NEW(&words, count));
+    for (int64_t i = 0; i < pieces->count; i++) {
+        int slot = oz_piece_arrays_slot(z, pieces, i);
+        double shape[OZ_PIECE_SHAPE] = {[OZ_PS_REACH] = pieces->reach[i],
+                                        [OZ_PS_RADIUS] = pieces->radius[i],
+                                        [OZ_PS_INVERSE_MASS] = inverse(pieces->mass[i]),
+                                        [OZ_PS_INVERSE_INERTIA] = inverse(pieces->inertia[i]),
+                                        [OZ_PS_STRIDE_MOST] = stride_most(pieces, i)};
+        for (int k = 0; k < 6; k++) {
+            shape[OZ_PS_CORNER + k] = pieces->corner[6 * i + k];
+        }
+        for (int k = 0; k < OZ_PIECE_SHAPE; k++) {
+            words[at(arrays, slot, OZ_PIECE_SHAPE, k)] = shape[k];
+        }
+    }
+    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_shape, member, words, count));
+done:
+    free(words);
+    return status;
+}
+
+/* A coordinate and its derivatives, times dt^n / n!. */
+static void put_coordinate(const OzPieceArrays *arrays, double *words, int slot, int coordinate,
+                           double dt, const double derivative[5])
+{
+    static const double factorial[5] = {1, 1, 2, 6, 24};
+    int order = arrays->switches.order;
+    for (int n = 0; n < order; n++) {
+        words[at(arrays, slot, state_words(arrays), coordinate * order + n)] =
+            derivative[n] * pow(dt, n) / factorial[n];
+    }
+}
+
+static OzStatus write_state(OzPieceArrays *arrays, int member, const OzScene *scene,
+                            const OzPieces *pieces, const OzPieceStart *start)
+{
+    OzStatus status = OZ_OK;
+    const OzPieceSizes *z = &arrays->sizes;
+    size_t count = (size_t)z->slots * (size_t)state_words(arrays);
+    double *words = NULL;
+    OZ_TRY(OZ_NEW(&words, count));
+    for (int64_t i = 0; i < pieces->count; i++) {
+        int slot = oz_piece_arrays_slot(z, pieces, i);
+        bool free = i < pieces->free_count;
+        for (int c = 0; c < 3; c++) {
+            double place = c < 2 ? pieces->position[2 * i + c] : pieces->angle[i];
+            double rate = c < 2 ? pieces->velocity[2 * i + c] : pieces->spin[i];
+            double d[5] = {place, free ? rate : 0, free ? start->acceleration[3 * i + c] : 0,
+                           free ? start->third[3 * i + c] : 0, free ? start->fourth[3 * i + c] : 0};
+            put_coordinate(arrays, words, slot, c, scene->step, d);
+        }
+    }
+    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_state, member, words, count));
+done:
+    free(words);
+    return status;
+}
+
+OzStatus oz_piece_pack_bodies(OzPieceArrays *arrays, int member, const OzGrains *grains,
+                              unsigned present)
+{
+    OzStatus status = OZ_OK;
+    const OzPieceSizes *z = &arrays->sizes;
+    const OzPieces *pieces = grains->pieces;
+    int *body = NULL, *wall = NULL;
+    OZ_TRY(OZ_NEW(&body, z->slots));
+    OZ_TRY(OZ_NEW(&wall, z->slots));
+    for (int slot = 0; slot < z->slots; slot++) {
+        body[slot] = -1;
+        wall[slot] = slot < z->free_slots ? -1 : 0;
+    }
+    for (int64_t i = 0; i < pieces->count; i++) {
+        int slot = oz_piece_arrays_slot(z, pieces, i);
+        int w = i < pieces->free_count ? -1 : pieces->body[i] - (int)pieces->grain_count;
+        wall[slot] = w;
+        body[slot] = w < 0 || (present >> w & 1U) ? pieces->body[i] : -1;
+    }
+    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_body, member, body,
+                                 (size_t)z->slots * sizeof *body));
+    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_wall, member, wall,
+                                 (size_t)z->slots * sizeof *wall));
+done:
+    free(body);
+    free(wall);
+    return status;
+}
+
+/* Which beams each piece has, by partner: beams are ordered by their first piece, then by the
+ * second. */
+static OzStatus write_adjacency(OzPieceArrays *arrays, int member, const OzPieces *pieces)
+{
+    OzStatus status = OZ_OK;
+    int slots = arrays->sizes.free_slots;
+    int *first = NULL, *of = NULL;
+    OZ_TRY(OZ_NEW(&first, slots + 2));
+    OZ_TRY(OZ_NEW(&of, 2 * pieces->beam_count + 1));
+    for (int64_t k = 0; k < pieces->beam_count; k++) {
+        first[pieces->beam_a[k] + 2]++;
+        first[pieces->beam_b[k] + 2]++;
+    }
+    for (int i = 2; i < slots + 2; i++) {
+        first[i] += first[i - 1];
+    }
+    for (int64_t k = 0; k < pieces->beam_count; k++) {
+        of[first[pieces->beam_b[k] + 1]++] = (int)k; /* partners before it come first */
+    }
+    for (int64_t k = 0; k < pieces->beam_count; k++) {
+        of[first[pieces->beam_a[k] + 1]++] = (int)k;
+    }
+    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_first, member, first,
+                                 (size_t)(slots + 1) * sizeof *first));
+    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_of, member, of,
+                                 2 * (size_t)pieces->beam_count * sizeof *of));
+done:
+    free(first);
+    free(of);
+    return status;
+}
+
+/* Beams, filled up to whole blocks with the first. */
+static OzStatus write_beams(OzPieceArrays *arrays, int member, const OzPieces *pieces)
+{
+    OzStatus status = OZ_OK;
+    size_t count = (size_t)arrays->sizes.beam_blocks * (size_t)arrays->switches.lanes;
+    int *a = NULL, *b = NULL;
+    double *rest = NULL;
+    if (pieces->beam_count == 0) {
+        return OZ_OK;
+    }
+    OZ_TRY(OZ_NEW(&a, count));
+    OZ_TRY(OZ_NEW(&b, count));
+    OZ_TRY(OZ_NEW(&rest, OZ_BEAM_REST * count));
+    for (size_t k = 0; k < count; k++) {
+        size_t beam = k < (size_t)pieces->beam_count ? k : 0;
+        a[k] = pieces->beam_a[beam];
+        b[k] = pieces->beam_b[beam];
+        rest[at(arrays, (int)k, OZ_BEAM_REST, 0)] = pieces->beam_length[beam];
+        rest[at(arrays, (int)k, OZ_BEAM_REST, 1)] = pieces->beam_rest_a[beam];
+        rest[at(arrays, (int)k, OZ_BEAM_REST, 2)] = pieces->beam_rest_b[beam];
+    }
+    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_a, member, a, count * sizeof *a));
+    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_b, member, b, count * sizeof *b));
+    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_beam_rest, member, rest,
+                                         OZ_BEAM_REST * count));
+    OZ_TRY(write_adjacency(arrays, member, pieces));
+done:
+    free(a);
+    free(b);
+    free(rest);
+    return status;
+}
+
+OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzPieceLedger *power)
+{
+    OzStatus status = OZ_OK;
+    size_t bytes = oz_piece_arrays_bytes(OZ_PIECE_FIELD_ledger, &arrays->switches, &arrays->sizes);
+    double *words = NULL;
+    OZ_TRY(oz_memory_new((void **)&words, bytes + sizeof(double) * OZ_PIECE_LEDGER_WORDS, 1,
+                         "ledger"));
+    words[OZ_PIECE_LEDGER + OZ_PL_BEAM_AXIAL] = power->beam_axial;
+    words[OZ_PIECE_LEDGER + OZ_PL_BEAM_BENDING] = power->beam_bending;
+    words[OZ_PIECE_LEDGER + OZ_PL_DISC_DAMPING] = power->disc_damping;
+    words[OZ_PIECE_LEDGER + OZ_PL_DISC_FRICTION] = power->disc_friction;
+    words[OZ_PIECE_LEDGER + OZ_PL_WORK_WALLS] = power->work_walls;
+    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_ledger, member, words, bytes));
+done:
+    free(words);
+    return status;
+}
+
+OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzScene *scene,
+                             const OzGrains *grains, const OzPieceStart *start)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(write_shapes(arrays, member, grains->pieces));
+    OZ_TRY(write_state(arrays, member, scene, grains->pieces, start));
+    OZ_TRY(oz_piece_pack_bodies(arrays, member, grains, ~0U));
+    OZ_TRY(write_beams(arrays, member, grains->pieces));
+    OZ_TRY(oz_piece_pack_ledger(arrays, member, &start->power));
+done:
+    return status;
+}
+
+OzStatus oz_piece_pack_parameters(OzPieceArrays *arrays, int member,
+                                  const OzPieceParameters *parameters)
+{
+    return oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_parameters, member,
+                                         (const double *)parameters,
+                                         sizeof *parameters / sizeof(double));
+}
+
+OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member, const OzScene *scene,
+                             OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    double *words = NULL;
+    int order = arrays->switches.order, all = state_words(arrays);
+    OZ_TRY(oz_piece_arrays_read_scalars(arrays, OZ_PIECE_FIELD_state, member, &words));
+    for (int slot = 0; slot < (int)snapshot->grains->pieces->free_count; slot++) {
+        for (int c = 0; c < 3; c++) {
+            double place = words[at(arrays, slot, all, c * order)];
+            double rate = words[at(arrays, slot, all, c * order + 1)] / scene->step;
+            *(c < 2 ? &snapshot->piece_position[2 * slot + c] : &snapshot->piece_angle[slot]) =
+                place;
+            *(c < 2 ? &snapshot->piece_velocity[2 * slot + c] : &snapshot->piece_spin[slot]) = rate;
+        }
+    }
+done:
+    free(words);
+    return status;
+}

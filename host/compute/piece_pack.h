@@ -1,0 +1,34 @@
+/* Pieces between the host's arrays by id and the device's words by slot and lane. */
+#ifndef OZ_COMPUTE_PIECE_PACK_H
+#define OZ_COMPUTE_PIECE_PACK_H
+
+#include "compute/piece_arrays.h"
+#include "observe/snapshot.h"
+
+/* Derivatives of the free pieces' coordinates at the start: acceleration, third and fourth, each
+ * 3 x free_count (x, y, angle). */
+typedef struct OzPieceStart {
+    double *acceleration, *third, *fourth;
+    OzPieceLedger power; /* W: how fast each entry of the ledger grows */
+} OzPieceStart;
+
+/* Writes what never changes: shapes, bodies, beams; and the start. */
+OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzScene *scene,
+                             const OzGrains *grains, const OzPieceStart *start);
+
+/* An empty ledger whose entries grow at these rates, W. */
+OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzPieceLedger *power);
+
+OzStatus oz_piece_pack_parameters(OzPieceArrays *arrays, int member,
+                                  const OzPieceParameters *parameters);
+
+/* Writes the body of every slot; -1 where there is no piece and for those of walls that are not
+ * present (a bit of present for each wall), which are in no list then. */
+OzStatus oz_piece_pack_bodies(OzPieceArrays *arrays, int member, const OzGrains *grains,
+                              unsigned present);
+
+/* Reads the free pieces' state into snapshot. */
+OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member, const OzScene *scene,
+                             OzSnapshot *snapshot);
+
+#endif

@@ -1,0 +1,334 @@
+/* Running trigrains' kernels: programs, uploads, launches of a length that suits. */
+#include "compute/piece_sim.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "compute/cl_try.h"
+#include "compute/piece_company.h"
+#include "compute/piece_forces.h"
+#include "compute/piece_launch.h"
+#include "compute/piece_pack.h"
+#include "compute/piece_private.h"
+#include "compute/piece_reference.h"
+#include "compute/piece_sizes.h"
+#include "compute/program.h"
+#include "model/wall_motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A launch is kept below this so that Ctrl-C and watchdogs are served, s. */
+static const double launch_seconds = 0.04;
+
+enum { FIRST_LAUNCH = 16 };
+
+/* The device's idea of the shared structs against ours. */
+static OzStatus check_layout(const OzPieceSim *sim, const OzPieceSwitches *switches)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS, sizes[5] = {0};
+    cl_mem buffer = NULL;
+    size_t one = 1, scalar_size = switches->is_double ? 8 : 4;
+    cl_kernel kernel = clCreateKernel(sim->program, "oz_layout", &code);
+    CL_TRY(code);
+    buffer = clCreateBuffer(sim->device->context, CL_MEM_READ_WRITE, sizeof sizes, NULL, &code);
+    CL_TRY(code);
+    CL_TRY(clSetKernelArg(kernel, 0, sizeof buffer, &buffer));
+    CL_TRY(clEnqueueNDRangeKernel(sim->device->queue, kernel, 1, NULL, &one, &one, 0, NULL, NULL));
+    CL_TRY(clEnqueueReadBuffer(sim->device->queue, buffer, CL_TRUE, 0, sizeof sizes, sizes, 0, NULL,
+                               NULL));
+    if ((size_t)sizes[0] != sizeof(OzPieceParameters) / sizeof(double) * scalar_size ||
+        (size_t)sizes[1] != sizeof(OzPieceControl) || (size_t)sizes[2] != sizeof(OzPieceSizes) ||
+        (size_t)sizes[3] != scalar_size || sizes[4] != switches->lanes) {
+        status = oz_status_fail(OZ_ERR_DEVICE,
+                                "host and %s disagree about struct sizes (parameters %d, control "
+                                "%d, sizes %d bytes): rebuild orzo",
+                                sim->device->name, sizes[0], sizes[1], sizes[2]);
+    }
+done:
+    if (buffer) {
+        clReleaseMemObject(buffer);
+    }
+    if (kernel) {
+        clReleaseKernel(kernel);
+    }
+    return status;
+}
+
+OzStatus oz_piece_sim_write_parameters(OzPieceSim *sim)
+{
+    OzStatus status = OZ_OK;
+    for (int m = 0; m < sim->member_count; m++) {
+        OZ_TRY(oz_piece_pack_parameters(&sim->arrays, m, &sim->parameters[m]));
+    }
+done:
+    return status;
+}
+
+/* The start as a snapshot, walls included. */
+static void fill_start(OzSnapshot *now, bool at_rest)
+{
+    const OzPieces *pieces = now->grains->pieces;
+    size_t count = (size_t)pieces->count;
+    memcpy(now->piece_position, pieces->position, 2 * count * sizeof(double));
+    memcpy(now->piece_angle, pieces->angle, count * sizeof(double));
+    memcpy(now->piece_velocity, pieces->velocity, 2 * count * sizeof(double));
+    memcpy(now->piece_spin, pieces->spin, count * sizeof(double));
+    oz_wall_motion_place(pieces, now->scene, 0, at_rest, now->piece_position, now->piece_angle,
+                         now->piece_velocity, now->piece_spin);
+}
+
+static OzStatus derive_power(OzPieceLedger *power, const OzSnapshot *now, bool at_rest)
+{
+    OzStatus status = OZ_OK;
+    OzPieceForces forces = {0};
+    OzPieceState state = {.position = now->piece_position,
+                          .angle = now->piece_angle,
+                          .velocity = now->piece_velocity,
+                          .spin = now->piece_spin,
+                          .at_rest = at_rest};
+    OZ_TRY(oz_piece_forces_create(&forces, now->scene, now->grains));
+    OZ_TRY(oz_piece_forces_evaluate(&forces, &state));
+    *power = forces.power;
+done:
+    oz_piece_forces_free(&forces);
+    return status;
+}
+
+/* Derivatives at the start, which both integrators begin with. */
+static OzStatus derive_start(OzPieceStart *start, const OzMember *member)
+{
+    OzStatus status = OZ_OK;
+    const OzPieces *pieces = member->grains->pieces;
+    OzSnapshot now = {0};
+    bool at_rest = member->scene->settle.present;
+    OZ_TRY(OZ_NEW(&start->acceleration, 3 * pieces->free_count));
+    OZ_TRY(OZ_NEW(&start->third, 3 * pieces->free_count));
+    OZ_TRY(OZ_NEW(&start->fourth, 3 * pieces->free_count));
+    OZ_TRY(oz_snapshot_create(&now, member->scene, member->grains));
+    fill_start(&now, at_rest);
+    OZ_TRY(oz_piece_reference_start_derivatives(&now, at_rest, start->acceleration, start->third,
+                                                start->fourth));
+    OZ_TRY(derive_power(&start->power, &now, at_rest));
+done:
+    oz_snapshot_free(&now);
+    return status;
+}
+
+static OzStatus upload_member(OzPieceSim *sim, int m)
+{
+    OzStatus status = OZ_OK;
+    OzPieceStart start = {0};
+    const OzMember *member = &sim->members[m];
+    const OzPieces *pieces = member->grains->pieces;
+    OZ_TRY(derive_start(&start, member));
+    OZ_TRY(oz_piece_pack_start(&sim->arrays, m, member->scene, member->grains, &start));
+    sim->present[m] = ~0U;
+    sim->control[m] = (OzPieceControl){.free_count = (int)pieces->free_count,
+                                       .wall_count = (int)(pieces->count - pieces->free_count),
+                                       .beam_count = (int)pieces->beam_count,
+                                       .stop_step = OZ_PIECE_NEVER,
+                                       .stop_slot = OZ_PIECE_NEVER};
+done:
+    free(start.acceleration);
+    free(start.third);
+    free(start.fourth);
+    return status;
+}
+
+static OzStatus upload_start(OzPieceSim *sim)
+{
+    OzStatus status = OZ_OK;
+    for (int m = 0; m < sim->member_count; m++) {
+        OZ_TRY(upload_member(sim, m));
+    }
+    OZ_TRY(oz_piece_sim_write_parameters(sim));
+    OZ_TRY(oz_piece_launch_begin(sim));
+done:
+    return status;
+}
+
+/* Switches, which all members must share, and sizes that serve all. */
+static OzStatus choose_layout(OzPieceSim *sim, OzPieceSwitches *switches, OzPieceSizes *sizes)
+{
+    OzStatus status = OZ_OK;
+    for (int m = 0; m < sim->member_count; m++) {
+        const OzMember *member = &sim->members[m];
+        OzPieceSizes own;
+        *switches = oz_piece_switches_derive(member->scene, member->grains, sim->device);
+        OZ_TRY(oz_piece_sizes_parameters(&sim->parameters[m], member->scene, member->grains));
+        oz_piece_sizes_choose(&own, &sim->parameters[m], member->scene, member->grains, switches);
+        if (m > 0 && !oz_piece_company_fits(sim->device, &sim->members[0], member)) {
+            status = oz_status_fail(OZ_ERR_INPUT,
+                                    "%s: members of one launch must have the same features, walls, "
+                                    "step and settling",
+                                    member->scene->path);
+            goto done;
+        }
+        if (m == 0) {
+            *sizes = own;
+        } else {
+            oz_piece_sizes_join(sizes, &own);
+        }
+    }
+done:
+    return status;
+}
+
+static OzStatus build(OzPieceSim *sim, const OzPieceSwitches *switches, const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    char options[1024];
+    if ((switches->is_double || switches->ledger) && !sim->device->has_double) {
+        return oz_status_fail(OZ_ERR_DEVICE,
+                              "%s computes in float only: use precision: float without "
+                              "observe.ledger",
+                              sim->device->name);
+    }
+    oz_piece_switches_options(switches, options, sizeof options);
+    OZ_TRY(
+        oz_program_build(&sim->program, sim->device, source_dir, "kernels/trigrains.cl", options));
+    sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
+    CL_TRY(code);
+    sim->begin = clCreateKernel(sim->program, "oz_begin", &code);
+    CL_TRY(code);
+    OZ_TRY(check_layout(sim, switches));
+done:
+    return status;
+}
+
+OzStatus oz_piece_sim_create(OzPieceSim **out, const OzDevice *device, const OzMember *members,
+                             int member_count, const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    OzPieceSim *sim = NULL;
+    OzPieceSwitches switches = {0};
+    OzPieceSizes sizes = {0};
+    *out = NULL;
+    OZ_TRY(OZ_NEW(&sim, 1));
+    sim->device = device;
+    sim->member_count = member_count;
+    sim->launch_steps = FIRST_LAUNCH;
+    sim->walls_still = members[0].scene->settle.present;
+    OZ_TRY(OZ_NEW(&sim->members, member_count));
+    OZ_TRY(OZ_NEW(&sim->parameters, member_count));
+    OZ_TRY(OZ_NEW(&sim->control, member_count));
+    OZ_TRY(OZ_NEW(&sim->present, member_count));
+    OZ_TRY(OZ_NEW(&sim->reached, member_count));
+    OZ_TRY(OZ_NEW(&sim->waits, member_count));
+    OZ_TRY(OZ_NEW(&sim->stopped, member_count));
+    memcpy(sim->members, members, (size_t)member_count * sizeof *members);
+    OZ_TRY(choose_layout(sim, &switches, &sizes));
+    OZ_TRY(build(sim, &switches, source_dir));
+    OZ_TRY(oz_piece_arrays_create(&sim->arrays, device, &switches, &sizes));
+    OZ_TRY(upload_start(sim));
+    *out = sim;
+    sim = NULL;
+done:
+    oz_piece_sim_free(sim);
+    return status;
+}
+
+void oz_piece_sim_free(OzPieceSim *sim)
+{
+    if (!sim) {
+        return;
+    }
+    oz_piece_arrays_free(&sim->arrays);
+    if (sim->advance) {
+        clReleaseKernel(sim->advance);
+    }
+    if (sim->begin) {
+        clReleaseKernel(sim->begin);
+    }
+    if (sim->program) {
+        clReleaseProgram(sim->program);
+    }
+    for (int m = 0; sim->stopped && m < sim->member_count; m++) {
+        free(sim->stopped[m]);
+    }
+    free(sim->members);
+    free(sim->parameters);
+    free(sim->control);
+    free(sim->present);
+    free(sim->reached);
+    free(sim->waits);
+    free(sim->stopped);
+    free(sim);
+}
+
+static bool has_pieces(const OzPieceSim *sim)
+{
+    return sim->arrays.sizes.free_slots > 0;
+}
+
+/* Nothing to move: the clock alone goes on. */
+static void skip_to(OzPieceSim *sim, int64_t step)
+{
+    sim->step = step > sim->step ? step : sim->step;
+    for (int m = 0; m < sim->member_count; m++) {
+        sim->reached[m] = sim->step;
+    }
+}
+
+OzStatus oz_piece_sim_launch(OzPieceSim *sim, int64_t step)
+{
+    OzStatus status = OZ_OK;
+    int made = 0;
+    if (sim->step >= step || !has_pieces(sim)) {
+        skip_to(sim, step);
+        goto done;
+    }
+    int64_t left = step - sim->step;
+    int steps = left < sim->launch_steps ? (int)left : sim->launch_steps;
+    double start = oz_clock_now();
+    OZ_TRY(oz_piece_launch_steps(sim, steps, &made));
+    double wanted = launch_seconds / ((oz_clock_now() - start) / fmax(made, 1));
+    double most = fmin(4.0 * sim->launch_steps, sim->arrays.sizes.motion_steps);
+    if (made == sim->launch_steps || wanted < sim->launch_steps) {
+        sim->launch_steps = (int)fmax(1, fmin(wanted, most));
+    }
+done:
+    return status;
+}
+
+int64_t oz_piece_sim_step(const OzPieceSim *sim)
+{
+    return sim->step;
+}
+
+const char *oz_piece_sim_stopped(const OzPieceSim *sim, int member)
+{
+    return sim->stopped[member];
+}
+
+OzSimCounts oz_piece_sim_counts(const OzPieceSim *sim)
+{
+    OzSimCounts counts = sim->counts;
+    counts.refreshes = counts.rebuilds = counts.crossed = 0;
+    for (int m = 0; m < sim->member_count; m++) {
+        counts.refreshes += sim->control[m].refreshes;
+        counts.rebuilds += sim->control[m].rebuilds;
+    }
+    counts.refreshes /= sim->member_count;
+    counts.rebuilds /= sim->member_count;
+    return counts;
+}
+
+OzStatus oz_piece_sim_describe(const OzDevice *device, const OzScene *scene, const OzGrains *grains,
+                               FILE *file)
+{
+    OzStatus status = OZ_OK;
+    OzPieceParameters parameters;
+    OzPieceSizes sizes;
+    OzPieceSwitches switches = oz_piece_switches_derive(scene, grains, device);
+    OZ_TRY(oz_piece_sizes_parameters(&parameters, scene, grains));
+    oz_piece_sizes_choose(&sizes, &parameters, scene, grains, &switches);
+    oz_piece_switches_print(&switches, file);
+    fprintf(file, "device memory of one scene on %s:\n", device->name);
+    oz_piece_arrays_print(&switches, &sizes, grains->pieces->count, file);
+done:
+    return status;
+}

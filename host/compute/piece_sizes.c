@@ -1,0 +1,175 @@
+/* Choosing sizes. */
+#include "compute/piece_sizes.h"
+
+#include "compute/piece_laws.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Skins of a piece in the lists, measured on a flowing hopper: larger ones are used up less often
+ * but hold more pairs. Lengths in mean reaches of the free pieces; the steps are those for which a
+ * piece's skin shall last at its present speed. */
+static const double least_outer = 0.15, most_outer = 0.6, outer_steps = 400;
+static const double least_skin = 0.01, most_skin = 0.1, skin_steps = 30;
+
+/* A piece that reaches farther than so many mean ones would make everybody's cells too large. */
+static const double small_most = 3;
+
+enum {
+    OUTER_PAIRS = 8, /* a piece, at first; lists grow when that is too few */
+    INNER_PAIRS = 4,
+    BACK_PAIRS = 12,
+    MOTION_STEPS = 8192 /* of one launch */
+};
+
+static int round_up(double count, int to)
+{
+    return (int)(ceil(count / to) * to);
+}
+
+static int power_of_two(double least)
+{
+    int power = 1;
+    while (power < least && power < 1 << 20) {
+        power *= 2;
+    }
+    return power;
+}
+
+static double mean_reach(const OzPieces *pieces)
+{
+    double sum = 0;
+    for (int64_t i = 0; i < pieces->free_count; i++) {
+        sum += pieces->reach[i];
+    }
+    return pieces->free_count > 0 ? sum / (double)pieces->free_count : 1;
+}
+
+/* The longest reach that still is a small one. */
+static double small_reach(const OzPieces *pieces, double mean)
+{
+    double reach = 0;
+    for (int64_t i = 0; i < pieces->count; i++) {
+        if (pieces->reach[i] <= small_most * mean) {
+            reach = fmax(reach, pieces->reach[i]);
+        }
+    }
+    return reach;
+}
+
+/* The box of all pieces: middle and size, m. */
+static void extents(const OzPieces *pieces, double middle[2], double size[2])
+{
+    for (int c = 0; c < 2; c++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int64_t i = 0; i < pieces->count; i++) {
+            low = fmin(low, pieces->position[2 * i + c] - pieces->reach[i]);
+            high = fmax(high, pieces->position[2 * i + c] + pieces->reach[i]);
+        }
+        middle[c] = pieces->count > 0 ? (low + high) / 2 : 0;
+        size[c] = pieces->count > 0 ? high - low : 1;
+    }
+}
+
+OzStatus oz_piece_sizes_parameters(OzPieceParameters *p, const OzScene *scene,
+                                   const OzGrains *grains)
+{
+    const OzPieces *pieces = grains->pieces;
+    double reach = mean_reach(pieces), size[2];
+    memset(p, 0, sizeof *p);
+    if (scene->wall_count > OZ_PIECE_WALLS_MAX) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s: %d walls, at most %d", scene->path,
+                              scene->wall_count, OZ_PIECE_WALLS_MAX);
+    }
+    p->dt = scene->step;
+    p->gravity[0] = scene->gravity[0];
+    p->gravity[1] = scene->gravity[1];
+    p->stiffness = scene->triangles.stiffness;
+    p->beam = oz_piece_laws_beam(scene);
+    for (int w = -1; w < scene->wall_count; w++) {
+        p->law[w + 1] = oz_piece_laws_disc(scene, w);
+    }
+    p->outer_most = scene->skin > 0 ? scene->skin / 2 : most_outer * reach;
+    p->outer_least = fmin(least_outer * reach, p->outer_most);
+    p->outer_time = outer_steps * scene->step;
+    p->skin_most = fmin(most_skin * reach, p->outer_least / 2);
+    p->skin_least = fmin(least_skin * reach, p->skin_most);
+    p->skin_time = skin_steps * scene->step;
+    p->reach_small = small_reach(pieces, reach);
+    double cell = 2 * (p->reach_small + p->outer_most);
+    p->inverse_cell = 1 / cell;
+    extents(pieces, p->middle, size);
+    /* Far enough for any flight, near enough for cells counted in 32 bits. */
+    p->domain = fmin(1e6 * fmax(size[0], size[1]), 1e9 * cell);
+    return OZ_OK;
+}
+
+static void choose_cells(OzPieceSizes *z, const OzPieceParameters *p, const OzPieces *pieces)
+{
+    double middle[2], size[2], budget = fmax(64, 4.0 * (double)pieces->count);
+    extents(pieces, middle, size);
+    z->cells_x = power_of_two(fmin(fmax(4, size[0] * p->inverse_cell + 1), budget));
+    z->cells_y = power_of_two(fmin(fmax(4, size[1] * p->inverse_cell + 1), budget));
+    while ((double)z->cells_x * z->cells_y > budget && (z->cells_x > 4 || z->cells_y > 4)) {
+        *(z->cells_x > z->cells_y ? &z->cells_x : &z->cells_y) /= 2;
+    }
+    z->cells = z->cells_x * z->cells_y;
+}
+
+void oz_piece_sizes_choose(OzPieceSizes *z, const OzPieceParameters *p, const OzScene *scene,
+                           const OzGrains *grains, const OzPieceSwitches *s)
+{
+    const OzPieces *pieces = grains->pieces;
+    *z = (OzPieceSizes){0};
+    z->free_slots = round_up((double)pieces->free_count, s->lanes);
+    z->slots = z->free_slots + round_up((double)(pieces->count - pieces->free_count), s->lanes);
+    z->free_blocks = z->free_slots / s->lanes;
+    z->blocks = z->slots / s->lanes;
+    z->beam_blocks = round_up((double)pieces->beam_count, s->lanes) / s->lanes;
+    z->regions = s->group;
+    z->region_slots = round_up(fmax(1, ceil((double)z->free_slots / s->group)), s->lanes);
+    z->outer_capacity = round_up(OUTER_PAIRS * (double)z->region_slots + 16, s->lanes);
+    z->inner_capacity = round_up(INNER_PAIRS * (double)z->region_slots + 16, s->lanes);
+    z->back_capacity = BACK_PAIRS;
+    z->walls = scene->wall_count;
+    z->motion_steps = MOTION_STEPS;
+    z->members = 1;
+    choose_cells(z, p, pieces);
+}
+
+static int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+void oz_piece_sizes_join(OzPieceSizes *z, const OzPieceSizes *other)
+{
+    z->slots = larger(z->slots - z->free_slots, other->slots - other->free_slots) +
+               larger(z->free_slots, other->free_slots);
+    z->blocks = larger(z->blocks - z->free_blocks, other->blocks - other->free_blocks) +
+                larger(z->free_blocks, other->free_blocks);
+    z->free_slots = larger(z->free_slots, other->free_slots);
+    z->free_blocks = larger(z->free_blocks, other->free_blocks);
+    z->beam_blocks = larger(z->beam_blocks, other->beam_blocks);
+    z->region_slots = larger(z->region_slots, other->region_slots);
+    z->outer_capacity = larger(z->outer_capacity, other->outer_capacity);
+    z->inner_capacity = larger(z->inner_capacity, other->inner_capacity);
+    z->back_capacity = larger(z->back_capacity, other->back_capacity);
+    z->cells_x = larger(z->cells_x, other->cells_x);
+    z->cells_y = larger(z->cells_y, other->cells_y);
+    z->cells = z->cells_x * z->cells_y;
+    z->members += other->members;
+}
+
+static int larger_capacity(int now, int needed, int lanes)
+{
+    return needed > now ? round_up(1.25 * needed + lanes, lanes) : now;
+}
+
+void oz_piece_sizes_grow(OzPieceSizes *z, const OzPieceControl *control, const OzPieceSwitches *s)
+{
+    z->outer_capacity = larger_capacity(z->outer_capacity, control->outer_needed, s->lanes);
+    z->inner_capacity = larger_capacity(z->inner_capacity, control->inner_needed, s->lanes);
+    z->back_capacity = larger_capacity(z->back_capacity, control->back_needed, 1);
+}

@@ -1,0 +1,119 @@
+/* The structs and word layouts that the kernels of trigrains and the host share. Slots: the free pieces by id,
+ * padded to whole blocks of lanes, then the pieces of walls by id, padded too. */
+#ifndef OZ_KERNELS_PIECE_LAYOUT_H
+#define OZ_KERNELS_PIECE_LAYOUT_H
+
+#include "kernels/piece_law.h"
+
+enum { OZ_PIECE_WALLS_MAX = 16 };
+
+/* What a kernel needs to know of a scene. Scalars only: the host fills the single precision version by
+ * converting the double one number by number. */
+typedef struct OzPieceParameters {
+    scalar dt;            /* s                                                                */
+    scalar drag;          /* 1/s, only while settling                                         */
+    scalar gravity[2];    /* m/s^2                                                            */
+    scalar middle[2];     /* m: a piece farther than domain from here has escaped             */
+    scalar domain;
+    scalar stiffness;     /* N/m^2, force of two triangles over their overlap area            */
+    OzBeamConstants beam;
+    OzDiscLaw law[OZ_PIECE_WALLS_MAX + 1]; /* of discs: with other grains, then with each wall  */
+    scalar outer_least, outer_most; /* m, of one piece in the outer list: grows with its speed */
+    scalar outer_time;    /* s: for which that shall last at its present speed                */
+    scalar skin_least, skin_most, skin_time; /* the same for the inner list                   */
+    scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
+    scalar reach_small;   /* m: pieces that reach farther are not in the grid, all look at them */
+} OzPieceParameters;
+
+/* Capacities and strides; the same for every member of one launch. */
+typedef struct OzPieceSizes {
+    int slots, blocks;           /* all slots, padding included; slots / lanes                  */
+    int free_slots, free_blocks; /* of the free pieces, padding included                        */
+    int beam_blocks;             /* of the longest list of beams                                */
+    int regions;                 /* runs of free slots that one work-item looks after           */
+    int region_slots;
+    int outer_capacity;          /* pairs of a region's outer list, whole blocks                */
+    int inner_capacity;          /* pairs of a region's inner list, whole blocks                */
+    int back_capacity;           /* pairs of the inner list in which a piece is the second      */
+    int cells_x, cells_y, cells; /* powers of two; cell coordinates wrap around                 */
+    int walls;
+    int motion_steps;            /* steps of one launch for which walls' motion is given        */
+    int members;
+} OzPieceSizes;
+
+/* Reasons to stop, as bits, in the order in which they are told. */
+enum {
+    OZ_PIECE_STOP_NAN = 1,
+    OZ_PIECE_STOP_ESCAPED = 2,
+    OZ_PIECE_STOP_SWALLOWED = 4,
+    OZ_PIECE_STOP_DEEP = 8,
+    OZ_PIECE_STOP_STRETCHED = 16,
+    OZ_PIECE_STOP_BENT = 32,
+    OZ_PIECE_STOP_FAST = 64
+};
+
+enum { OZ_PIECE_NEVER = 0x7fffffff };
+
+/* The device's own words, one set a member. Steps count from the start of the launch. */
+typedef struct OzPieceControl {
+    int free_count, wall_count, beam_count; /* of this member: pieces of grains and of walls      */
+    int step;         /* next step to make                                                      */
+    int moved;        /* its places are moved already (a list was full)                         */
+    int inner_holds, outer_holds; /* the lists are good for where pieces are now                  */
+    int full;         /* a list was too small: to be repeated with larger ones                  */
+    int outer_needed, inner_needed, back_needed; /* the largest that were asked for               */
+    int stop_bits;    /* OZ_PIECE_STOP_...                                                      */
+    int stop_step;    /* first step that stopped; OZ_PIECE_NEVER                                */
+    int stop_slot;    /* lowest slot that stopped in that step; OZ_PIECE_NEVER                  */
+    int refreshes, rebuilds; /* since the start of the run                                      */
+} OzPieceControl;
+
+/* Words of a slot's record, what contacts and beams need of a piece: corners in the world, centre of mass,
+ * velocity, angle, spin, cosine and sine of the angle, radius (0 for a triangle), inverse mass. */
+enum {
+    OZ_PR_CORNER = 0,
+    OZ_PR_POSITION = 6,
+    OZ_PR_VELOCITY = 8,
+    OZ_PR_ANGLE = 10,
+    OZ_PR_SPIN = 11,
+    OZ_PR_TURN = 12,
+    OZ_PR_RADIUS = 14,
+    OZ_PR_INVERSE_MASS = 15,
+    OZ_PIECE_RECORD = 16
+};
+
+/* Words of a load, of a pair's and of a beam's result: force (on the second of two; the first feels the
+ * opposite), torque; of a result: torques on first and second. */
+enum { OZ_PIECE_LOAD = 4 };
+
+/* Words of a block's shapes, each a real with one lane a piece: corners at angle 0. */
+enum {
+    OZ_PS_CORNER = 0,
+    OZ_PS_REACH = 6,
+    OZ_PS_RADIUS,
+    OZ_PS_INVERSE_MASS,
+    OZ_PS_INVERSE_INERTIA,
+    OZ_PS_STRIDE_MOST, /* m: more than this in one step is too fast */
+    OZ_PIECE_SHAPE
+};
+
+/* Words of a block's reference: centre and angle when a list was made, and how far a piece may move before
+ * the list must be made again. */
+enum { OZ_PF_X, OZ_PF_Y, OZ_PF_ANGLE, OZ_PF_SKIN, OZ_PIECE_REFERENCE };
+
+/* Words of a wall's motion at one step: displacement upwards, cosine and sine of its turn about its point, the turn,
+ * that point, velocity upwards, spin. */
+enum { OZ_PM_OFFSET, OZ_PM_COS, OZ_PM_SIN, OZ_PM_ANGLE, OZ_PM_POINT, OZ_PM_VELOCITY = 6, OZ_PM_SPIN, OZ_PIECE_MOTION };
+
+/* A work-item's sums of energy, J, and after them how fast each grew at the last step, W. */
+enum {
+    OZ_PL_BEAM_AXIAL,
+    OZ_PL_BEAM_BENDING,
+    OZ_PL_DISC_DAMPING,
+    OZ_PL_DISC_FRICTION,
+    OZ_PL_WORK_WALLS,
+    OZ_PIECE_LEDGER,
+    OZ_PIECE_LEDGER_WORDS = 2 * OZ_PIECE_LEDGER
+};
+
+#endif

@@ -1,0 +1,224 @@
+/* Moving pieces: prediction, records for contacts and beams, correction, guards. State words are a coordinate and its
+ * derivatives times dt^n / n!. Velocity-verlet is the same scheme with two derivatives: its velocity is predicted
+ * with the old acceleration for forces that depend on it. OpenCL C only. */
+#ifndef OZ_KERNELS_PIECE_MOVE_H
+#define OZ_KERNELS_PIECE_MOVE_H
+
+#include "kernels/gear.h"
+#include "kernels/piece_lists.h"
+#include "kernels/turn.h"
+
+OZ_INLINE void oz_piece_move_predict_one(real *q)
+{
+#if OZ_ORDER == 5
+    OzGear gear = {{q[0], q[1], q[2], q[3], q[4]}};
+    gear = oz_gear_predict(gear);
+    for (int k = 0; k < 5; k++) {
+        q[k] = gear.value[k];
+    }
+#else
+    q[0] += q[1] + q[2];
+    q[1] += REAL(2.0) * q[2];
+#endif
+}
+
+OZ_INLINE void oz_piece_move_correct_one(real *q, real acceleration, real half_step2)
+{
+#if OZ_ORDER == 5
+    OzGear gear = {{q[0], q[1], q[2], q[3], q[4]}};
+    gear = oz_gear_correct(gear, acceleration, half_step2);
+    for (int k = 0; k < 5; k++) {
+        q[k] = gear.value[k];
+    }
+#else
+    q[1] += acceleration * half_step2 - q[2];
+    q[2] = acceleration * half_step2;
+#endif
+}
+
+/* Where a block's pieces are and how they move, from the state's words. */
+typedef struct OzPieceBody {
+    OzVec2 position, velocity;
+    real angle, spin;
+} OzPieceBody;
+
+/* Writes a block's records. */
+OZ_INLINE void oz_piece_move_record(OzPieceWork *w, int block, OzPieceBody body)
+{
+    global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
+    global scalar *record = w->record + (size_t)block * OZ_LANES * OZ_PIECE_RECORD;
+    OzVec2 turn = oz_turn_of(body.angle);
+    real words[OZ_PIECE_RECORD];
+    for (int c = 0; c < 3; c++) {
+        real x = shape[OZ_PS_CORNER + 2 * c], y = shape[OZ_PS_CORNER + 2 * c + 1];
+        words[2 * c] = body.position.x + (turn.x * x - turn.y * y);
+        words[2 * c + 1] = body.position.y + (turn.y * x + turn.x * y);
+    }
+    words[OZ_PR_POSITION] = body.position.x;
+    words[OZ_PR_POSITION + 1] = body.position.y;
+    words[OZ_PR_VELOCITY] = body.velocity.x;
+    words[OZ_PR_VELOCITY + 1] = body.velocity.y;
+    words[OZ_PR_ANGLE] = body.angle;
+    words[OZ_PR_SPIN] = body.spin;
+    words[OZ_PR_TURN] = turn.x;
+    words[OZ_PR_TURN + 1] = turn.y;
+    words[OZ_PR_RADIUS] = shape[OZ_PS_RADIUS];
+    words[OZ_PR_INVERSE_MASS] = shape[OZ_PS_INVERSE_MASS];
+    for (int k = 0; k < OZ_PIECE_RECORD; k += 4) {
+        oz_lanes_store4(record, OZ_PIECE_RECORD, k, words + k);
+    }
+}
+
+/* Marks the inner list as used up where a block has moved too far for it. */
+OZ_INLINE void oz_piece_move_watch(OzPieceWork *w, int block, OzPieceBody body)
+{
+    global const real *reference = w->reference_inner + (size_t)block * OZ_PIECE_REFERENCE;
+    real reach = w->shape[(size_t)block * OZ_PIECE_SHAPE + OZ_PS_REACH];
+    real moved = oz_piece_lists_moved(reference, body.position.x, body.position.y, body.angle, reach);
+    if (OZ_ANY(moved > reference[OZ_PF_SKIN])) {
+        w->control->inner_holds = 0;
+    }
+}
+
+/* Stops where a piece goes too far in one step. */
+OZ_INLINE void oz_piece_move_check_stride(OzPieceWork *w, int block, OzPieceBody body, real dt,
+                                          int step)
+{
+    global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
+    real stride = (oz_length2(body.velocity) + shape[OZ_PS_REACH] * oz_magnitude(body.spin)) * dt;
+    mask fast = stride > shape[OZ_PS_STRIDE_MOST];
+    if (OZ_ANY(fast)) {
+        int slots[OZ_LANES];
+        oz_piece_work_slots(block, slots);
+        oz_piece_work_stop_lanes(w, fast, OZ_PIECE_STOP_FAST, step, slots);
+    }
+}
+
+OZ_INLINE OzPieceBody oz_piece_move_body(const real *q, real inverse_dt)
+{
+    OzPieceBody body;
+    body.position = oz_vec2(q[0], q[OZ_ORDER]);
+    body.angle = q[2 * OZ_ORDER];
+    body.velocity = oz_vec2(q[1] * inverse_dt, q[OZ_ORDER + 1] * inverse_dt);
+    body.spin = q[2 * OZ_ORDER + 1] * inverse_dt;
+    return body;
+}
+
+/* Free pieces to the end of the step, as far as their derivatives tell. */
+OZ_INLINE void oz_piece_move_predict(OzPieceWork *w, int step)
+{
+    real dt = REAL(w->parameters->dt), inverse_dt = REAL(1.0) / dt;
+    OZ_EACH(w, block, w->z.free_blocks)
+    {
+        global real *state = w->state + (size_t)block * OZ_PIECE_STATE;
+        real q[OZ_PIECE_STATE];
+        for (int k = 0; k < OZ_PIECE_STATE; k++) {
+            q[k] = state[k];
+        }
+        for (int c = 0; c < 3; c++) {
+            oz_piece_move_predict_one(q + c * OZ_ORDER);
+        }
+        for (int k = 0; k < OZ_PIECE_STATE; k++) {
+            state[k] = q[k];
+        }
+        OzPieceBody body = oz_piece_move_body(q, inverse_dt);
+        oz_piece_move_check_stride(w, block, body, dt, step);
+        oz_piece_move_record(w, block, body);
+        oz_piece_move_watch(w, block, body);
+    }
+}
+
+/* One word of the walls' motion at a step, for each lane's wall. */
+OZ_INLINE real oz_piece_move_wall_word(const OzPieceWork *w, int block, int step, int word)
+{
+    scalar value[OZ_LANES];
+    for (int l = 0; l < OZ_LANES; l++) {
+        int wall = w->wall[block * OZ_LANES + l];
+        value[l] = w->motion[((size_t)step * w->z.walls + wall) * OZ_PIECE_MOTION + word];
+    }
+    return OZ_LANES_LOAD(value);
+}
+
+/* A wall's pieces where its motion has them: turned about its point, then up. The state holds them untouched. */
+OZ_INLINE OzPieceBody oz_piece_move_carried(const OzPieceWork *w, int block, int step)
+{
+    global const real *state = w->state + (size_t)block * OZ_PIECE_STATE;
+    OzVec2 point = oz_vec2(oz_piece_move_wall_word(w, block, step, OZ_PM_POINT),
+                           oz_piece_move_wall_word(w, block, step, OZ_PM_POINT + 1));
+    OzVec2 turn = oz_vec2(oz_piece_move_wall_word(w, block, step, OZ_PM_COS),
+                          oz_piece_move_wall_word(w, block, step, OZ_PM_SIN));
+    OzVec2 arm = oz_minus2(oz_vec2(state[0], state[OZ_ORDER]), point);
+    OzPieceBody body;
+    arm = oz_vec2(turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y);
+    body.position = oz_add2(point, arm);
+    body.position.y += oz_piece_move_wall_word(w, block, step, OZ_PM_OFFSET);
+    body.spin = oz_piece_move_wall_word(w, block, step, OZ_PM_SPIN);
+    body.velocity = oz_scale2(oz_left2(arm), body.spin);
+    body.velocity.y += oz_piece_move_wall_word(w, block, step, OZ_PM_VELOCITY);
+    body.angle = state[2 * OZ_ORDER] + oz_piece_move_wall_word(w, block, step, OZ_PM_ANGLE);
+    return body;
+}
+
+/* Walls' pieces to where they are at a step of the launch. */
+OZ_INLINE void oz_piece_move_walls(OzPieceWork *w, int step)
+{
+    OZ_EACH(w, k, w->z.blocks - w->z.free_blocks)
+    {
+        int block = w->z.free_blocks + k;
+        OzPieceBody body = oz_piece_move_carried(w, block, step);
+        oz_piece_move_record(w, block, body);
+        oz_piece_move_watch(w, block, body);
+    }
+}
+
+/* Stops where a block's state is no number or far away. */
+OZ_INLINE void oz_piece_move_check(OzPieceWork *w, int block, const real *q, int step)
+{
+    global const OzPieceParameters *p = w->parameters;
+    real x = oz_magnitude(q[0] - REAL(p->middle[0]));
+    real y = oz_magnitude(q[OZ_ORDER] - REAL(p->middle[1]));
+    mask here = (x < REAL(p->domain)) & (y < REAL(p->domain)) & (q[2 * OZ_ORDER] == q[2 * OZ_ORDER]);
+    mask lost = !here;
+    if (OZ_ANY(lost)) {
+        mask number = (q[0] == q[0]) & (q[OZ_ORDER] == q[OZ_ORDER]) &
+                      (q[2 * OZ_ORDER] == q[2 * OZ_ORDER]);
+        int slots[OZ_LANES];
+        oz_piece_work_slots(block, slots);
+        oz_piece_work_stop_lanes(w, lost & number, OZ_PIECE_STOP_ESCAPED, step, slots);
+        oz_piece_work_stop_lanes(w, lost & !number, OZ_PIECE_STOP_NAN, step, slots);
+    }
+}
+
+/* Corrects the prediction by what the forces really are. */
+OZ_INLINE void oz_piece_move_correct(OzPieceWork *w, int step)
+{
+    global const OzPieceParameters *p = w->parameters;
+    real half_step2 = REAL((scalar)0.5 * p->dt * p->dt), drag = REAL(p->drag / p->dt);
+    OZ_EACH(w, block, w->z.free_blocks)
+    {
+        global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
+        global real *state = w->state + (size_t)block * OZ_PIECE_STATE;
+        int slots[OZ_LANES];
+        real load[4], q[OZ_PIECE_STATE];
+        oz_piece_work_slots(block, slots);
+        oz_lanes_load4(w->load, slots, OZ_PIECE_LOAD, 0, load);
+        for (int k = 0; k < OZ_PIECE_STATE; k++) {
+            q[k] = state[k];
+        }
+        real lightness = shape[OZ_PS_INVERSE_MASS];
+        mask real_piece = lightness > REAL(0.0); /* padding stays where it is */
+        real x = load[0] * lightness + (real_piece ? REAL(p->gravity[0]) : REAL(0.0)) - drag * q[1];
+        real y = load[1] * lightness + (real_piece ? REAL(p->gravity[1]) : REAL(0.0)) -
+                 drag * q[OZ_ORDER + 1];
+        real turn = load[2] * shape[OZ_PS_INVERSE_INERTIA] - drag * q[2 * OZ_ORDER + 1];
+        oz_piece_move_correct_one(q, x, half_step2);
+        oz_piece_move_correct_one(q + OZ_ORDER, y, half_step2);
+        oz_piece_move_correct_one(q + 2 * OZ_ORDER, turn, half_step2);
+        for (int k = 0; k < OZ_PIECE_STATE; k++) {
+            state[k] = q[k];
+        }
+        oz_piece_move_check(w, block, q, step);
+    }
+}
+
+#endif

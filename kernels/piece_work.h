@@ -1,0 +1,146 @@
+/* The trigrains kernels' view of memory: every array of one member, and how work is shared out. OpenCL C only.
+ * OZ_GROUP 1: one work-item does a member's whole launch, with any number of lanes; otherwise the work-group's
+ * size, with one lane. Switches beside: OZ_INTEGRATOR_ID, OZ_ORDER (words of a coordinate), OZ_MOVING (walls do),
+ * OZ_DISCS (there are any), OZ_BEAMS, OZ_SUBSTEPS, OZ_LEDGER, OZ_LAW_ID (of discs), OZ_FORCE_POINT,
+ * OZ_DAMPING_SHEAR. */
+#ifndef OZ_KERNELS_PIECE_WORK_H
+#define OZ_KERNELS_PIECE_WORK_H
+
+#include "kernels/lanes.h"
+#include "kernels/piece_layout.h"
+#include "kernels/piece_fields.h"
+#include "kernels/triangle.h"
+
+typedef OzPieceParameters parameters_kind;
+typedef OzPieceControl control_kind;
+typedef scalar scalar_kind;
+typedef real real_kind;
+typedef int integer_kind;
+#if OZ_LEDGER
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double ledger_kind;
+#else
+typedef int ledger_kind;
+#endif
+
+#define OZ_PIECE_MEMBER(kind, name, count)   global kind##_kind *name;
+#define OZ_PIECE_ARGUMENT(kind, name, count) global kind##_kind *name,
+#define OZ_PIECE_TAKE(kind, name, count)     w.name = name + (size_t)member * (size_t)(count);
+
+typedef struct OzPieceWork {
+    OZ_PIECE_FIELDS(OZ_PIECE_MEMBER)
+    OzPieceSizes z;
+    int item, stride; /* this work-item, and how many there are */
+} OzPieceWork;
+
+/* The arguments that every kernel begins with, and the view of one member made of them. */
+#define OZ_PIECE_ARGUMENTS OZ_PIECE_FIELDS(OZ_PIECE_ARGUMENT) OzPieceSizes z
+#define OZ_PIECE_OPEN(member_index)                                                                \
+    OzPieceWork w;                                                                                 \
+    {                                                                                              \
+        int member = (member_index);                                                               \
+        OZ_PIECE_FIELDS(OZ_PIECE_TAKE)                                                             \
+        w.z = z;                                                                                   \
+        w.item = OZ_PIECE_ITEM;                                                                    \
+        w.stride = OZ_PIECE_STRIDE;                                                                \
+    }
+
+#if OZ_GROUP == 1
+#define OZ_PIECE_MEET()
+#define OZ_PIECE_COUNT(counter) ((*(counter))++)
+#define OZ_PIECE_ITEM   0
+#define OZ_PIECE_STRIDE 1
+#else
+#define OZ_PIECE_MEET() barrier(CLK_GLOBAL_MEM_FENCE)
+#define OZ_PIECE_COUNT(counter) atomic_inc(counter)
+#define OZ_PIECE_ITEM   ((int)get_local_id(0))
+#define OZ_PIECE_STRIDE ((int)get_local_size(0))
+#endif
+
+#define OZ_EACH(w, index, count)                                                                   \
+    for (int index = (w)->item; index < (count); index += (w)->stride)
+
+/* Asks for an end: reason bits, step and the lowest slot of the first step that had any. */
+OZ_INLINE void oz_piece_work_stop(OzPieceWork *w, int bits, int step, int slot)
+{
+    atomic_or(&w->control->stop_bits, bits);
+    atomic_min(&w->control->stop_step, step);
+    atomic_min(&w->control->stop_slot, slot);
+}
+
+/* Whether a slot holds a piece; padding holds none. */
+OZ_INLINE int oz_piece_work_holds(const OzPieceWork *w, int slot)
+{
+    return slot < w->z.free_slots ? slot < w->control->free_count
+                                  : slot - w->z.free_slots < w->control->wall_count;
+}
+
+/* The same for every lane of hits, whose pieces are in slots; padding is left out. */
+OZ_INLINE void oz_piece_work_stop_lanes(OzPieceWork *w, mask hits, int bits, int step,
+                                        const int *slots)
+{
+    int hit[OZ_LANES];
+    oz_lanes_store_mask(hits, hit);
+    for (int l = 0; l < OZ_LANES; l++) {
+        if (hit[l] && oz_piece_work_holds(w, slots[l])) {
+            oz_piece_work_stop(w, bits, step, slots[l]);
+        }
+    }
+}
+
+/* The slots of a block. */
+OZ_INLINE void oz_piece_work_slots(int block, int *slots)
+{
+    for (int l = 0; l < OZ_LANES; l++) {
+        slots[l] = block * OZ_LANES + l;
+    }
+}
+
+/* One past the last free piece of a region. */
+OZ_INLINE int oz_piece_work_region_end(const OzPieceWork *w, int region)
+{
+    return min((region + 1) * w->z.region_slots, w->control->free_count);
+}
+
+/* A piece as contacts see it, in each lane. */
+typedef struct OzPiece {
+    OzTriangle triangle; /* a disc's three corners are its centre */
+    OzVec2 position;
+} OzPiece;
+
+OZ_INLINE OzPiece oz_piece_work_piece(const OzPieceWork *w, const int *slots)
+{
+    OzPiece piece;
+    real a[4], b[4];
+    oz_lanes_load4(w->record, slots, OZ_PIECE_RECORD, OZ_PR_CORNER, a);
+    oz_lanes_load4(w->record, slots, OZ_PIECE_RECORD, OZ_PR_CORNER + 4, b);
+    piece.triangle.corner[0] = oz_vec2(a[0], a[1]);
+    piece.triangle.corner[1] = oz_vec2(a[2], a[3]);
+    piece.triangle.corner[2] = oz_vec2(b[0], b[1]);
+    piece.position = oz_vec2(b[2], b[3]);
+    return piece;
+}
+
+/* Velocity, angle and spin of the pieces in slots. */
+OZ_INLINE void oz_piece_work_motion(const OzPieceWork *w, const int *slots, OzVec2 *velocity,
+                                    real *angle, real *spin)
+{
+    real words[4];
+    oz_lanes_load4(w->record, slots, OZ_PIECE_RECORD, OZ_PR_VELOCITY, words);
+    *velocity = oz_vec2(words[0], words[1]);
+    *angle = words[2];
+    *spin = words[3];
+}
+
+/* Cosine, sine, radius and inverse mass. */
+OZ_INLINE void oz_piece_work_rest(const OzPieceWork *w, const int *slots, OzVec2 *turn, real *radius,
+                                  real *inverse_mass)
+{
+    real words[4];
+    oz_lanes_load4(w->record, slots, OZ_PIECE_RECORD, OZ_PR_TURN, words);
+    *turn = oz_vec2(words[0], words[1]);
+    *radius = words[2];
+    *inverse_mass = words[3];
+}
+
+#endif
