@@ -35,8 +35,8 @@ OZ_INLINE scalar oz_cells_reach(const OzWork *w, int slot)
         return w->parameters->reach_max;
     }
     global const scalar *words = (global const scalar *)w->shape;
-    words += (size_t)(slot / OZ_LANES) * OZ_SHAPE * OZ_LANES + slot % OZ_LANES;
-    return words[OZ_B_RADIUS * OZ_LANES] + words[OZ_B_HALF_LENGTH * OZ_LANES];
+    return words[oz_lanes_at(slot, OZ_SHAPE, OZ_B_RADIUS)] +
+           words[oz_lanes_at(slot, OZ_SHAPE, OZ_B_HALF_LENGTH)];
 }
 
 OZ_INLINE void oz_cells_clear(OzWork *w, int item, int stride)
@@ -94,7 +94,7 @@ OZ_INLINE void oz_cells_arrange_one(OzWork *w, int first, int last)
 /* Where a slot's skin in the outer list is kept. */
 OZ_INLINE size_t oz_cells_skin_index(int slot)
 {
-    return (size_t)((slot / OZ_LANES) * OZ_REFERENCE + OZ_REFERENCE_SKIN) * OZ_LANES + slot % OZ_LANES;
+    return oz_lanes_at(slot, OZ_REFERENCE, OZ_REFERENCE_SKIN);
 }
 
 /* A grain's skin in the outer list: what it moves in outer_time at its present speed, within bounds. */

@@ -30,9 +30,9 @@ OZ_INLINE OzClosest oz_closest(OzVec3 apart, OzVec3 a1, OzVec3 a2)
     real d = oz_dot(a1, apart), e = -oz_dot(a2, apart);
     real determinant = oz_dot(across, across);
     mask skew = determinant > OZ_PARALLEL * (a * c);
-    real inverse_a = REAL(1.0) / oz_larger(a, REAL(OZ_TINY * OZ_TINY));
-    real inverse_c = REAL(1.0) / oz_larger(c, REAL(OZ_TINY * OZ_TINY));
-    real general = oz_dot(across, oz_cross(a1, apart)) / (skew ? determinant : REAL(1.0));
+    real inverse_a = oz_inverse(oz_larger(a, REAL(OZ_TINY * OZ_TINY)));
+    real inverse_c = oz_inverse(oz_larger(c, REAL(OZ_TINY * OZ_TINY)));
+    real general = oz_dot(across, oz_cross(a1, apart)) * oz_inverse(skew ? determinant : REAL(1.0));
     OzClosest at;
     at.t = oz_clamp_unit(skew ? general : oz_closest_parallel(b, e, inverse_c));
     real free_s = (-b * at.t - d) * inverse_a;

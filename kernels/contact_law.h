@@ -33,11 +33,11 @@ OZ_INLINE OzVec3 oz_contact_limit(OzVec3 tangential, real limit, OzVec3 *dashpot
 {
     real size2 = oz_dot(tangential, tangential);
     mask slips = size2 > limit * limit;
-    real cut = slips ? limit / sqrt(oz_larger(size2, REAL(OZ_TINY * OZ_TINY))) : REAL(1.0);
+    real cut = slips ? limit * oz_inverse_root(oz_larger(size2, REAL(OZ_TINY * OZ_TINY))) : REAL(1.0);
     tangential = oz_scale(tangential, cut);
     if (OZ_HISTORY & !OZ_SLIP_SCALE) {
         /* a contact without a spring, in a scene where others have one, carries nothing */
-        real compliance = stiffness > REAL(0.0) ? REAL(1.0) / stiffness : REAL(0.0);
+        real compliance = stiffness > REAL(0.0) ? oz_inverse(stiffness) : REAL(0.0);
         OzVec3 carried = oz_scale(oz_minus(tangential, *dashpot), compliance);
         *stretch = oz_choose(slips, carried, *stretch);
     }

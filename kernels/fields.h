@@ -12,6 +12,9 @@
 enum { OZ_L_DISSIPATED, OZ_L_SPRING, OZ_L_WALLS, OZ_LEDGER_WORDS };
 enum { OZ_CONTACT_LEDGER = 15 };
 
+/* One work-item does a member: it adds a pair's force to both grains at once. */
+#define OZ_SCATTER ((OZ_GROUP) == 1 && !(OZ_RESORT))
+
 /* A slot's words in the spare array, where a re-sort puts grains in their new order. */
 #define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + 1)
 
@@ -45,13 +48,16 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(integer, pair_a, z.regions *z.inner_capacity)                                                \
     X(integer, pair_b, z.regions *z.inner_capacity)                                                \
     X(integer, pair_outer, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                          \
-    X(real, pair_history, OZ_HISTORY ? z.regions * z.inner_capacity / OZ_LANES * 3 : 0)            \
-    X(scalar, pair_force, z.regions *z.inner_capacity *OZ_PAIR_FORCE)                              \
+    X(scalar, pair_history, OZ_HISTORY ? z.regions * z.inner_capacity * OZ_SPRING : 0)             \
+    X(scalar, load, z.slots *OZ_LOAD)                                                              \
+    X(scalar, pair_force, OZ_SCATTER ? 0 : z.regions * z.inner_capacity * OZ_PAIR_FORCE)           \
+    X(integer, pair_picked, z.regions *z.inner_capacity / OZ_LANES)                                \
     X(integer, pair_count, z.regions)                                                              \
-    X(integer, pair_first, z.slots)                                                                \
-    X(integer, pair_number, z.slots)                                                               \
-    X(integer, back_number, z.slots)                                                               \
-    X(integer, back, z.slots *z.back_capacity)                                                     \
+    X(integer, pair_first, OZ_SCATTER ? 0 : z.slots)                                               \
+    X(integer, pair_number, OZ_SCATTER ? 0 : z.slots)                                              \
+    X(integer, back_number, OZ_SCATTER ? 0 : z.slots)                                              \
+    X(integer, back_before, OZ_SCATTER | OZ_EQUAL ? 0 : z.slots)                                   \
+    X(integer, back, OZ_SCATTER ? 0 : z.slots * z.back_capacity)                                   \
     X(integer, saved_a, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                             \
     X(integer, saved_b, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                             \
     X(scalar, saved_history, OZ_HISTORY ? z.regions * z.inner_capacity * 3 : 0)                    \

@@ -41,7 +41,7 @@ OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClose
     OzVec3 gap = oz_minus(from_b, oz_add(apart, from_a)); /* y2 - y1 */
     real gap2 = oz_dot(gap, gap);
     *crossed = gap2 <= OZ_TINY * OZ_TINY;
-    real inverse = REAL(1.0) / sqrt(oz_larger(gap2, REAL(OZ_TINY * OZ_TINY)));
+    real inverse = oz_inverse_root(oz_larger(gap2, REAL(OZ_TINY * OZ_TINY)));
     OzVec3 up = oz_vec3(REAL(0.0), REAL(0.0), REAL(1.0));
     contact.normal = oz_choose(*crossed, up, oz_scale(gap, inverse));
     contact.overlap = a.radius + b.radius - gap2 * inverse;

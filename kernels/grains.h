@@ -1,9 +1,9 @@
-/* Motion of grains: the pairs' forces gathered in the order of ids, walls, the integrator, the guards.
+/* Grains in memory and in motion: their arrays, the integrator under the loads of pairs and walls, the guards.
  * One grain a lane. OpenCL C only. */
 #ifndef OZ_KERNELS_GRAINS_H
 #define OZ_KERNELS_GRAINS_H
 
-#include "kernels/pairs.h"
+#include "kernels/loads.h"
 
 OZ_INLINE OzShape oz_grains_shape(const OzWork *w, int block)
 {
@@ -98,157 +98,6 @@ OZ_INLINE void oz_grains_record(OzWork *w, int block, OzBody body, OzShape shape
     oz_lanes_store4(out, OZ_RECORD, OZ_R_RATE, d);
 }
 
-/* The pairs' force and torque on each grain of the block: first the pairs in which it is the second
- * (sorted by the other's id), then its own (likewise), whatever the lists look like. */
-OZ_INLINE OzLoad oz_grains_gather(const OzWork *w, int block)
-{
-    scalar sum[6][OZ_LANES];
-    for (int l = 0; l < OZ_LANES; l++) {
-        int slot = block * OZ_LANES + l;
-        scalar4 force = (scalar4)(0), torque = (scalar4)(0);
-        int backs = w->back_number[slot], own = w->pair_number[slot];
-        global const int *back = w->back + (size_t)slot * w->z.back_capacity;
-        for (int k = 0; k < backs; k++) {
-            global const scalar *pair = w->pair_force + (size_t)back[k] * OZ_PAIR_FORCE;
-            force += *(global const scalar4 *)(pair + OZ_F_FORCE);
-            torque += *(global const scalar4 *)(pair + OZ_F_TORQUE_B);
-        }
-        global const scalar *pair = w->pair_force + (size_t)w->pair_first[slot] * OZ_PAIR_FORCE;
-        for (int k = 0; k < own; k++, pair += OZ_PAIR_FORCE) {
-            force -= *(global const scalar4 *)(pair + OZ_F_FORCE);
-            torque += *(global const scalar4 *)(pair + OZ_F_TORQUE_A);
-        }
-        sum[0][l] = force.x;
-        sum[1][l] = force.y;
-        sum[2][l] = force.z;
-        sum[3][l] = torque.x;
-        sum[4][l] = torque.y;
-        sum[5][l] = torque.z;
-    }
-    OzLoad load;
-    load.force = oz_vec3(OZ_LANES_LOAD(sum[0]), OZ_LANES_LOAD(sum[1]), OZ_LANES_LOAD(sum[2]));
-    load.torque = oz_vec3(OZ_LANES_LOAD(sum[3]), OZ_LANES_LOAD(sum[4]), OZ_LANES_LOAD(sum[5]));
-    return load;
-}
-
-#if OZ_PLANES + OZ_CYLINDERS > 0
-
-OZ_INLINE OzWallDistance oz_grains_wall_distance(const OzWork *w, OzBody body, OzVec3 end, int wall,
-                                                 real offset)
-{
-    global const OzParameters *p = w->parameters;
-    OzWallDistance at;
-    if (wall < OZ_PLANES) {
-        OzPlace point;
-        point.x = body.place.x - (spot_kind)p->wall[wall].point[0];
-        point.y = body.place.y - (spot_kind)p->wall[wall].point[1];
-        point.z = body.place.z - (spot_kind)p->wall[wall].point[2];
-        OzVec3 from = oz_vec3(oz_place_to_real(point.x) * p->length_unit + end.x,
-                              oz_place_to_real(point.y) * p->length_unit + end.y,
-                              oz_place_to_real(point.z) * p->length_unit + end.z - offset);
-        at = oz_walls_plane(from, p->wall[wall].normal[0], p->wall[wall].normal[1],
-                            p->wall[wall].normal[2]);
-    } else {
-        OzVec3 from = oz_vec3(oz_place_to_real(body.place.x) * p->length_unit + end.x,
-                              oz_place_to_real(body.place.y) * p->length_unit + end.y, REAL(0.0));
-        at = oz_walls_cylinder(from, p->wall[wall].radius);
-    }
-    return at;
-}
-
-/* The step at whose beginning walls stand where the forces of this step meet them. */
-#if defined(OZ_MOVES_BEFORE)
-#define OZ_GRAINS_WALL_STEP(step) ((step) + 1)
-#else
-#define OZ_GRAINS_WALL_STEP(step) (step)
-#endif
-
-/* One end of the block's grains at one wall; adds to load. */
-OZ_INLINE void oz_grains_wall(OzWork *w, int block, int wall, int end_index, OzBody body,
-                              OzShape shape, OzGrain grain, int step, OzLoad *load)
-{
-    int index = wall * (OZ_ROUND ? 1 : 2) + end_index;
-    real offset = REAL(0.0), speed = REAL(0.0);
-    if (OZ_MOVING) {
-        global const scalar *motion =
-            w->motion +
-            2 * ((size_t)OZ_GRAINS_WALL_STEP(step) * (OZ_PLANES + OZ_CYLINDERS) + wall);
-        offset = REAL(motion[0]);
-        speed = REAL(motion[1]);
-    }
-    OzVec3 end = oz_scale(grain.half_shaft, REAL(end_index ? -1.0 : 1.0));
-    OzWallDistance at = oz_grains_wall_distance(w, body, end, wall, offset);
-    global real *kept = w->wall_history + ((size_t)block * OZ_WALL_ENDS + index) * 3;
-    OzVec3 history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
-    int near = OZ_ANY(at.distance < grain.radius);
-    if (near) {
-        /* a sphere in a population of rods touches once, not with two coincident ends */
-        mask present = OZ_EQUAL || end_index == 0 ? at.distance < grain.radius
-                                                  : shape.half_length > REAL(0.0);
-        OzContact contact;
-        OzVec3 arm;
-        if (OZ_HISTORY) {
-            history = oz_work_load3(kept);
-        }
-        OzContactForce parts = oz_rods_wall(
-            grain, end, at, oz_vec3(REAL(0.0), REAL(0.0), speed), present, w->parameters->wall[wall].law,
-            &history, w->parameters->dt, OZ_HISTORY_SHARE, &contact, &arm);
-        load->force = oz_add(load->force, parts.force);
-        load->torque = oz_add(load->torque, oz_cross(arm, parts.force));
-        mask deep = contact.touching & (contact.overlap > grain.radius);
-        if (OZ_ANY(deep)) {
-            int slots[OZ_LANES];
-            for (int l = 0; l < OZ_LANES; l++) {
-                slots[l] = block * OZ_LANES + l;
-            }
-            mask lost = contact.touching & (contact.overlap > REAL(2.0) * grain.radius);
-            oz_work_stop_lanes(w, deep, OZ_STOP_DEEP, step, slots);
-            oz_work_stop_lanes(w, lost, OZ_STOP_ESCAPED, step, slots);
-        }
-#if OZ_LEDGER
-        global real *words =
-            w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
-        oz_pairs_note(words, contact, parts, parts.force, arm);
-#endif
-    }
-#if OZ_LEDGER
-    if (!near) {
-        global real *words =
-            w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
-        for (int k = 0; k < OZ_CONTACT_LEDGER; k++) {
-            words[k] = REAL(0.0);
-        }
-    }
-#endif
-    if (OZ_HISTORY) {
-        oz_work_store3(kept, history);
-    }
-}
-
-OZ_INLINE void oz_grains_walls(OzWork *w, int block, OzBody body, OzShape shape, int step,
-                               OzLoad *load)
-{
-    real dt = REAL(w->parameters->dt);
-    OzVec3 u = oz_quaternion_axis(body.turn);
-    OzGrain grain;
-    grain.place = body.place;
-    grain.half_shaft = oz_scale(u, shape.half_length);
-    grain.velocity = oz_integrate_seen_velocity(body, dt);
-    grain.rate = oz_body_rate(oz_integrate_seen_spin(body, shape, dt), u, shape);
-    grain.radius = shape.radius;
-    grain.mass = shape.mass;
-    grain.inverse_inertia = shape.inverse_inertia;
-#pragma unroll
-    for (int wall = 0; wall < OZ_PLANES + OZ_CYLINDERS; wall++) {
-#pragma unroll
-        for (int end = 0; end < (OZ_ROUND ? 1 : 2); end++) {
-            oz_grains_wall(w, block, wall, end, body, shape, grain, step, load);
-        }
-    }
-}
-
-#endif
-
 /* Lanes that hold grains; the others pad the last block. */
 OZ_INLINE mask oz_grains_present(const OzWork *w, int block)
 {
@@ -331,16 +180,13 @@ OZ_INLINE void oz_grains_before(OzWork *w, int block, int step)
 }
 #endif
 
-/* The part of a step after the forces between grains. */
+/* The part of a step after the forces. */
 OZ_INLINE void oz_grains_block(OzWork *w, int block, int step)
 {
     global const OzParameters *p = w->parameters;
     OzBody body = oz_grains_load(w, block);
     OzShape shape = oz_grains_shape(w, block);
-    OzLoad load = oz_grains_gather(w, block);
-#if OZ_PLANES + OZ_CYLINDERS > 0
-    oz_grains_walls(w, block, body, shape, step, &load);
-#endif
+    OzLoad load = oz_loads_of(w, block);
     OzVec3 gravity = oz_vec3(REAL(p->gravity[0]), REAL(p->gravity[1]), REAL(p->gravity[2]));
     load.force = oz_along(load.force, shape.mass, gravity);
     oz_integrate_after(&body, shape, load, REAL(p->dt), p->inverse_unit);
@@ -364,22 +210,6 @@ OZ_INLINE void oz_grains_block(OzWork *w, int block, int step)
 #if !defined(OZ_MOVES_BEFORE)
     oz_grains_watch(w, block, body, shape, step);
 #endif
-}
-
-#if defined(OZ_MOVES_BEFORE)
-OZ_INLINE void oz_grains_before_region(OzWork *w, int region, int step)
-{
-    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
-        oz_grains_before(w, block, step);
-    }
-}
-#endif
-
-OZ_INLINE void oz_grains_region(OzWork *w, int region, int step)
-{
-    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
-        oz_grains_block(w, block, step);
-    }
 }
 
 #endif

@@ -31,13 +31,9 @@ OZ_INLINE void oz_lanes_load4(global const scalar *base, const int *slot, int st
     out[3] = record[3];
 }
 
-OZ_INLINE void oz_lanes_store4(global scalar *base, int stride, int word, const real *in)
+OZ_INLINE void oz_lanes_rows(const real *in, scalar4 *out)
 {
-    (void)stride;
-    base[word] = in[0];
-    base[word + 1] = in[1];
-    base[word + 2] = in[2];
-    base[word + 3] = in[3];
+    out[0] = (scalar4)(in[0], in[1], in[2], in[3]);
 }
 
 #else
@@ -116,8 +112,8 @@ OZ_INLINE void oz_lanes_load4(global const scalar *base, const int *slot, int st
     oz_lanes_turn(out);
 }
 
-/* Lane l of in[w] goes to word `word + w` of record l of base. in is used up. */
-OZ_INLINE void oz_lanes_store4(global scalar *base, int stride, int word, real *in)
+/* Lane l of the four numbers in becomes out[l]. in is used up. */
+OZ_INLINE void oz_lanes_rows(real *in, scalar4 *out)
 {
     oz_lanes_turn(in);
 #pragma unroll
@@ -126,32 +122,125 @@ OZ_INLINE void oz_lanes_store4(global scalar *base, int stride, int word, real *
         OZ_PASTE(vstore, OZ_LANES)(in[r], 0, part);
 #pragma unroll
         for (int g = 0; g < OZ_LANES / 4; g++) {
-            *(global scalar4 *)(base + (size_t)(4 * g + r) * stride + word) = vload4(g, part);
+            out[4 * g + r] = vload4(g, part);
         }
     }
 }
 
 #endif
 
-/* Writes the values of the lanes that hit to `to`, closed up, and gives their number. Up to OZ_LANES places
- * are written, whatever the number. Where the device has an instruction for it, that is used: the loop
- * takes most of a list's rebuild otherwise. */
+/* Lane l of v becomes out[l], with a zero behind. */
+OZ_INLINE void oz_lanes_rows3(OzVec3 v, scalar4 *out)
+{
+    real words[4] = {v.x, v.y, v.z, REAL(0.0)};
+    oz_lanes_rows(words, out);
+}
+
+/* Lane l of in[w] goes to word `word + w` of record l of base. in is used up. */
+OZ_INLINE void oz_lanes_store4(global scalar *base, int stride, int word, real *in)
+{
+    scalar4 row[OZ_LANES];
+    oz_lanes_rows(in, row);
+#pragma unroll
+    for (int l = 0; l < OZ_LANES; l++) {
+        *(global scalar4 *)(base + (size_t)l * stride + word) = row[l];
+    }
+}
+
+/* Where word `word` of an item is in an array of blocks of `words` words, each with one item a lane. */
+OZ_INLINE size_t oz_lanes_at(int item, int words, int word)
+{
+    uint place = (uint)item;
+    return (size_t)((place / OZ_LANES) * words + word) * OZ_LANES + place % OZ_LANES;
+}
+
+/* That word of item[0], item[1], ... */
+OZ_INLINE real oz_lanes_fetch(global const real *blocks, const int *item, int words, int word)
+{
+    global const scalar *from = (global const scalar *)blocks;
+    scalar lane[OZ_LANES];
+#pragma unroll
+    for (int l = 0; l < OZ_LANES; l++) {
+        lane[l] = from[oz_lanes_at(item[l], words, word)];
+    }
+    return OZ_LANES_LOAD(lane);
+}
+
+/* value to that word of item[0], item[1], ... */
+OZ_INLINE void oz_lanes_put(global real *blocks, const int *item, int words, int word, real value)
+{
+    global scalar *to = (global scalar *)blocks;
+    scalar lane[OZ_LANES];
+    OZ_LANES_STORE(value, lane);
+#pragma unroll
+    for (int l = 0; l < OZ_LANES; l++) {
+        to[oz_lanes_at(item[l], words, word)] = lane[l];
+    }
+}
+
+/* Devices with an instruction that closes up lanes are told so: loops over lanes take most of a list's
+ * rebuild otherwise. */
+#if OZ_LANES == 16 && !defined(OZ_DOUBLE) && defined(__AVX512F__) && defined(__AVX512DQ__)
+#define OZ_LANES_BITS(m)             ((ushort)__builtin_ia32_cvtd2mask512(m))
+#define OZ_LANES_CLOSE_UP_INDEX(v, b) __builtin_ia32_compresssi512_mask(v, v, b)
+#define OZ_LANES_CLOSE_UP_REAL(v, b) __builtin_ia32_compresssf512_mask(v, v, b)
+#elif OZ_LANES == 8 && defined(OZ_DOUBLE) && defined(__AVX512VL__) && defined(__AVX512DQ__)
+#define OZ_LANES_BITS(m)             ((uchar)__builtin_ia32_cvtq2mask512(m))
+#define OZ_LANES_CLOSE_UP_INDEX(v, b) __builtin_ia32_compresssi256_mask(v, v, b)
+#define OZ_LANES_CLOSE_UP_REAL(v, b) __builtin_ia32_compressdf512_mask(v, v, b)
+#endif
+
+/* Bit l tells whether the mask holds in lane l. */
+OZ_INLINE int oz_lanes_bits(mask m)
+{
+#if defined(OZ_LANES_BITS)
+    return OZ_LANES_BITS(m);
+#else
+    int hit[OZ_LANES], bits = 0;
+    oz_lanes_store_mask(m, hit);
+    for (int l = 0; l < OZ_LANES; l++) {
+        bits |= hit[l] << l;
+    }
+    return bits;
+#endif
+}
+
+/* Writes the values of the lanes whose bit is set to `to`, closed up. Up to OZ_LANES places are written, whatever
+ * the number of bits. */
+OZ_INLINE void oz_lanes_close_up(int *to, index values, int bits)
+{
+#if defined(OZ_LANES_BITS)
+    OZ_LANES_STORE(OZ_LANES_CLOSE_UP_INDEX(values, bits), to);
+#else
+    int value[OZ_LANES];
+    OZ_LANES_STORE(values, value);
+    for (int l = 0, count = 0; l < OZ_LANES; l++) {
+        to[count] = value[l];
+        count += (bits >> l) & 1;
+    }
+#endif
+}
+
+OZ_INLINE void oz_lanes_close_up_real(scalar *to, real values, int bits)
+{
+#if defined(OZ_LANES_BITS)
+    OZ_LANES_STORE(OZ_LANES_CLOSE_UP_REAL(values, bits), to);
+#else
+    scalar value[OZ_LANES];
+    OZ_LANES_STORE(values, value);
+    for (int l = 0, count = 0; l < OZ_LANES; l++) {
+        to[count] = value[l];
+        count += (bits >> l) & 1;
+    }
+#endif
+}
+
+/* The same with a mask; answers how many lanes it holds in. */
 OZ_INLINE int oz_lanes_compact(int *to, index values, mask hits)
 {
-#if OZ_LANES == 16 && !defined(OZ_DOUBLE) && defined(__AVX512F__) && defined(__AVX512DQ__)
-    ushort bits = __builtin_ia32_cvtd2mask512(hits);
-    vstore16(__builtin_ia32_compresssi512_mask(values, values, bits), 0, to);
+    int bits = oz_lanes_bits(hits);
+    oz_lanes_close_up(to, values, bits);
     return popcount(bits);
-#else
-    int value[OZ_LANES], hit[OZ_LANES], count = 0;
-    OZ_LANES_STORE(values, value);
-    oz_lanes_store_mask(hits, hit);
-    for (int l = 0; l < OZ_LANES; l++) {
-        to[count] = value[l];
-        count += hit[l];
-    }
-    return count;
-#endif
 }
 
 #endif

@@ -95,8 +95,14 @@ enum {
     OZ_RECORD = 16
 };
 
-/* Words of a pair's result: force on b and overlap, torque on a, torque on b. */
-enum { OZ_F_FORCE = 0, OZ_F_OVERLAP = 3, OZ_F_TORQUE_A = 4, OZ_F_TORQUE_B = 8, OZ_PAIR_FORCE = 12 };
+/* Words of a pair's result: force on b, torque on a, torque on b, each with one to spare. */
+enum { OZ_F_FORCE = 0, OZ_F_TORQUE_A = 4, OZ_F_TORQUE_B = 8, OZ_PAIR_FORCE = 12 };
+
+/* Words of a pair's tangential spring: m, one to spare. */
+enum { OZ_SPRING = 4 };
+
+/* Words of a slot's load: force and torque, each with one word to spare. */
+enum { OZ_LOAD = 8 };
 
 /* Words of a block's state, each a real with one lane per grain. */
 enum {

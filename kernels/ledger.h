@@ -5,6 +5,7 @@
 #define OZ_KERNELS_LEDGER_H
 
 #include "kernels/lists.h"
+#include "kernels/motion.h"
 
 OZ_INLINE double oz_ledger_sum(real value, const int *counts)
 {
@@ -92,7 +93,7 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
             global const real *words =
                 w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
             int wall = index / (OZ_ROUND ? 1 : 2);
-            scalar old_speed = oz_ledger_wall_speed(w, wall, OZ_GRAINS_WALL_STEP(step));
+            scalar old_speed = oz_ledger_wall_speed(w, wall, OZ_ENCLOSURE_STEP(step));
             scalar new_speed = oz_ledger_wall_speed(w, wall, step + 1);
             OzVec3 after = oz_grain_velocity_at(grain, oz_work_load3(words + 12));
             after.z -= REAL(new_speed);

@@ -35,30 +35,6 @@ typedef struct OzSearch {
     int candidate[OZ_CANDIDATES + 2 * OZ_LANES];
 } OzSearch;
 
-/* The squared distance between the shafts of two grains a lane, and the sum of their radii. */
-OZ_INLINE real oz_lists_distance2(const OzWork *w, OzGrain one, OzGrain other, real *radii)
-{
-    OzVec3 apart = oz_place_minus(one.place, other.place, w->parameters->length_unit);
-    *radii = one.radius + other.radius;
-    if (OZ_ROUND) {
-        return oz_dot(apart, apart);
-    }
-    OzClosest at = oz_closest(apart, one.half_shaft, other.half_shaft);
-    OzVec3 gap = oz_along(oz_along(apart, at.s, one.half_shaft), -at.t, other.half_shaft);
-    return oz_dot(gap, gap);
-}
-
-/* Outer skins of the grains in slots. */
-OZ_INLINE real oz_lists_outer_skins(const OzWork *w, const int *slots)
-{
-    global const scalar *words = (global const scalar *)w->reference_outer;
-    scalar skin[OZ_LANES];
-    for (int l = 0; l < OZ_LANES; l++) {
-        skin[l] = words[oz_cells_skin_index(slots[l])];
-    }
-    return OZ_LANES_LOAD(skin);
-}
-
 /* Tests the collected candidates and stores the pairs. */
 OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
 {
@@ -68,8 +44,9 @@ OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
     for (int first = 0; first < s->count; first += OZ_LANES) {
         int picked[OZ_LANES];
         OzGrain other = oz_work_geometry(w, s->candidate + first);
-        real radii, distance2 = oz_lists_distance2(w, s->grain, other, &radii);
-        real near = radii + REAL(s->skin) + oz_lists_outer_skins(w, s->candidate + first);
+        real radii, distance2 = oz_pairs_distance2(w, s->grain, other, &radii);
+        real near = radii + REAL(s->skin) + oz_lanes_fetch(w->reference_outer, s->candidate + first,
+                                                               OZ_REFERENCE, OZ_REFERENCE_SKIN);
         mask hits = (distance2 < near * near) &
                     oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
         int count = oz_lanes_compact(picked, OZ_LANES_LOAD(s->candidate + first), hits);
@@ -273,6 +250,7 @@ OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to)
     int a = w->outer_a[outer], b = w->outer_b[outer];
     w->pair_a[to] = a;
     w->pair_b[to] = b;
+#if !OZ_SCATTER
     if (w->pair_number[a]++ == 0) {
         w->pair_first[a] = to;
     }
@@ -280,13 +258,13 @@ OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to)
     if (back < w->z.back_capacity) {
         w->back[(size_t)b * w->z.back_capacity + back] = to;
     }
+#endif
 #if OZ_HISTORY
-    global scalar *history = (global scalar *)w->pair_history;
-    history += (size_t)(to / OZ_LANES) * 3 * OZ_LANES + to % OZ_LANES;
+    global scalar *history = w->pair_history + (size_t)to * OZ_SPRING;
     w->pair_outer[to] = outer;
     history[0] = w->outer_history[3 * (size_t)outer];
-    history[OZ_LANES] = w->outer_history[3 * (size_t)outer + 1];
-    history[2 * OZ_LANES] = w->outer_history[3 * (size_t)outer + 2];
+    history[1] = w->outer_history[3 * (size_t)outer + 1];
+    history[2] = w->outer_history[3 * (size_t)outer + 2];
 #endif
 }
 
@@ -296,24 +274,19 @@ OZ_INLINE void oz_lists_pad(OzWork *w, int begin, int count)
     for (int p = begin + count; (p - begin) % OZ_LANES != 0; p++) {
         w->pair_a[p] = 0;
         w->pair_b[p] = w->z.slots;
-#if OZ_HISTORY
-        global scalar *history = (global scalar *)w->pair_history;
-        history += (size_t)(p / OZ_LANES) * 3 * OZ_LANES + p % OZ_LANES;
-        history[0] = 0;
-        history[OZ_LANES] = 0;
-        history[2 * OZ_LANES] = 0;
-#endif
     }
 }
 
 OZ_INLINE void oz_lists_reset(OzWork *w, int region)
 {
+#if !OZ_SCATTER
     int end = min((region + 1) * w->z.region_slots, w->z.slots);
     for (int i = oz_work_region_begin(w, region); i < end; i++) {
         w->pair_number[i] = 0;
         w->pair_first[i] = 0;
         w->back_number[i] = 0;
     }
+#endif
 }
 
 /* Skins of the grains in slots. */
@@ -336,7 +309,7 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
             b[l] = w->outer_b[first + l];
         }
         real radii, distance2 =
-            oz_lists_distance2(w, oz_work_geometry(w, a), oz_work_geometry(w, b), &radii);
+            oz_pairs_distance2(w, oz_work_geometry(w, a), oz_work_geometry(w, b), &radii);
         real near = radii + oz_lists_skins(w, a) + oz_lists_skins(w, b);
         mask hits = (distance2 < near * near) & oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
         int hit_count = oz_lanes_compact(picked, OZ_LANES_IOTA + first, hits);
@@ -352,11 +325,15 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
     }
     oz_lists_pad(w, begin, count);
     w->pair_count[region] = count;
+    for (int p = begin; p < begin + count; p += OZ_LANES) {
+        w->pair_picked[p / OZ_LANES] = -1; /* any may have a spring */
+    }
 }
 
 /* Sorts each grain's pairs in which it is the second by the first one's id. */
 OZ_INLINE void oz_lists_order(OzWork *w, int region)
 {
+#if !OZ_SCATTER
     for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
         int count = w->back_number[i];
         if (count > w->z.back_capacity) {
@@ -373,7 +350,15 @@ OZ_INLINE void oz_lists_order(OzWork *w, int region)
             }
             back[to] = kept;
         }
+        if (!OZ_EQUAL) {
+            int before = 0;
+            while (before < count && w->id[w->pair_a[back[before]]] < w->id[i]) {
+                before++;
+            }
+            w->back_before[i] = before;
+        }
     }
+#endif
 }
 
 #endif

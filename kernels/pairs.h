@@ -1,49 +1,226 @@
-/* Forces between grains: one pair a lane, each pair once. OpenCL C only. */
+/* Forces between grains. Most listed pairs do not touch: a sieve picks those that do, or nearly so, from the
+ * list, and the contact law gets full blocks of them, one pair a lane, each pair once. OpenCL C only.
+ * Where one work-item does a whole member it adds a pair's force to both grains' loads at once; otherwise it
+ * keeps it beside the list, marked as picked, and the grains gather theirs (loads.h). */
 #ifndef OZ_KERNELS_PAIRS_H
 #define OZ_KERNELS_PAIRS_H
 
+#include "kernels/picked.h"
 #include "kernels/work.h"
 
-#if OZ_LEDGER
-/* What the ledger needs of this contact after the step. */
-OZ_INLINE void oz_pairs_note(global real *words, OzContact contact, OzContactForce parts,
-                             OzVec3 third, OzVec3 arm)
+/* The sieve lets pass what is closer than the sum of radii and this share more: whether a pair touches is the
+ * contact law's to say, and the rounding of long shafts must not come between. */
+#define OZ_PAIRS_MARGIN 1e-3
+
+/* The squared distance between the shafts of two grains a lane, and the sum of their radii. */
+OZ_INLINE real oz_pairs_distance2(const OzWork *w, OzGrain one, OzGrain other, real *radii)
 {
-    oz_work_store3(words, parts.spring);
-    oz_work_store3(words + 3, parts.dashpot);
-    oz_work_store3(words + 6, contact.velocity);
-    oz_work_store3(words + 9, third);
-    oz_work_store3(words + 12, arm);
+    OzVec3 apart = oz_place_minus(one.place, other.place, w->parameters->length_unit);
+    *radii = one.radius + other.radius;
+    if (OZ_ROUND) {
+        return oz_dot(apart, apart);
+    }
+    OzClosest at = oz_closest(apart, one.half_shaft, other.half_shaft);
+    OzVec3 gap = oz_along(oz_along(apart, at.s, one.half_shaft), -at.t, other.half_shaft);
+    return oz_dot(gap, gap);
+}
+
+/* What the sieve has found out about a pair and the contact law goes on with. */
+enum {
+    OZ_P_APART = 0,
+    OZ_P_SHAFT_A = 3,
+    OZ_P_SHAFT_B = 6,
+    OZ_P_CLOSEST = 9,
+    OZ_P_RADII = 11, /* this and the masses differ among unequal grains only */
+    OZ_P_MASSES = 13,
+    OZ_P_WORDS = OZ_EQUAL ? 11 : 15
+};
+
+/* Picked pairs, their grains' slots and what is known of them. */
+typedef struct OzPairs {
+    OzPicked picked;
+    int a[OZ_PICKED_MOST], b[OZ_PICKED_MOST];
+    scalar word[15][OZ_PICKED_MOST];
+} OzPairs;
+
+OZ_INLINE void oz_pairs_add(OzPairs *pairs, int first, const int *a, const int *b, const real *words,
+                            int bits)
+{
+    oz_lanes_close_up(pairs->a + pairs->picked.count, OZ_LANES_LOAD(a), bits);
+    oz_lanes_close_up(pairs->b + pairs->picked.count, OZ_LANES_LOAD(b), bits);
+#pragma unroll
+    for (int k = 0; k < OZ_P_WORDS; k++) {
+        oz_picked_add_word(&pairs->picked, pairs->word[k], words[k], bits);
+    }
+    oz_picked_add(&pairs->picked, OZ_LANES_IOTA + first, bits);
+}
+
+OZ_INLINE void oz_pairs_fill(OzPairs *pairs, int due)
+{
+    oz_picked_fill(&pairs->picked, due);
+    for (int l = pairs->picked.count; l < due; l++) {
+        pairs->a[l] = pairs->a[due - OZ_LANES];
+        pairs->b[l] = pairs->b[due - OZ_LANES];
+    }
+    for (int k = 0; k < OZ_P_WORDS; k++) {
+        oz_picked_fill_word(&pairs->picked, pairs->word[k], due);
+    }
+}
+
+OZ_INLINE void oz_pairs_drop(OzPairs *pairs, int due)
+{
+    OZ_LANES_STORE(OZ_LANES_LOAD(pairs->a + due), pairs->a);
+    OZ_LANES_STORE(OZ_LANES_LOAD(pairs->b + due), pairs->b);
+#pragma unroll
+    for (int k = 0; k < OZ_P_WORDS; k++) {
+        oz_picked_drop_word(pairs->word[k], due);
+    }
+    oz_picked_drop(&pairs->picked, due);
+}
+
+OZ_INLINE OzVec3 oz_pairs_vector(const OzPairs *pairs, int word, int at)
+{
+    return oz_vec3(OZ_LANES_LOAD(pairs->word[word] + at), OZ_LANES_LOAD(pairs->word[word + 1] + at),
+                   OZ_LANES_LOAD(pairs->word[word + 2] + at));
+}
+
+/* The first or second grains of the picked pairs from `at` on. */
+OZ_INLINE OzGrain oz_pairs_grains(const OzWork *w, const OzPairs *pairs, int second, int at)
+{
+    OzGrain grain;
+    oz_work_load_motion(w, (second ? pairs->b : pairs->a) + at, &grain);
+    grain.half_shaft = oz_pairs_vector(pairs, second ? OZ_P_SHAFT_B : OZ_P_SHAFT_A, at);
+    grain.radius = OZ_EQUAL ? REAL(w->parameters->radius)
+                            : OZ_LANES_LOAD(pairs->word[OZ_P_RADII + second] + at);
+    grain.mass = OZ_EQUAL ? REAL(w->parameters->mass)
+                          : OZ_LANES_LOAD(pairs->word[OZ_P_MASSES + second] + at);
+    return grain;
+}
+
+#if OZ_LEDGER
+/* What the ledger needs of contacts after the step. */
+OZ_INLINE void oz_pairs_note(global real *words, const int *items, int stride, int word,
+                             OzContact contact, OzContactForce parts, OzVec3 third, OzVec3 arm)
+{
+    oz_work_put3(words, items, stride, word, parts.spring);
+    oz_work_put3(words, items, stride, word + 3, parts.dashpot);
+    oz_work_put3(words, items, stride, word + 6, contact.velocity);
+    oz_work_put3(words, items, stride, word + 9, third);
+    oz_work_put3(words, items, stride, word + 12, arm);
+}
+
+OZ_INLINE void oz_pairs_note_pair(OzWork *w, const int *items, OzPairForce pair)
+{
+    oz_pairs_note(w->pair_ledger, items, OZ_CONTACT_LEDGER, 0, pair.contact, pair.parts, pair.arm_a,
+                  pair.arm_b);
+    if (OZ_LINE) {
+        oz_work_put3(w->pair_couple, items, 6, 0, pair.couple);
+        oz_work_put3(w->pair_couple, items, 6, 3, pair.turning);
+    }
+}
+
+/* Nothing noted, for a block of pairs that may not be picked. */
+OZ_INLINE void oz_pairs_note_none(OzWork *w, size_t block)
+{
+    for (int k = 0; k < OZ_CONTACT_LEDGER; k++) {
+        w->pair_ledger[block * OZ_CONTACT_LEDGER + k] = REAL(0.0);
+    }
+    for (int k = 0; k < (OZ_LINE ? 6 : 0); k++) {
+        w->pair_couple[block * 6 + k] = REAL(0.0);
+    }
 }
 #endif
 
-/* Pairs first ... first + lanes of the inner list; first is a whole block. */
-OZ_INLINE void oz_pairs_block(OzWork *w, int first, OzLawConstants law, int step)
+#if OZ_SCATTER
+
+/* Adds the pairs' forces to the loads of both grains. */
+OZ_INLINE void oz_pairs_deliver(OzWork *w, const int *a, const int *b, const scalar4 *forces,
+                                const scalar4 *torques_a, const scalar4 *torques_b)
 {
-    int a[OZ_LANES], b[OZ_LANES];
 #pragma unroll
     for (int l = 0; l < OZ_LANES; l++) {
-        a[l] = w->pair_a[first + l];
-        b[l] = w->pair_b[first + l];
+        global scalar4 *load_a = (global scalar4 *)(w->load + (size_t)a[l] * OZ_LOAD);
+        global scalar4 *load_b = (global scalar4 *)(w->load + (size_t)b[l] * OZ_LOAD);
+        load_a[0] -= forces[l];
+        load_a[1] += torques_a[l];
+        load_b[0] += forces[l];
+        load_b[1] += torques_b[l];
     }
-    OzGrain one = oz_work_grains(w, a), other = oz_work_grains(w, b);
-    OzVec3 history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
-    size_t block = (size_t)(first / OZ_LANES);
+}
+
+#else
+
+/* Keeps the pairs' forces beside the list. */
+OZ_INLINE void oz_pairs_keep(OzWork *w, const int *items, const scalar4 *forces,
+                             const scalar4 *torques_a, const scalar4 *torques_b)
+{
+#pragma unroll
+    for (int l = 0; l < OZ_LANES; l++) {
+        global scalar4 *to = (global scalar4 *)(w->pair_force + (size_t)items[l] * OZ_PAIR_FORCE);
+        to[OZ_F_FORCE / 4] = forces[l];
+        to[OZ_F_TORQUE_A / 4] = torques_a[l];
+        to[OZ_F_TORQUE_B / 4] = torques_b[l];
+    }
+}
+
+#endif
+
+/* Brings the pairs' forces to where the grains find them; `counts` tells lanes that only fill up. */
+OZ_INLINE void oz_pairs_finish(OzWork *w, const int *items, const int *a, const int *b, mask counts,
+                               OzPairForce pair)
+{
+    scalar4 forces[OZ_LANES], torques_a[OZ_LANES], torques_b[OZ_LANES];
+    if (OZ_SCATTER) {
+        pair.force = oz_where(counts, pair.force);
+        pair.torque_a = oz_where(counts, pair.torque_a);
+        pair.torque_b = oz_where(counts, pair.torque_b);
+    }
+    oz_lanes_rows3(pair.force, forces);
+    oz_lanes_rows3(pair.torque_a, torques_a);
+    oz_lanes_rows3(pair.torque_b, torques_b);
+#if OZ_SCATTER
+    oz_pairs_deliver(w, a, b, forces, torques_a, torques_b);
+#else
+    oz_pairs_keep(w, items, forces, torques_a, torques_b);
+#endif
+}
+
+/* The springs of picked pairs. */
+OZ_INLINE OzVec3 oz_pairs_load_springs(const OzWork *w, const int *items)
+{
+    real words[4] = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
     if (OZ_HISTORY) {
-        history = oz_work_load3(w->pair_history + 3 * block);
+        oz_lanes_load4(w->pair_history, items, OZ_SPRING, 0, words);
     }
-    scalar unit = w->parameters->length_unit, dt = w->parameters->dt;
-    OzPairForce pair = oz_rods_pair(one, other, unit, law, &history, dt, OZ_HISTORY_SHARE);
+    return oz_vec3(words[0], words[1], words[2]);
+}
+
+OZ_INLINE void oz_pairs_store_springs(OzWork *w, const int *items, OzVec3 springs)
+{
+    scalar4 rows[OZ_LANES];
+    oz_lanes_rows3(springs, rows);
+#pragma unroll
+    for (int l = 0; l < OZ_LANES; l++) {
+        *(global scalar4 *)(w->pair_history + (size_t)items[l] * OZ_SPRING) = rows[l];
+    }
+}
+
+/* A block of picked pairs from `at` on; of the last ones the first `count`, the others repeat one of them. */
+OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count, OzLawConstants law,
+                              int step)
+{
+    const int *items = pairs->picked.item + at, *a = pairs->a + at, *b = pairs->b + at;
+    OzGrain one = oz_pairs_grains(w, pairs, 0, at), other = oz_pairs_grains(w, pairs, 1, at);
+    OzVec3 apart = oz_pairs_vector(pairs, OZ_P_APART, at);
+    OzVec3 springs = oz_pairs_load_springs(w, items);
+    OzClosest closest = {OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST] + at),
+                         OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST + 1] + at)};
+    OzPairForce pair = oz_rods_touch(one, other, apart, closest, law, &springs, w->parameters->dt,
+                                     OZ_HISTORY_SHARE);
     if (OZ_HISTORY) {
-        oz_work_store3(w->pair_history + 3 * block, history);
+        oz_pairs_store_springs(w, items, springs);
     }
-    real force[4] = {pair.force.x, pair.force.y, pair.force.z, pair.overlap};
-    real on_a[4] = {pair.torque_a.x, pair.torque_a.y, pair.torque_a.z, REAL(0.0)};
-    real on_b[4] = {pair.torque_b.x, pair.torque_b.y, pair.torque_b.z, REAL(0.0)};
-    global scalar *out = w->pair_force + (size_t)first * OZ_PAIR_FORCE;
-    oz_lanes_store4(out, OZ_PAIR_FORCE, OZ_F_FORCE, force);
-    oz_lanes_store4(out, OZ_PAIR_FORCE, OZ_F_TORQUE_A, on_a);
-    oz_lanes_store4(out, OZ_PAIR_FORCE, OZ_F_TORQUE_B, on_b);
+    oz_pairs_finish(w, items, a, b, OZ_PICKED_BEFORE(count), pair);
     if (OZ_ANY(pair.deep)) {
         oz_work_stop_lanes(w, pair.deep, OZ_STOP_DEEP, step, a);
     }
@@ -51,12 +228,44 @@ OZ_INLINE void oz_pairs_block(OzWork *w, int first, OzLawConstants law, int step
         atomic_inc(&w->control->crossed);
     }
 #if OZ_LEDGER
-    oz_pairs_note(w->pair_ledger + block * OZ_CONTACT_LEDGER, pair.contact, pair.parts, pair.arm_a,
-                  pair.arm_b);
-    if (OZ_LINE) {
-        oz_work_store3(w->pair_couple + 6 * block, pair.couple);
-        oz_work_store3(w->pair_couple + 6 * block + 3, pair.turning);
+    oz_pairs_note_pair(w, items, pair);
+#endif
+}
+
+/* Ends the springs of a block's pairs that are no longer picked. */
+OZ_INLINE void oz_pairs_part(OzWork *w, int first, int bits)
+{
+    int gone = w->pair_picked[first / OZ_LANES] & ~bits;
+    w->pair_picked[first / OZ_LANES] = bits;
+    for (int l = 0; OZ_HISTORY && gone != 0 && l < OZ_LANES; l++) {
+        if ((gone >> l) & 1) {
+            *(global scalar4 *)(w->pair_history + (size_t)(first + l) * OZ_SPRING) = (scalar4)(0);
+        }
     }
+}
+
+/* Picks pairs of a block of the list. */
+OZ_INLINE void oz_pairs_sieve(OzWork *w, OzPairs *pairs, int first)
+{
+    int a[OZ_LANES], b[OZ_LANES];
+#pragma unroll
+    for (int l = 0; l < OZ_LANES; l++) {
+        a[l] = w->pair_a[first + l];
+        b[l] = w->pair_b[first + l];
+    }
+    OzGrain one = oz_work_geometry(w, a), other = oz_work_geometry(w, b);
+    OzVec3 apart = oz_place_minus(one.place, other.place, w->parameters->length_unit);
+    OzClosest at = oz_rods_closest(apart, one.half_shaft, other.half_shaft);
+    OzVec3 gap = oz_along(oz_along(apart, at.s, one.half_shaft), -at.t, other.half_shaft);
+    real far = (one.radius + other.radius) * REAL(1 + OZ_PAIRS_MARGIN);
+    int bits = oz_lanes_bits(oz_dot(gap, gap) < far * far);
+    real words[15] = {apart.x, apart.y, apart.z, one.half_shaft.x, one.half_shaft.y,
+                      one.half_shaft.z, other.half_shaft.x, other.half_shaft.y, other.half_shaft.z,
+                      at.s, at.t, one.radius, other.radius, one.mass, other.mass};
+    oz_pairs_add(pairs, first, a, b, words, bits);
+    oz_pairs_part(w, first, bits);
+#if OZ_LEDGER
+    oz_pairs_note_none(w, (size_t)(first / OZ_LANES));
 #endif
 }
 
@@ -64,8 +273,22 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
 {
     OzLawConstants law = w->parameters->law;
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region];
-    for (int first = begin; first < end; first += OZ_LANES) {
-        oz_pairs_block(w, first, law, step);
+    OzPairs pairs;
+    pairs.picked.count = 0;
+#if OZ_SCATTER
+    oz_work_clear_loads(w, region);
+#endif
+    for (int first = begin; first < end; first += OZ_PICKED_BLOCKS * OZ_LANES) {
+        int stop = min(first + OZ_PICKED_BLOCKS * OZ_LANES, end);
+        for (int block = first; block < stop; block += OZ_LANES) {
+            oz_pairs_sieve(w, &pairs, block);
+        }
+        int due = oz_picked_due(&pairs.picked, stop == end);
+        oz_pairs_fill(&pairs, due);
+        for (int at = 0; at < due; at += OZ_LANES) {
+            oz_pairs_touch(w, &pairs, at, pairs.picked.count - at, law, step);
+        }
+        oz_pairs_drop(&pairs, due);
     }
 }
 

@@ -26,11 +26,11 @@ kernel void oz_repeat_grains(OZ_WORK_ARGUMENTS, int repeats)
 {
     OZ_WORK_OPEN(0)
     for (int k = 0; k < repeats; k++) {
-        for (int block = FIRST; block < z.blocks; block += EVERY) {
+        for (int region = FIRST; region < z.regions; region += EVERY) {
 #if defined(OZ_MOVES_BEFORE)
-            oz_grains_before(&w, block, 0);
+            oz_motion_before_region(&w, region, 0);
 #endif
-            oz_grains_block(&w, block, 0);
+            oz_motion_region(&w, region, 0);
         }
         OZ_WORK_MEET();
     }

@@ -83,6 +83,12 @@ typedef OZ_PASTE(int, OZ_LANES) place;
 #error "declare OZ_HOST or OZ_LANES before including kernels/real.h"
 #endif
 
+#if !defined(OZ_HOST) && !defined(OZ_DOUBLE) && OZ_LANES == 16 && defined(__AVX512F__)
+#define OZ_FAST_INVERSE 1
+#else
+#define OZ_FAST_INVERSE 0
+#endif
+
 OZ_INLINE real oz_smaller(real a, real b)
 {
     return a < b ? a : b;
@@ -102,5 +108,31 @@ OZ_INLINE real oz_magnitude(real a)
 {
     return oz_larger(a, -a);
 }
+
+/* 1/x and 1/sqrt(x). Every force waits for several of these one after another, so where a device has a fast
+ * first guess (14 bits) and a Newton step, right to 2 units in the last place, that is taken. */
+#if OZ_FAST_INVERSE
+OZ_INLINE real oz_inverse(real x)
+{
+    real guess = __builtin_ia32_rcp14ps512_mask(x, (real)(0), (ushort)0xffff);
+    return guess + guess * (1 - x * guess);
+}
+
+OZ_INLINE real oz_inverse_root(real x)
+{
+    real guess = __builtin_ia32_rsqrt14ps512_mask(x, (real)(0), (ushort)0xffff);
+    return guess + guess * (0.5f - 0.5f * x * guess * guess);
+}
+#else
+OZ_INLINE real oz_inverse(real x)
+{
+    return REAL(1.0) / x;
+}
+
+OZ_INLINE real oz_inverse_root(real x)
+{
+    return REAL(1.0) / sqrt(x);
+}
+#endif
 
 #endif

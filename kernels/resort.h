@@ -6,23 +6,17 @@
 
 #include "kernels/lists.h"
 
-/* Word `word` of a slot in an array of blocks of `words` words. */
-OZ_INLINE size_t oz_resort_index(int slot, int words, int word)
-{
-    return (size_t)((slot / OZ_LANES) * words + word) * OZ_LANES + slot % OZ_LANES;
-}
-
 OZ_INLINE void oz_resort_out_words(global scalar *to, global const scalar *from, int slot, int words)
 {
     for (int k = 0; k < words; k++) {
-        to[k] = from[oz_resort_index(slot, words, k)];
+        to[k] = from[oz_lanes_at(slot, words, k)];
     }
 }
 
 OZ_INLINE void oz_resort_in_words(global scalar *to, global const scalar *from, int slot, int words)
 {
     for (int k = 0; k < words; k++) {
-        to[oz_resort_index(slot, words, k)] = from[k];
+        to[oz_lanes_at(slot, words, k)] = from[k];
     }
 }
 

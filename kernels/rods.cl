@@ -1,5 +1,6 @@
 /* The rods model for small scenes: oz_advance makes many steps in one launch, one work-group a member. */
 #include "kernels/lists.h"
+#include "kernels/motion.h"
 #if OZ_LEDGER
 #include "kernels/ledger.h"
 #endif
@@ -148,7 +149,7 @@ OZ_INLINE void forces_and_motion(OzWork *w, int item, int stride, int step)
     OZ_WORK_MEET();
     EACH_REGION
     {
-        oz_grains_region(w, region, step);
+        oz_motion_region(w, region, step);
     }
     OZ_WORK_MEET();
 #if OZ_LEDGER
@@ -165,7 +166,7 @@ OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
 {
     EACH_REGION
     {
-        oz_grains_before_region(w, region, step);
+        oz_motion_before_region(w, region, step);
     }
 }
 #endif

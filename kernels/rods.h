@@ -21,12 +21,10 @@ typedef struct OzPairForce {
                                   at arm_b (exact with forces in the middle); rad/s, of b relative to a */
 } OzPairForce;
 
-/* The contact of a and b at their closest points; arms are filled in with the points where the forces act. */
-OZ_INLINE OzContact oz_rods_contact(OzGrain a, OzGrain b, OzVec3 apart, OzVec3 *arm_a, OzVec3 *arm_b,
-                                    mask *crossed)
+/* The closest points of two grains' shafts; apart = x_a - x_b. */
+OZ_INLINE OzClosest oz_rods_closest(OzVec3 apart, OzVec3 half_shaft_a, OzVec3 half_shaft_b)
 {
-    OzClosest at = OZ_ROUND ? oz_closest_spheres() : oz_closest(apart, a.half_shaft, b.half_shaft);
-    return oz_grain_contact(a, b, apart, at, arm_a, arm_b, crossed);
+    return OZ_ROUND ? oz_closest_spheres() : oz_closest(apart, half_shaft_a, half_shaft_b);
 }
 
 /* Replaces the contact at the closest points by the mean of the pair's points, and adds what they do. */
@@ -67,12 +65,12 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
     pair->turning = oz_minus(b.rate, a.rate);
 }
 
-OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, scalar length_unit, OzLawConstants law,
-                                   OzVec3 *history, scalar dt, scalar share)
+/* What a and b do to each other, whose closest points are at `at`; their places are not looked at. */
+OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at, OzLawConstants law,
+                                    OzVec3 *history, scalar dt, scalar share)
 {
     OzPairForce pair;
-    OzVec3 apart = oz_place_minus(a.place, b.place, length_unit);
-    pair.contact = oz_rods_contact(a, b, apart, &pair.arm_a, &pair.arm_b, &pair.crossed);
+    pair.contact = oz_grain_contact(a, b, apart, at, &pair.arm_a, &pair.arm_b, &pair.crossed);
     pair.crossed = pair.crossed & pair.contact.touching;
     if (OZ_LINE) {
         oz_rods_line(&pair, a, b, apart, law, history, dt, share);
@@ -85,6 +83,14 @@ OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, scalar length_unit, OzL
     pair.overlap = pair.contact.touching ? pair.contact.overlap : REAL(0.0);
     pair.deep = pair.overlap > oz_smaller(a.radius, b.radius);
     return pair;
+}
+
+OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, scalar length_unit, OzLawConstants law,
+                                   OzVec3 *history, scalar dt, scalar share)
+{
+    OzVec3 apart = oz_place_minus(a.place, b.place, length_unit);
+    OzClosest at = oz_rods_closest(apart, a.half_shaft, b.half_shaft);
+    return oz_rods_touch(a, b, apart, at, law, history, dt, share);
 }
 
 /* One end of a grain at a wall: end is the cap's centre from the grain's centre (a half-shaft, or minus

@@ -1,6 +1,7 @@
 /* The rods model for large scenes: the same work as oz_advance, phase by phase, every work-item looking after
  * one region. The host puts many phases in the queue without waiting; a step's phases do nothing when an earlier
  * one found the lists stale or stopped, a list's phases when one was too small. */
+#include "kernels/motion.h"
 #include "kernels/resort.h"
 #if OZ_LEDGER
 #include "kernels/ledger.h"
@@ -27,7 +28,7 @@ kernel void oz_before(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
     if (due(&w, step) && !w.control->moved) {
-        oz_grains_before_region(&w, region, step);
+        oz_motion_before_region(&w, region, step);
     }
 }
 #endif
@@ -46,7 +47,7 @@ kernel void oz_grains(OZ_WORK_ARGUMENTS, int step)
     if (!due(&w, step)) {
         return;
     }
-    oz_grains_region(&w, region, step);
+    oz_motion_region(&w, region, step);
     if (region == 0) {
         w.control->step = step + 1;
         w.control->moved = 0;

@@ -9,14 +9,13 @@
 OZ_INLINE void oz_springs_harvest(OzWork *w, int region)
 {
 #if OZ_HISTORY
-    global const scalar *history = (global const scalar *)w->pair_history;
     int begin = region * w->z.inner_capacity, count = w->pair_count[region];
     for (int p = begin; p < begin + count; p++) {
-        global const scalar *from = history + (size_t)(p / OZ_LANES) * 3 * OZ_LANES + p % OZ_LANES;
+        global const scalar *from = w->pair_history + (size_t)p * OZ_SPRING;
         global scalar *to = w->outer_history + (size_t)w->pair_outer[p] * 3;
         to[0] = from[0];
-        to[1] = from[OZ_LANES];
-        to[2] = from[2 * OZ_LANES];
+        to[1] = from[1];
+        to[2] = from[2];
     }
 #endif
 }

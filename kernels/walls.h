@@ -26,7 +26,7 @@ OZ_INLINE OzWallDistance oz_walls_cylinder(OzVec3 from_axis, scalar radius)
 {
     OzWallDistance wall;
     real r2 = from_axis.x * from_axis.x + from_axis.y * from_axis.y;
-    real inverse = REAL(1.0) / sqrt(oz_larger(r2, REAL(OZ_TINY)));
+    real inverse = oz_inverse_root(oz_larger(r2, REAL(OZ_TINY)));
     wall.normal = oz_vec3(-from_axis.x * inverse, -from_axis.y * inverse, REAL(0.0));
     wall.distance = REAL(radius) - r2 * inverse;
     return wall;

@@ -101,28 +101,7 @@ OZ_INLINE int oz_work_region_end(const OzWork *w, int region)
     return min((region + 1) * w->z.region_slots, w->z.count);
 }
 
-/* Grains in slots as contacts see them. */
-OZ_INLINE OzGrain oz_work_grains(const OzWork *w, const int *slots)
-{
-    real a[4], b[4], c[4], d[4];
-    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_PLACE, a);
-    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_SHAFT, b);
-    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_VELOCITY, c);
-    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_RATE, d);
-    OzGrain grain;
-    grain.place.x = oz_place_of_bits(a[0]);
-    grain.place.y = oz_place_of_bits(a[1]);
-    grain.place.z = oz_place_of_bits(a[2]);
-    grain.half_shaft = oz_vec3(b[0], b[1], b[2]);
-    grain.velocity = oz_vec3(c[0], c[1], c[2]);
-    grain.rate = oz_vec3(d[0], d[1], d[2]);
-    grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];
-    grain.mass = OZ_EQUAL ? REAL(w->parameters->mass) : b[3];
-    grain.inverse_inertia = d[3];
-    return grain;
-}
-
-/* The geometry alone. */
+/* Places, shafts, radii and masses of the grains in slots. */
 OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
 {
     real a[4], b[4];
@@ -134,7 +113,43 @@ OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
     grain.place.z = oz_place_of_bits(a[2]);
     grain.half_shaft = oz_vec3(b[0], b[1], b[2]);
     grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];
+    grain.mass = OZ_EQUAL ? REAL(w->parameters->mass) : b[3];
     return grain;
+}
+
+/* What contacts want beside that. */
+OZ_INLINE void oz_work_load_motion(const OzWork *w, const int *slots, OzGrain *grain)
+{
+    real c[4], d[4];
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_VELOCITY, c);
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_RATE, d);
+    grain->velocity = oz_vec3(c[0], c[1], c[2]);
+    grain->rate = oz_vec3(d[0], d[1], d[2]);
+    grain->inverse_inertia = d[3];
+}
+
+/* Grains in slots as contacts see them. */
+OZ_INLINE OzGrain oz_work_grains(const OzWork *w, const int *slots)
+{
+    OzGrain grain = oz_work_geometry(w, slots);
+    oz_work_load_motion(w, slots, &grain);
+    return grain;
+}
+
+/* Three words, from `word` on, of items in an array of blocks of `words` words. */
+OZ_INLINE OzVec3 oz_work_fetch3(global const real *blocks, const int *items, int words, int word)
+{
+    return oz_vec3(oz_lanes_fetch(blocks, items, words, word),
+                   oz_lanes_fetch(blocks, items, words, word + 1),
+                   oz_lanes_fetch(blocks, items, words, word + 2));
+}
+
+/* The same, written. */
+OZ_INLINE void oz_work_put3(global real *blocks, const int *items, int words, int word, OzVec3 v)
+{
+    oz_lanes_put(blocks, items, words, word, v.x);
+    oz_lanes_put(blocks, items, words, word + 1, v.y);
+    oz_lanes_put(blocks, items, words, word + 2, v.z);
 }
 
 OZ_INLINE OzVec3 oz_work_load3(global const real *words)
@@ -148,5 +163,17 @@ OZ_INLINE void oz_work_store3(global real *words, OzVec3 v)
     words[1] = v.y;
     words[2] = v.z;
 }
+
+#if OZ_SCATTER
+/* No forces yet on the region's grains. */
+OZ_INLINE void oz_work_clear_loads(OzWork *w, int region)
+{
+    global real *words = (global real *)w->load;
+    for (int k = oz_work_block_begin(w, region) * OZ_LOAD; k < oz_work_block_end(w, region) * OZ_LOAD;
+         k++) {
+        words[k] = REAL(0.0);
+    }
+}
+#endif
 
 #endif

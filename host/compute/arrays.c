@@ -18,6 +18,7 @@
 #define OZ_LEDGER    (s->ledger)
 #define OZ_LINE      (s->line)
 #define OZ_RESORT    (s->resort)
+#define OZ_GROUP     (s->group)
 
 static size_t scalar_bytes(const OzSwitches *s)
 {
@@ -74,8 +75,8 @@ static OzStatus make_buffer(cl_mem *buffer, const OzDevice *device, OzFieldId fi
     }
     *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, rounded, NULL, &code);
     CL_TRY(code);
-    CL_TRY(clEnqueueFillBuffer(device->queue, *buffer, &zero, sizeof zero, 0, rounded, 0, NULL,
-                               NULL));
+    CL_TRY(
+        clEnqueueFillBuffer(device->queue, *buffer, &zero, sizeof zero, 0, rounded, 0, NULL, NULL));
 done:
     return status;
 }

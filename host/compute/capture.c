@@ -37,6 +37,7 @@ static OzStatus touch_pairs(OzSim *sim, int member, OzTouch *touch)
 {
     OzStatus status = OZ_OK;
     const OzSizes *z = &sim->arrays.sizes;
+    const OzSwitches *switches = &sim->arrays.switches;
     int *a = NULL, *b = NULL, *count = NULL, *id = NULL;
     void *springs = NULL;
     double spring[3];
@@ -48,7 +49,11 @@ static OzStatus touch_pairs(OzSim *sim, int member, OzTouch *touch)
     for (int r = 0; r < z->regions; r++) {
         int64_t begin = (int64_t)r * z->inner_capacity;
         for (int64_t p = begin; p < begin + count[r]; p++) {
-            read_spring(sim, springs, p, 3, 0, spring);
+            for (int c = 0; c < 3; c++) {
+                spring[c] = switches->history ? oz_pack_scalar(springs, (size_t)(p * OZ_SPRING + c),
+                                                               switches->is_double)
+                                              : 0;
+            }
             oz_touch_pair(touch, id[a[p]], id[b[p]], spring);
         }
     }

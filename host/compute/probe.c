@@ -2,7 +2,6 @@
 #include "compute/probe.h"
 
 #include "base/memory.h"
-#include "compute/pack.h"
 #include "compute/sim_private.h"
 
 #include <stdlib.h>
@@ -18,25 +17,32 @@ done:
     return status;
 }
 
+static int count_bits(int bits)
+{
+    int count = 0;
+    for (unsigned left = (unsigned)bits; left; left &= left - 1) {
+        count++;
+    }
+    return count;
+}
+
 static OzStatus count_pairs(OzProbe *probe, const OzSim *sim, int member)
 {
     OzStatus status = OZ_OK;
     const OzSizes *z = &sim->arrays.sizes;
-    int *count = NULL;
-    void *force = NULL;
+    int lanes = sim->arrays.switches.lanes, *count = NULL, *picked = NULL;
     OZ_TRY(download(sim, OZ_FIELD_pair_count, member, (void **)&count));
-    OZ_TRY(download(sim, OZ_FIELD_pair_force, member, &force));
+    OZ_TRY(download(sim, OZ_FIELD_pair_picked, member, (void **)&picked));
     for (int region = 0; region < z->regions; region++) {
-        size_t begin = (size_t)region * (size_t)z->inner_capacity;
+        int begin = region * z->inner_capacity / lanes;
         probe->pairs += count[region];
-        for (size_t p = begin; p < begin + (size_t)count[region]; p++) {
-            probe->touching += oz_pack_scalar(force, p * OZ_PAIR_FORCE + OZ_F_OVERLAP,
-                                              sim->arrays.switches.is_double) > 0;
+        for (int block = begin; block < begin + (count[region] + lanes - 1) / lanes; block++) {
+            probe->touching += count_bits(picked[block]);
         }
     }
 done:
     free(count);
-    free(force);
+    free(picked);
     return status;
 }
 

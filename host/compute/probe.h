@@ -8,7 +8,7 @@
 typedef struct OzProbe {
     int64_t grains;
     int64_t pairs;    /* of the inner lists, which the forces walk          */
-    int64_t touching; /* pairs that touched in the last step                */
+    int64_t touching; /* pairs that touched in the last step, or nearly so  */
     int64_t bytes;    /* of all device arrays                               */
     int walls;
     bool is_double, history, equal, round;

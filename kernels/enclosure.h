@@ -1,0 +1,152 @@
+/* Forces between grains and walls. Few grains touch a wall: a sieve picks the ends that do, wall by wall, and
+ * the contact law gets full blocks of them, one end a lane. OpenCL C only. */
+#ifndef OZ_KERNELS_ENCLOSURE_H
+#define OZ_KERNELS_ENCLOSURE_H
+
+#include "kernels/grains.h"
+
+#if OZ_PLANES + OZ_CYLINDERS > 0
+
+/* The step at whose beginning walls stand where the forces of this step meet them. */
+#if defined(OZ_MOVES_BEFORE)
+#define OZ_ENCLOSURE_STEP(step) ((step) + 1)
+#else
+#define OZ_ENCLOSURE_STEP(step) (step)
+#endif
+
+/* One end of the grains at one wall, in one step. */
+typedef struct OzSide {
+    int wall;
+    real sign;   /* of the half-shaft that leads to the end: 1 or -1 */
+    int index;   /* among all ends at all walls                      */
+    int first;   /* the first end: a sphere has no other             */
+    scalar offset, speed; /* m, m/s along z, of the wall                */
+} OzSide;
+
+OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
+{
+    OzSide side;
+    int ends = OZ_ROUND ? 1 : 2;
+    side.index = index;
+    side.wall = index / ends;
+    side.first = index % ends == 0;
+    side.sign = REAL(side.first ? 1.0 : -1.0);
+    side.offset = side.speed = 0;
+    if (OZ_MOVING) {
+        size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * (OZ_PLANES + OZ_CYLINDERS) + side.wall;
+        side.offset = w->motion[2 * at];
+        side.speed = w->motion[2 * at + 1];
+    }
+    return side;
+}
+
+OZ_INLINE OzWallDistance oz_enclosure_distance(const OzWork *w, OzPlace place_, OzVec3 end, OzSide side)
+{
+    global const OzWallParameters *wall = &w->parameters->wall[side.wall];
+    scalar unit = w->parameters->length_unit;
+    if (side.wall < OZ_PLANES) {
+        OzVec3 from = oz_vec3(
+            oz_place_to_real(place_.x - (spot_kind)wall->point[0]) * unit + end.x,
+            oz_place_to_real(place_.y - (spot_kind)wall->point[1]) * unit + end.y,
+            oz_place_to_real(place_.z - (spot_kind)wall->point[2]) * unit + end.z - side.offset);
+        return oz_walls_plane(from, wall->normal[0], wall->normal[1], wall->normal[2]);
+    }
+    OzVec3 from = oz_vec3(oz_place_to_real(place_.x) * unit + end.x,
+                          oz_place_to_real(place_.y) * unit + end.y, REAL(0.0));
+    return oz_walls_cylinder(from, wall->radius);
+}
+
+/* Overlaps that no run may go on with. */
+OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact, real radius, int step)
+{
+    mask deep = contact.touching & (contact.overlap > radius);
+    if (OZ_ANY(deep)) {
+        mask lost = contact.touching & (contact.overlap > REAL(2.0) * radius);
+        oz_work_stop_lanes(w, deep, OZ_STOP_DEEP, step, slots);
+        oz_work_stop_lanes(w, lost, OZ_STOP_ESCAPED, step, slots);
+    }
+}
+
+/* The picked ends that fill the lanes; of the last ones the first `count`, the others repeat one of them. */
+OZ_INLINE void oz_enclosure_touch(OzWork *w, OzSide side, const int *slots, int count, int step)
+{
+    OzGrain grain = oz_work_grains(w, slots);
+    OzVec3 end = oz_scale(grain.half_shaft, side.sign);
+    OzWallDistance at = oz_enclosure_distance(w, grain.place, end, side);
+    /* a sphere in a population of rods touches once, not with two coincident ends */
+    mask present = OZ_EQUAL || side.first ? at.distance < grain.radius
+                                          : oz_dot(end, end) > REAL(0.0);
+    OzContact contact;
+    OzVec3 arm, history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    if (OZ_HISTORY) {
+        history = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side.index);
+    }
+    OzContactForce parts =
+        oz_rods_wall(grain, end, at, oz_vec3(REAL(0.0), REAL(0.0), REAL(side.speed)), present,
+                     w->parameters->wall[side.wall].law, &history, w->parameters->dt,
+                     OZ_HISTORY_SHARE, &contact, &arm);
+    if (OZ_HISTORY) {
+        oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side.index, history);
+    }
+    OzVec3 force = oz_where(OZ_PICKED_BEFORE(count), parts.force);
+    oz_loads_add(w, slots, force, oz_cross(arm, force));
+    oz_enclosure_guard(w, slots, contact, grain.radius, step);
+#if OZ_LEDGER
+    oz_pairs_note(w->wall_ledger, slots, OZ_WALL_ENDS * OZ_CONTACT_LEDGER,
+                  side.index * OZ_CONTACT_LEDGER, contact, parts, parts.force, arm);
+#endif
+}
+
+/* Which ends of a block of grains to pick; the springs of the others end. */
+OZ_INLINE int oz_enclosure_sieve(OzWork *w, OzSide side, int block)
+{
+    OzBody body = oz_grains_load(w, block);
+    OzShape shape = oz_grains_shape(w, block);
+    OzVec3 end = oz_scale(oz_quaternion_axis(body.turn), shape.half_length * side.sign);
+    OzWallDistance at = oz_enclosure_distance(w, body.place, end, side);
+    mask near = at.distance < shape.radius * REAL(1 + OZ_PAIRS_MARGIN);
+    size_t index = (size_t)block * OZ_WALL_ENDS + side.index;
+    if (OZ_HISTORY) {
+        global real *kept = w->wall_history + 3 * index;
+        oz_work_store3(kept, oz_where(near, oz_work_load3(kept)));
+    }
+#if OZ_LEDGER
+    for (int k = 0; k < OZ_CONTACT_LEDGER; k++) {
+        w->wall_ledger[index * OZ_CONTACT_LEDGER + k] = REAL(0.0);
+    }
+#endif
+    return oz_lanes_bits(near);
+}
+
+/* Every end at one wall is through before the next is begun: a grain's sum must not depend on how ends share
+ * blocks. */
+OZ_INLINE void oz_enclosure_side_region(OzWork *w, OzSide side, int region, int step)
+{
+    int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
+    OzPicked picked;
+    picked.count = 0;
+    for (int first = begin; first < end; first += OZ_PICKED_BLOCKS) {
+        int stop = min(first + OZ_PICKED_BLOCKS, end);
+        for (int block = first; block < stop; block++) {
+            oz_picked_add(&picked, OZ_LANES_IOTA + block * OZ_LANES,
+                          oz_enclosure_sieve(w, side, block));
+        }
+        int due = oz_picked_due(&picked, stop == end);
+        oz_picked_fill(&picked, due);
+        for (int at = 0; at < due; at += OZ_LANES) {
+            oz_enclosure_touch(w, side, picked.item + at, picked.count - at, step);
+        }
+        oz_picked_drop(&picked, due);
+    }
+}
+
+OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
+{
+    for (int index = 0; index < OZ_WALL_ENDS; index++) {
+        oz_enclosure_side_region(w, oz_enclosure_side(w, index, step), region, step);
+    }
+}
+
+#endif
+
+#endif

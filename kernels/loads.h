@@ -1,0 +1,98 @@
+/* Force and torque on each grain, kept slot by slot while pairs and walls add theirs: always in the same order,
+ * whatever the lists look like. OpenCL C only. */
+#ifndef OZ_KERNELS_LOADS_H
+#define OZ_KERNELS_LOADS_H
+
+#include "kernels/pairs.h"
+
+#if !OZ_SCATTER
+
+/* Whether a pair's force has been kept. */
+OZ_INLINE int oz_loads_picked(const OzWork *w, int pair)
+{
+    return (w->pair_picked[pair / OZ_LANES] >> (pair % OZ_LANES)) & 1;
+}
+
+typedef struct OzSum {
+    scalar4 force, torque;
+} OzSum;
+
+/* Pairs first ... last of a grain's list of those in which it is the second. */
+OZ_INLINE void oz_loads_sum_backs(OzSum *sum, const OzWork *w, int slot, int first, int last)
+{
+    global const int *back = w->back + (size_t)slot * w->z.back_capacity;
+    for (int k = first; k < last; k++) {
+        global const scalar4 *pair =
+            (global const scalar4 *)(w->pair_force + (size_t)back[k] * OZ_PAIR_FORCE);
+        if (oz_loads_picked(w, back[k])) {
+            sum->force += pair[OZ_F_FORCE / 4];
+            sum->torque += pair[OZ_F_TORQUE_B / 4];
+        }
+    }
+}
+
+/* Pairs in which a grain is the first. */
+OZ_INLINE void oz_loads_sum_own(OzSum *sum, const OzWork *w, int slot)
+{
+    int first = w->pair_first[slot], last = first + w->pair_number[slot];
+    for (int p = first; p < last; p++) {
+        global const scalar4 *pair =
+            (global const scalar4 *)(w->pair_force + (size_t)p * OZ_PAIR_FORCE);
+        if (oz_loads_picked(w, p)) {
+            sum->force -= pair[OZ_F_FORCE / 4];
+            sum->torque += pair[OZ_F_TORQUE_A / 4];
+        }
+    }
+}
+
+/* The pairs' force and torque on a grain, in the order of each pair's first grain's id, then the second's. */
+OZ_INLINE void oz_loads_gather(OzWork *w, int slot)
+{
+    OzSum sum = {(scalar4)(0), (scalar4)(0)};
+    int backs = w->back_number[slot], before = OZ_EQUAL ? backs : w->back_before[slot];
+    oz_loads_sum_backs(&sum, w, slot, 0, before);
+    oz_loads_sum_own(&sum, w, slot);
+    oz_loads_sum_backs(&sum, w, slot, before, backs);
+    global scalar4 *to = (global scalar4 *)(w->load + (size_t)slot * OZ_LOAD);
+    to[0] = sum.force;
+    to[1] = sum.torque;
+}
+
+OZ_INLINE void oz_loads_gather_region(OzWork *w, int region)
+{
+    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+        oz_loads_gather(w, i);
+    }
+}
+
+#endif
+
+/* Adds to the loads of the grains in slots. */
+OZ_INLINE void oz_loads_add(OzWork *w, const int *slots, OzVec3 force, OzVec3 torque)
+{
+    scalar4 forces[OZ_LANES], torques[OZ_LANES];
+    oz_lanes_rows3(force, forces);
+    oz_lanes_rows3(torque, torques);
+#pragma unroll
+    for (int l = 0; l < OZ_LANES; l++) {
+        global scalar4 *load = (global scalar4 *)(w->load + (size_t)slots[l] * OZ_LOAD);
+        load[0] += forces[l];
+        load[1] += torques[l];
+    }
+}
+
+/* The loads of a block of grains. */
+OZ_INLINE OzLoad oz_loads_of(const OzWork *w, int block)
+{
+    int slots[OZ_LANES];
+    real force[4], torque[4];
+    for (int l = 0; l < OZ_LANES; l++) {
+        slots[l] = block * OZ_LANES + l;
+    }
+    oz_lanes_load4(w->load, slots, OZ_LOAD, 0, force);
+    oz_lanes_load4(w->load, slots, OZ_LOAD, 4, torque);
+    OzLoad load = {oz_vec3(force[0], force[1], force[2]), oz_vec3(torque[0], torque[1], torque[2])};
+    return load;
+}
+
+#endif
