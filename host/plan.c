@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "model/beam_limits.h"
 #include "model/place.h"
 #include "model/predict.h"
 #include "scene/sweep.h"
@@ -50,8 +51,35 @@ static OzStatus load_scene(const OzPlan *plan, int64_t i, OzScene *scene)
 }
 
 /* Refuses a step at which a contact of the scene grows by itself. */
+static OzStatus check_pieces(const OzScene *scene, const OzGrains *grains, bool force)
+{
+    OzBeamLimit limit;
+    if (scene->integrator == OZ_INTEGRATOR_RK4) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: integrator rk4 is on the host alone, to compare with; expected "
+                              "gear4 or velocity-verlet",
+                              scene->path);
+    }
+    OzStatus status = oz_beam_limits_find(&limit, scene, grains);
+    if (status != OZ_OK || scene->step < limit.largest_step) {
+        return status;
+    }
+    if (!force) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: time.step %g s is unstable for %s of grain %lld; expected below "
+                              "%g s, or --force",
+                              scene->path, scene->step, limit.beam < 0 ? "contacts" : "the beams",
+                              (long long)limit.grain, limit.largest_step);
+    }
+    oz_log_line("warning: time.step %g s is unstable, above %g s", scene->step, limit.largest_step);
+    return OZ_OK;
+}
+
 static OzStatus check_stability(const OzScene *scene, const OzGrains *grains, bool force)
 {
+    if (scene->model == OZ_MODEL_TRIGRAINS) {
+        return check_pieces(scene, grains, force);
+    }
     OzPrediction *rows = NULL;
     int count = 0;
     OzStatus status = oz_predict_scene(&rows, &count, scene, grains);

@@ -7,6 +7,7 @@
 #include "model/place.h"
 #include "model/predict.h"
 #include "scene/keys.h"
+#include "study/inspect_pieces.h"
 #include "study/report_bed.h"
 
 #include <math.h>
@@ -124,12 +125,17 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
         fprintf(file, "  step             %.17g s, fitted to the contact time: %g was written\n",
                 scene.step, scene.written_step);
     }
-    print_grains(file, &grains);
-    print_motion(file, &scene);
-    OZ_TRY(print_contacts(file, &scene, &grains));
     OZ_TRY(oz_device_open(&device, options->device, options->threads));
-    OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
-    OZ_TRY(oz_report_bed_print(file, &scene, &grains, &device, options->source_dir, PATIENCE));
+    if (scene.model == OZ_MODEL_TRIGRAINS) {
+        OZ_TRY(oz_inspect_pieces_print(file, &scene, &grains));
+        OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
+    } else {
+        print_grains(file, &grains);
+        print_motion(file, &scene);
+        OZ_TRY(print_contacts(file, &scene, &grains));
+        OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
+        OZ_TRY(oz_report_bed_print(file, &scene, &grains, &device, options->source_dir, PATIENCE));
+    }
     if (!scene.movie.present && scene.snapshots.count == 0 && !(scene.snapshots.strobe > 0)) {
         fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
     }

@@ -1,0 +1,86 @@
+/* Printing what trigrains are made of and how large their step may be. */
+#include "study/inspect_pieces.h"
+
+#include "model/beam_limits.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Of all values, or of those of triangles where radius says which are. */
+static void print_range(FILE *file, const char *name, const double *values, const double *radius,
+                        int64_t count, const char *unit)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t i = 0; i < count; i++) {
+        if (!radius || radius[i] == 0) {
+            low = fmin(low, values[i]);
+            high = fmax(high, values[i]);
+        }
+    }
+    bool spread = high > low * (1 + 1e-9); /* beyond the rounding of places */
+    if (spread) {
+        fprintf(file, "  %-16s %.6g ... %.6g %s\n", name, low, high, unit);
+    } else if (high >= low) {
+        fprintf(file, "  %-16s %.6g %s\n", name, low, unit);
+    }
+}
+
+static void print_bodies(FILE *file, const OzGrains *grains)
+{
+    const OzPieces *pieces = grains->pieces;
+    fprintf(file, "grains             %lld\n", (long long)grains->count);
+    print_range(file, "diameter", grains->diameter, NULL, grains->count, "m (circle around)");
+    print_range(file, "mass", grains->mass, NULL, grains->count, "kg");
+    print_range(file, "inertia", grains->inertia, NULL, grains->count, "kg m^2");
+    fprintf(file, "pieces             %lld of grains, %lld of walls\n",
+            (long long)pieces->free_count, (long long)(pieces->count - pieces->free_count));
+    print_range(file, "triangle", pieces->area, pieces->radius, pieces->free_count, "m^2");
+    fprintf(file, "beams              %lld\n", (long long)pieces->beam_count);
+    print_range(file, "length", pieces->beam_length, NULL, pieces->beam_count, "m");
+}
+
+static void print_walls(FILE *file, const OzScene *scene)
+{
+    double gravity = hypot(scene->gravity[0], scene->gravity[1]);
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        const OzMotion *motion = &wall->motion;
+        if (motion->present && motion->frequency > 0) {
+            fprintf(file,
+                    "wall %d             moves %.6g m up and down at %g Hz: %.4g times gravity\n",
+                    w, motion->amplitude, motion->frequency, motion->acceleration_ratio);
+        }
+        if (motion->present && motion->angular_velocity != 0) {
+            double turn = motion->angular_velocity;
+            fprintf(file, "wall %d             turns at %g rad/s, once in %.4g s", w, turn,
+                    2 * PI / fabs(turn));
+            if (wall->kind == OZ_WALL_DRUM && gravity > 0) {
+                fprintf(file, "; Froude number %.4g", turn * turn * wall->diameter / 2 / gravity);
+            }
+            fputc('\n', file);
+        }
+    }
+}
+
+OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrains *grains)
+{
+    OzBeamLimit limit;
+    print_bodies(file, grains);
+    print_walls(file, scene);
+    OzStatus status = oz_beam_limits_find(&limit, scene, grains);
+    if (status != OZ_OK || isinf(limit.largest_step)) {
+        return status;
+    }
+    fprintf(file, "stiffest           grain %lld: %.4g rad/s, damped at %.4g 1/s; set by %s",
+            (long long)limit.grain, limit.rate, limit.damping, limit.beam < 0 ? "a contact" : "");
+    if (limit.beam >= 0) {
+        fprintf(file, "beam %lld of %.4g m", (long long)limit.beam,
+                grains->pieces->beam_length[limit.beam]);
+    }
+    fprintf(file, "\n  stable           %s: largest step %.6g s, margin %.3g\n",
+            scene->step < limit.largest_step ? "yes" : "NO", limit.largest_step,
+            limit.largest_step / scene->step);
+    return OZ_OK;
+}

@@ -1,0 +1,13 @@
+/* What follows from a trigrains scene, for `orzo check`. */
+#ifndef OZ_STUDY_INSPECT_PIECES_H
+#define OZ_STUDY_INSPECT_PIECES_H
+
+#include "model/grains.h"
+
+#include <stdio.h>
+
+/* Prints grains, pieces and beams with their extremes, how walls move (a drum's Froude number), and
+ * the step against the largest stable one with what sets it. Fails with OZ_ERR_MEMORY. */
+OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrains *grains);
+
+#endif
