@@ -105,7 +105,7 @@ static Room find_room(const OzScene *scene, const OzSnapshot *snapshot)
 /* Grains that flow fall a few of their own sizes at a time before they hit others. */
 static double flow_speed(const OzScene *scene, const OzSnapshot *snapshot)
 {
-    const double sizes_fallen = 5;
+    const double sizes_fallen = 3;
     double sum = 0, gravity = hypot(scene->gravity[0], scene->gravity[1]);
     for (int64_t g = 0; g < snapshot->count; g++) {
         sum += snapshot->grains->diameter[g];

@@ -173,12 +173,13 @@ static void add_disc(OzPolygons *polygons, const Piece *piece)
     const OzSnapshot *s = piece->snapshot;
     const double *centre = s->piece_position + 2 * piece->index;
     double radius = s->grains->pieces->radius[piece->index], angle = s->piece_angle[piece->index];
-    double view[2], rim[2] = {centre[0] + radius * cos(angle), centre[1] + radius * sin(angle)};
-    float dark[4] = {0.35f * piece->rgba[0], 0.35f * piece->rgba[1], 0.35f * piece->rgba[2],
-                     piece->rgba[3]};
+    double view[2], width = line_width(piece->camera);
+    double end = radius - 0.5 * width * piece->camera->unit / piece->camera->scale;
+    double rim[2] = {centre[0] + end * cos(angle), centre[1] + end * sin(angle)};
+    float ink[4] = {piece->ink[0], piece->ink[1], piece->ink[2], piece->rgba[3]};
     see(piece->camera, centre, view);
     add_fan(polygons, piece, view, radius / piece->camera->unit);
-    add_line(polygons, piece->camera, centre, rim, 1.5 * line_width(piece->camera), dark);
+    add_line(polygons, piece->camera, centre, rim, 1.5 * width, ink);
 }
 
 static void add_piece(OzPolygons *polygons, const Piece *piece)
@@ -224,18 +225,38 @@ static bool wall_is_gone(const OzSnapshot *snapshot, int64_t wall)
     return until > 0 && snapshot->time >= until;
 }
 
-void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, const OzCamera *camera)
+/* Lines along the outer edges of a wall's piece, to both sides. */
+static void add_edges(OzPolygons *polygons, const Piece *piece)
+{
+    const OzSnapshot *s = piece->snapshot;
+    int64_t i = piece->index;
+    double corners[6];
+    float ink[4] = {piece->ink[0], piece->ink[1], piece->ink[2], 1};
+    oz_pieces_corners(s->grains->pieces, i, s->piece_position + 2 * i, s->piece_angle[i], corners);
+    for (int e = 0; e < 3; e++) {
+        if (piece->edges & 1 << e) {
+            add_line(polygons, piece->camera, corners + 2 * e, corners + 2 * ((e + 1) % 3),
+                     2 * line_width(piece->camera), ink);
+        }
+    }
+}
+
+/* The lines come first, so that where parts of walls overlap the fills hide them. */
+void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
+                           const OzCamera *camera)
 {
     const OzPieces *pieces = snapshot->grains->pieces;
     Piece piece = {.snapshot = snapshot, .camera = camera};
-    int64_t next = 0;
     memcpy(piece.rgba, WALL, sizeof piece.rgba);
     choose_ink(WALL, piece.ink);
-    for (int64_t i = pieces->free_count; i < pieces->count; i++) {
-        piece.index = i;
-        piece.edges = edges_of(pieces, i, &next);
-        if (!wall_is_gone(snapshot, pieces->body[i] - pieces->grain_count)) {
-            add_piece(polygons, &piece);
+    for (int fill = look->outlines ? 0 : 1; fill < 2; fill++) {
+        int64_t next = 0;
+        for (int64_t i = pieces->free_count; i < pieces->count; i++) {
+            piece.index = i;
+            piece.edges = fill ? 0 : edges_of(pieces, i, &next);
+            if (!wall_is_gone(snapshot, pieces->body[i] - pieces->grain_count)) {
+                (fill ? add_piece : add_edges)(polygons, &piece);
+            }
         }
     }
 }

@@ -32,7 +32,7 @@ void oz_polygons_free(OzPolygons *polygons);
 void oz_polygons_clear(OzPolygons *polygons);
 
 /* The walls that are there at the snapshot's time. */
-void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot,
+void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
                            const OzCamera *camera);
 
 /* The grains in the look's colours, and their beams if it shows them; presence: 1 is opaque, less

@@ -277,7 +277,7 @@ static OzStatus draw_flat_samples(OzRenderer *renderer, const OzSnapshot *snapsh
     open_panel(&renderer->context.gl, &camera->panels[0], look->height, size);
     oz_polygons_clear(polygons);
     if (!look->bare) {
-        oz_polygons_add_walls(polygons, &snapshots[count - 1], camera);
+        oz_polygons_add_walls(polygons, &snapshots[count - 1], look, camera);
     }
     for (int i = 0; i < count; i++) {
         double age = count > 1 ? (double)(count - 1 - i) / (count - 1) : 0;
