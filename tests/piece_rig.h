@@ -45,19 +45,25 @@ static inline void rig_read(PieceRig *rig, const char *format, ...)
     must(oz_scene_parse(&rig->scene, "rig.yaml", text, NULL, 0));
 }
 
-/* Room for grains of equal numbers of triangles and beams; what the triangles are is set next. */
-static inline OzPieces *rig_grains(PieceRig *rig, int64_t grains, int64_t triangles, int64_t beams)
+/* Room for grains of equal numbers of pieces and beams, and for the scene's walls of one piece
+ * each; what the pieces are is set next. */
+static inline OzPieces *rig_grains(PieceRig *rig, int64_t grains, int64_t each, int64_t beams)
 {
-    OzPieceCounts counts = {
-        .grains = grains, .free_pieces = grains * triangles, .beams = grains * beams};
+    int walls = rig->scene.wall_count;
+    OzPieceCounts counts = {.grains = grains,
+                            .walls = walls,
+                            .free_pieces = grains * each,
+                            .wall_pieces = walls,
+                            .beams = grains * beams};
     must(oz_grains_create(&rig->grains, grains));
     must(oz_pieces_create(&rig->grains.pieces, &counts));
     OzPieces *pieces = rig->grains.pieces;
     for (int64_t i = 0; i < pieces->count; i++) {
-        pieces->body[i] = (int)(i / triangles);
+        bool wall = i >= pieces->free_count;
+        pieces->body[i] = (int)(wall ? grains + i - pieces->free_count : i / each);
     }
-    for (int64_t g = 0; g <= grains; g++) {
-        pieces->first[g] = g * triangles;
+    for (int64_t g = 0; g <= grains + walls; g++) {
+        pieces->first[g] = g <= grains ? g * each : pieces->free_count + g - grains;
     }
     return pieces;
 }

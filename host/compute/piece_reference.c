@@ -156,7 +156,7 @@ done:
 }
 
 /* Half a kick by contacts, beams and gravity in substeps, the other half (Tuckerman, Berne and
- * Martyna 1992). */
+ * Martyna 1992). Damping sees the kick at once, or the step would be of first order. */
 static OzStatus verlet_substeps(Reference *r, double dt)
 {
     OzStatus status = OZ_OK;
@@ -164,6 +164,7 @@ static OzStatus verlet_substeps(Reference *r, double dt)
     double *ahead = r->scratch, part = dt / (double)parts;
     OzPieceLedger before = r->power, touch = {0};
     move(r->rate, r->rate, 0.5 * dt, r->touch, n);
+    OZ_TRY(evaluate(r, oz_piece_forces_hold, r->place, r->rate, time_of(r), r->acceleration));
     for (int64_t k = 0; k < parts; k++) {
         OZ_TRY(verlet_with(r, oz_piece_forces_hold, r->acceleration, time_of(r) + (double)k * part,
                            part));

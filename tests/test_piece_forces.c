@@ -1,0 +1,374 @@
+/* Pieces' forces and the reference that steps them: lists against all pairs, momentum, discs' laws
+ * against closed forms, walls that move and go, the ledger, substeps, and what each guard says. */
+#include "piece_rig.h"
+
+#include "base/random.h"
+#include "compute/piece_forces.h"
+
+static const double rest[2] = {0, 0};
+static const double pi = 3.14159265358979323846;
+
+/* Dice at random places, overlapping and not. */
+static void scatter(PieceRig *rig, int count, double width)
+{
+    OzRandom random = oz_random_stream(3, 1);
+    rig_grains(rig, count, 4, 4);
+    for (int g = 0; g < count; g++) {
+        double centre[2], velocity[2];
+        for (int k = 0; k < 2; k++) {
+            centre[k] = oz_random_uniform(&random, 0, width);
+            velocity[k] = oz_random_uniform(&random, -0.1, 0.1);
+        }
+        double edge = oz_random_uniform(&random, 1e-3, 2e-3);
+        rig_square(rig, g, edge, centre, oz_random_uniform(&random, 0, 6), velocity, 4);
+    }
+}
+
+static int64_t index_of(const OzPiecePairs *pairs, int a, int b)
+{
+    for (int64_t p = 0; p < pairs->count; p++) {
+        if (pairs->pair[p].a == a && pairs->pair[p].b == b) {
+            return p;
+        }
+    }
+    return -1;
+}
+
+/* Every pair whose circles meet is listed, also after moves of less than half the skin. */
+static void test_pairs(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    OzPiecePairs pairs = {0};
+    rig_read(&rig, "time: {step: 1e-6, duration: 1}");
+    scatter(&rig, 30, 8e-3);
+    OzPieces *p = rig.grains.pieces;
+    must(oz_piece_pairs_renew(&pairs, p, p->position));
+    int64_t listed = pairs.count;
+    for (int64_t i = 0; i < p->count; i++) {
+        p->position[2 * i] += 0.49 * pairs.skin * (i % 2 ? 1 : -1);
+    }
+    must(oz_piece_pairs_renew(&pairs, p, p->position));
+    assert_int_equal(pairs.count, listed);
+    for (int a = 0; a < p->count; a++) {
+        for (int b = a + 1; b < p->count; b++) {
+            double apart = hypot(p->position[2 * a] - p->position[2 * b],
+                                 p->position[2 * a + 1] - p->position[2 * b + 1]);
+            bool meets = apart < p->reach[a] + p->reach[b] && p->body[a] != p->body[b];
+            assert_true(!meets || index_of(&pairs, a, b) >= 0);
+        }
+    }
+    assert_true(listed < p->count * p->count / 8);
+    p->position[0] += pairs.skin;
+    must(oz_piece_pairs_renew(&pairs, p, p->position));
+    assert_true(pairs.position[0] == p->position[0]);
+    oz_piece_pairs_free(&pairs);
+    rig_close(&rig);
+}
+
+/* No wall, no gravity: all forces sum to nothing, and with balanced damping all torques too. */
+static void test_sums(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    OzPieceForces forces;
+    rig_read(&rig, "gravity: [0, 0]\ntime: {step: 1e-6, duration: 1}\n"
+                   "beams: {damping_shear: balanced}");
+    scatter(&rig, 30, 8e-3);
+    OzPieces *p = rig.grains.pieces;
+    for (int64_t i = 0; i < p->count; i++) {
+        p->position[2 * i] += 1e-5 * cos(7.0 * (double)i);
+    }
+    OzPieceState now = {p->position, p->angle, p->velocity, p->spin, 0, false};
+    must(oz_piece_forces_create(&forces, &rig.scene, &rig.grains));
+    must(oz_piece_forces_evaluate(&forces, &now));
+    double sum[3] = {0}, size = 0;
+    for (int64_t i = 0; i < p->count; i++) {
+        const double *f = &forces.force[2 * i], *x = &p->position[2 * i];
+        sum[0] += f[0];
+        sum[1] += f[1];
+        sum[2] += x[0] * f[1] - x[1] * f[0] + forces.torque[i];
+        size += hypot(f[0], f[1]);
+    }
+    assert_true(forces.sums.grain_pairs > 10);
+    assert_true(forces.sums.touches[OZ_TOUCH_I] > 10);
+    /* a hundred forces of some newtons, each exact to 1e-16 of itself, at some millimetres */
+    assert_true(hypot(sum[0], sum[1]) < 1e-13 * size);
+    assert_true(fabs(sum[2]) < 1e-15 * size);
+    oz_piece_forces_free(&forces);
+    rig_close(&rig);
+}
+
+static const char *const hooke = "contact: {contact_time: 1e-4, restitution: 0.6, friction: 0}";
+
+/* Two discs that meet head on; the first flies. */
+static void open_discs(PieceRig *rig, const char *contact, double step, double aside)
+{
+    rig_read(rig,
+             "gravity: [0, 0]\nintegrator: gear4\nobserve: {ledger: true}\n"
+             "time: {step: %g, duration: 1}\n%s",
+             step, contact);
+    OzPieces *p = rig_grains(rig, 2, 1, 0);
+    oz_pieces_set_disc(p, 0, (double[2]){0, 0}, 1e-3, 4);
+    oz_pieces_set_disc(p, 1, (double[2]){2e-3, aside}, 1e-3, 4);
+    p->velocity[0] = 0.1;
+    rig_start(rig);
+}
+
+/* The asked restitution, up to where first touch falls in a step: 1e-3 at 500 steps a hit. */
+static void test_disc_restitution(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    open_discs(&rig, hooke, 2e-7, 1e-5);
+    rig_advance(&rig, 1000);
+    double after = rig.now.velocity[3] - rig.now.velocity[0];
+    assert_true(fabs(after / 0.1 - 0.6) < 1e-3);
+    assert_true(fabs(rig.now.spin[2]) < 1e-9); /* rounding of the contact point */
+    double start = 0.5 * rig.grains.pieces->mass[0] * 0.01;
+    OzPieceLedger ledger = rig.now.piece_ledger;
+    assert_true(ledger.disc_friction == 0);
+    assert_true(fabs(rig_energy(&rig.now) + ledger.disc_damping - start) < 1e-3 * start);
+    rig_close(&rig);
+}
+
+/* Hertz without damping: the deepest overlap (5 m* v^2 / (4 Y))^(2/5). */
+static void test_disc_hertz(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    double deepest = 0;
+    open_discs(&rig,
+               "contact: {law: hertz, hertz_stiffness: 1e6, normal_damping_rate: 0, "
+               "tangential_damping_rate: 0}",
+               2e-7, 0);
+    for (int64_t step = 1; step < 2000; step += 5) {
+        rig_advance(&rig, step);
+        const double *x = rig.now.piece_position;
+        deepest = fmax(deepest, 2e-3 - hypot(x[2] - x[0], x[3] - x[1]));
+    }
+    double mass = rig.grains.pieces->mass[0] / 2;
+    double expected = pow(5 * mass * 0.01 / (4 * 1e6), 0.4);
+    assert_true(fabs(deepest / expected - 1) < 1e-4);
+    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-6);
+    rig_close(&rig);
+}
+
+/* A fast graze slides all the way: the impulse across is friction times that along the normal. */
+static void test_disc_friction(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    double before[3], after[3];
+    open_discs(&rig,
+               "contact: {law: hertz, hertz_stiffness: 1e9, normal_damping_rate: 0, "
+               "tangential_damping_rate: 1e6, friction: 0.01}",
+               5e-8, 0.5e-3);
+    rig_momentum(&rig.now, before);
+    rig_advance(&rig, 16000);
+    rig_momentum(&rig.now, after);
+    for (int k = 0; k < 3; k++) {
+        assert_true(fabs(after[k] - before[k]) < 1e-12 * before[0] * (k == 2 ? 1e-3 : 1) + 1e-25);
+    }
+    const double *v = &rig.now.velocity[3];
+    double mass = rig.grains.pieces->mass[1], spin = rig.now.spin[5];
+    double normal[2] = {sqrt(1 - 0.0625), 0.25}; /* at first touch, 2 mm apart */
+    double along = mass * (v[0] * normal[0] + v[1] * normal[1]);
+    double across = mass * (v[1] * normal[0] - v[0] * normal[1]);
+    /* the normal turns by 1e-4 during the hit, a hundredth of the friction */
+    assert_true(fabs(fabs(across / along) / 0.01 - 1) < 0.02);
+    assert_true(spin != 0 && rig.now.piece_ledger.disc_friction > 0);
+    rig_close(&rig);
+}
+
+/* A disc at rest over a wall's triangle: it sinks by m g / k, over an edge or over a corner. */
+static void check_rest(const double corners[6])
+{
+    PieceRig rig;
+    rig_read(&rig, "gravity: [0, -10]\nintegrator: rk4\ntime: {step: 1e-6, duration: 1}\n"
+                   "contact: {contact_time: 2e-4, restitution: 0.1}\n"
+                   "walls:\n  - {kind: segment, from: [1, 0], to: [-1, 0]}");
+    OzPieces *p = rig_grains(&rig, 1, 1, 0);
+    double sunk = 10 / oz_piece_laws_disc(&rig.scene, 0).stiffness;
+    oz_pieces_set_disc(p, 0, (double[2]){0, 1e-3 - 0.5 * sunk}, 1e-3, 4);
+    must(oz_pieces_set_triangle(p, 1, corners, 0));
+    rig_start(&rig);
+    rig_advance(&rig, 5000);
+    assert_true(fabs((1e-3 - rig.now.piece_position[1]) / sunk - 1) < 1e-3);
+    assert_int_equal(rig.now.pieces.wall_touches, 1);
+    assert_int_equal(rig.now.pieces.touches[OZ_TOUCH_DISC], 1);
+    assert_int_equal(rig.now.pieces.grain_pairs, 0);
+    rig_close(&rig);
+}
+
+static void test_disc_on_triangle(void **state)
+{
+    (void)state;
+    check_rest((double[6]){-2e-3, 0, 0, -3e-3, 3e-3, 0});
+    check_rest((double[6]){0, 0, -2e-3, -3e-3, 2e-3, -3e-3});
+}
+
+/* A die on a floor that goes up and down at 40 Hz: energy comes from the floor's work alone. */
+static void test_moving_floor(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    rig_read(&rig, "integrator: gear4\ntime: {step: 1e-6, duration: 1}\nobserve: {ledger: true}\n"
+                   "walls:\n  - {kind: segment, from: [1, 0], to: [-1, 0],\n"
+                   "     motion: {frequency: 40, amplitude: 1e-3}}");
+    OzPieces *p = rig_grains(&rig, 1, 4, 4);
+    rig_square(&rig, 0, 2e-3, (double[2]){0, 1.45e-3}, 0.7, rest, 4);
+    must(oz_pieces_set_triangle(p, 4, (double[6]){-0.05, 0, 0, -0.05, 0.05, 0}, 0));
+    rig_start(&rig);
+    double start = rig_energy(&rig.now), height = rig.now.position[1], mass = 4 * 4e-6;
+    rig_advance(&rig, 20000);
+    assert_true(fabs(rig.now.piece_position[9] - p->position[9] - 1e-3 * sin(2 * pi * 40 * 0.02)) <
+                1e-12);
+    OzPieceLedger l = rig.now.piece_ledger;
+    double gained = rig_energy(&rig.now) - start + mass * 9.80665 * (rig.now.position[1] - height);
+    double residual = gained + l.beam_axial + l.beam_bending - l.work_walls;
+    print_message("floor's work %.3g J, beams took %.3g J, residual %.1e of the work\n",
+                  l.work_walls, l.beam_axial + l.beam_bending, residual / l.work_walls);
+    assert_true(l.work_walls > 10 * start && l.beam_axial > 0);
+    /* gear4's second order where contacts begin, and contacts of kind ii, which have no potential
+     */
+    assert_true(fabs(residual) < 0.01 * l.work_walls);
+    rig_close(&rig);
+}
+
+/* A wall that goes at 0.1 ms holds a disc until then; one that turns takes its pieces round. */
+static void test_walls_go_and_turn(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    rig_read(&rig,
+             "gravity: [0, 0]\nintegrator: rk4\ntime: {step: 1e-6, duration: 1}\n"
+             "contact: {contact_time: 2e-4, restitution: 0.5}\n"
+             "walls:\n  - {kind: segment, from: [1, 0], to: [-1, 0], until: 1e-4}\n"
+             "  - {kind: drum, diameter: 0.1, point: [0.2, 0.1], motion: {angular_velocity: 3}}");
+    OzPieces *p = rig_grains(&rig, 1, 1, 0);
+    oz_pieces_set_disc(p, 0, (double[2]){0, 0.9e-3}, 1e-3, 4);
+    must(oz_pieces_set_triangle(p, 1, (double[6]){-0.05, 0, 0, -0.05, 0.05, 0}, 0));
+    must(oz_pieces_set_triangle(p, 2, (double[6]){0.3, 0.1, 0.31, 0.1, 0.3, 0.13}, 0));
+    rig_start(&rig);
+    assert_int_equal(rig.now.pieces.wall_touches, 1);
+    rig_advance(&rig, 99);
+    assert_int_equal(rig.now.pieces.wall_touches, 1);
+    rig_advance(&rig, 101);
+    assert_int_equal(rig.now.pieces.wall_touches, 0);
+    double speed = rig.now.velocity[1], x = p->position[4] - 0.2, y = p->position[5] - 0.1;
+    rig_advance(&rig, 1000);
+    assert_true(rig.now.velocity[1] == speed);
+    double turn = 3 * 1e-3, *at = &rig.now.piece_position[4], *v = &rig.now.piece_velocity[4];
+    assert_true(fabs(at[0] - 0.2 - (cos(turn) * x - sin(turn) * y)) < 1e-15);
+    assert_true(fabs(at[1] - 0.1 - (sin(turn) * x + cos(turn) * y)) < 1e-15);
+    assert_true(fabs(v[0] + 3 * (at[1] - 0.1)) < 1e-15);
+    assert_true(fabs(v[1] - 3 * (at[0] - 0.2)) < 1e-15);
+    assert_true(rig.now.piece_spin[2] == 3);
+    rig_close(&rig);
+}
+
+/* Where a die is after a hit, with contacts every step and beams as often or oftener. */
+static double flight(int substeps, double step)
+{
+    PieceRig rig;
+    rig_read(&rig,
+             "gravity: [0, 0]\nintegrator: velocity-verlet\nobserve: {ledger: true}\n"
+             "time: {step: %g, duration: 1}\nbeams: {substeps: %d}",
+             step, substeps);
+    rig_grains(&rig, 2, 4, 4);
+    rig_square(&rig, 0, 2e-3, rest, 0.5, (double[2]){0.3, 0}, 4);
+    rig_square(&rig, 1, 2e-3, (double[2]){2.8e-3, 0.3e-3}, 0, rest, 4);
+    rig_start(&rig);
+    double start = rig_energy(&rig.now);
+    rig_advance(&rig, (int64_t)(4e-3 / step + 0.5));
+    OzPieceLedger ledger = rig.now.piece_ledger;
+    double lost = ledger.beam_axial + ledger.beam_bending;
+    assert_true(fabs(rig_energy(&rig.now) + lost - start) < 0.01 * start);
+    double x = rig.now.position[0];
+    rig_close(&rig);
+    return x;
+}
+
+/* Beams in substeps come nearer to the exact answer than without, at the same step of contacts. */
+static void test_substeps(void **state)
+{
+    (void)state;
+    double exact = flight(1, 2.5e-7);
+    double plain = fabs(flight(1, 4e-6) - exact), parted = fabs(flight(4, 4e-6) - exact);
+    double fine = fabs(flight(4, 2e-6) - exact);
+    print_message("error without substeps %.2e m, with four %.2e m, at half the step %.2e m\n",
+                  plain, parted, fine);
+    assert_true(parted < plain && fine < 0.3 * parted);
+}
+
+static void check_says(PieceRig *rig, int64_t step, const char *words)
+{
+    assert_int_equal(oz_piece_reference_advance(rig->reference, step), OZ_ERR_BLOWUP);
+    if (!strstr(oz_status_text(), words)) {
+        fail_msg("'%s' does not say '%s'", oz_status_text(), words);
+    }
+}
+
+/* Two dice whose second is made by the caller. */
+static OzPieces *open_two(PieceRig *rig, const double second[2], double edge)
+{
+    rig_read(rig, "gravity: [0, 0]\nintegrator: gear4\ntime: {step: 1e-6, duration: 1}");
+    OzPieces *pieces = rig_grains(rig, 2, 4, 4);
+    rig_square(rig, 0, 2e-3, rest, 0, rest, 4);
+    rig_square(rig, 1, edge, second, 0.1, rest, 4);
+    return pieces;
+}
+
+static void test_guards(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    open_two(&rig, (double[2]){0, 0.6e-3}, 1e-4);
+    rig_start(&rig);
+    check_says(&rig, 1, "grain 0 has a triangle wholly inside");
+    rig_close(&rig);
+    open_two(&rig, (double[2]){1.2e-3, 0}, 2e-3);
+    rig_start(&rig);
+    check_says(&rig, 1, "grain 0 overlaps by more than half a piece with grain 1 in step 1");
+    rig_close(&rig);
+    OzPieces *pieces = open_two(&rig, (double[2]){5e-3, 0}, 2e-3);
+    pieces->position[9] += 2e-3;
+    rig_start(&rig);
+    check_says(&rig, 1, "grain 1 has a beam shorter than half or longer than 1.5");
+    rig_close(&rig);
+    pieces = open_two(&rig, (double[2]){5e-3, 0}, 2e-3);
+    pieces->angle[1] += 1.5;
+    rig_start(&rig);
+    check_says(&rig, 1, "grain 0 has a beam bent by more than 1 rad");
+    rig_close(&rig);
+    pieces = open_two(&rig, (double[2]){5e-3, 0}, 2e-3);
+    for (int i = 0; i < 4; i++) {
+        pieces->velocity[2 * i] = 1e3;
+    }
+    rig_start(&rig);
+    check_says(&rig, 1, "moves a piece farther than half its reach");
+    rig_close(&rig);
+    pieces = open_two(&rig, (double[2]){5e-3, 0}, 2e-3);
+    pieces->spin[6] = NAN;
+    rig_start(&rig);
+    check_says(&rig, 1, "grain 1");
+    rig_close(&rig);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_sums),
+        cmocka_unit_test(test_disc_restitution),
+        cmocka_unit_test(test_disc_hertz),
+        cmocka_unit_test(test_disc_friction),
+        cmocka_unit_test(test_disc_on_triangle),
+        cmocka_unit_test(test_moving_floor),
+        cmocka_unit_test(test_walls_go_and_turn),
+        cmocka_unit_test(test_substeps),
+        cmocka_unit_test(test_guards),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
