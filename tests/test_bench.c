@@ -91,8 +91,9 @@ static void test_tiny_ladder(void **state)
     (void)state;
     char folder[] = "/tmp/orzo_test_bench_XXXXXX", tidy[64];
     assert_non_null(mkdtemp(folder));
-    run("'%s' bench --quick --device cpu --threads 1 --budget 1 --set grains.0.count=150 --sizes "
-        "100,600 -o '%s' "
+    run("'%s' bench --quick --device cpu --threads 1 --budget 1 --set grains.0.count=100 --set "
+        "settle.rest_time=0.01 --set settle.threshold=0.1 --sizes "
+        "100,300 -o '%s' "
         ">'%s/said' 2>&1",
         folder, 0);
     assert_true(check_table(folder) >= 6); /* an6 and two sizes, in float and double */
