@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <glob.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -72,7 +73,18 @@ static void assert_same_wall(const OzWall *a, const OzWall *b)
     SAME(point);
     SAME(normal);
     SAME(diameter);
+    SAME(from);
+    SAME(to);
+    SAME(width);
+    SAME(height);
+    SAME(opening);
+    SAME(slope);
+    SAME(tooth_count);
+    SAME(tooth_depth);
+    SAME(thickness);
+    SAME(until);
     SAME(motion.present);
+    SAME(motion.angular_velocity);
     SAME(motion.frequency);
     SAME(motion.acceleration_ratio);
     SAME(motion.amplitude);
@@ -93,6 +105,17 @@ static void assert_same_population(const OzPopulation *a, const OzPopulation *b)
     SAME(axis);
     SAME(velocity);
     SAME(spin);
+    SAME(shape);
+    SAME(edge);
+    SAME(radius);
+    SAME(corners);
+    SAME(irregularity);
+    SAME(depth);
+    SAME(angle);
+    SAME(vertex_count);
+    for (int i = 0; i < a->vertex_count; i++) {
+        assert_true(a->vertices[i] == b->vertices[i]);
+    }
     assert_same_text(a->path, b->path);
 }
 
@@ -107,6 +130,11 @@ static void assert_same_outputs(const OzScene *a, const OzScene *b)
     SAME(observe.samples_per_tap);
     SAME(observe.layer_thickness);
     SAME(observe.ledger);
+    SAME(observe.outlet);
+    SAME(observe.has_outlet);
+    SAME(movie.outlines);
+    SAME(movie.beams);
+    SAME(snapshots.strobe);
     SAME(movie.present);
     SAME(movie.width);
     SAME(movie.height);
@@ -138,6 +166,15 @@ static void assert_same(const OzScene *a, const OzScene *b)
     SAME(broadphase);
     SAME(skin);
     SAME(gyroscopic);
+    SAME(triangles.stiffness);
+    SAME(triangles.force_point);
+    SAME(beams.stiffness);
+    SAME(beams.second_moment);
+    SAME(beams.damping);
+    SAME(beams.damping_shear);
+    SAME(beams.substeps);
+    SAME(beams.length_min);
+    SAME(beams.area_min);
     assert_same_contact(&a->contact, &b->contact);
     SAME(population_count);
     for (int i = 0; i < a->population_count; i++) {
@@ -187,9 +224,9 @@ static void writes_settings_and_odd_values(void **state)
 {
     (void)state;
     OzScene scene = parse(
-        SHAKEN
-        "  - {kind: plane, normal: [1, 2, 3], motion: {frequency: 7, amplitude: 1e-3}}\n"
-        "  - {kind: cylinder, diameter: 1, contact: {tangential_stiffness: 1/3, restitution: 0.25}}\n",
+        SHAKEN "  - {kind: plane, normal: [1, 2, 3], motion: {frequency: 7, amplitude: 1e-3}}\n"
+               "  - {kind: cylinder, diameter: 1, contact: {tangential_stiffness: 1/3, "
+               "restitution: 0.25}}\n",
         SETTINGS(
             "time.taps=30", "title=\"a \\\"b\\\" \\\\ #: \\x01\\u0085 Pösch\\ufeffel\\n\"",
             "grains=[{kind: single, diameter: 1/3, position: [0.1, -0.2, 0.3], axis: [3, 1, 2]},"
@@ -220,6 +257,52 @@ static void writes_every_bit(void **state)
                  "axis: [%.17g, %.17g, %.17g]}]",
                  3 * vector[0], 3 * vector[1], 3 * vector[2]);
         OzScene scene = parse(SMALL, SETTINGS(setting, axis));
+        assert_written_back(&scene);
+        oz_scene_free(&scene);
+    }
+}
+
+#define FLAT "model: trigrains\ntime: {step: 1e-6, duration: 1}\n"
+
+static void writes_trigrains(void **state)
+{
+    (void)state;
+    OzScene scene = parse(
+        FLAT "contact: {restitution: 0, contact_time: 1e-4, tangential_damping: 0.5}\n"
+             "grains:\n"
+             "  - {kind: random, count: 3, shape: polygon, radius: [1e-3, 1/3], corners: [3, 6],"
+             " irregularity: 1/7}\n"
+             "  - {kind: single, shape: star, radius: 1, corners: 5, depth: 0.3, position: [1, 2],"
+             " velocity: [0.1, 0], spin: -3, angle: -0.1}\n"
+             "  - {kind: lattice, shape: vertices, vertices: [0, 0, 1/3, 0, 0, 1], cells: [2, 3],"
+             " spacing: [2, 2], position: [0, 0]}\n"
+             "  - {kind: random, count: 1, shape: disc, radius: 0.1, fill: 0.2}\n"
+             "walls:\n"
+             "  - {kind: segment, from: [0, 1], to: [1, 0], until: 0.3, thickness: 1/9}\n"
+             "  - {kind: hopper, width: 1, height: 2, opening: 0, slope: 33.3, teeth: 3,"
+             " tooth_depth: 0.01, motion: {frequency: 30, amplitude: 1e-3}}\n"
+             "  - {kind: drum, diameter: 1, motion: {angular_velocity: 0.1}}\n"
+             "  - {kind: floor, width: 1, motion: {frequency: 7, acceleration_ratio: 2,"
+             " angular_velocity: 1}}\n"
+             "observe: {outlet: 0}\nmovie: {outlines: false, beams: true, colour: grey}\n",
+        SETTINGS("snapshots.strobe=1/7", "beams.substeps=3", "integrator=velocity-verlet",
+                 "beams.damping_shear=balanced", "triangles.force_point=midpoint"));
+    assert_true(scene.observe.has_outlet && scene.gravity[1] == -9.81 && scene.gravity[2] == 0);
+    assert_true(scene.populations[1].spin[2] == -3 && scene.populations[2].count == 6);
+    assert_true(fabs(scene.walls[1].slope - 33.3 * acos(-1) / 180) < 1e-15);
+    assert_true(scene.walls[2].contact.contact_time == 1e-4);
+    assert_int_equal(scene.precision, OZ_PRECISION_DOUBLE);
+    assert_written_back(&scene);
+    oz_scene_free(&scene);
+    /* Without discs contacts are not asked for; an angle keeps every bit through degrees. */
+    OzRandom random = oz_random_stream(2, 0);
+    for (int i = 0; i < 500; i++) {
+        char angle[64];
+        snprintf(angle, sizeof angle, "grains.0.angle=%.17g",
+                 oz_random_uniform(&random, -360, 360));
+        scene = parse(FLAT "grains: [{kind: single, shape: square, edge: 1, position: [0, 0]}]\n",
+                      SETTINGS(angle));
+        assert_false(scene.observe.has_outlet);
         assert_written_back(&scene);
         oz_scene_free(&scene);
     }
@@ -348,8 +431,11 @@ static void survives_noise(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(writes_what_it_read), cmocka_unit_test(writes_settings_and_odd_values),
-        cmocka_unit_test(writes_every_bit),    cmocka_unit_test(finds_files_beside_the_scene),
+        cmocka_unit_test(writes_what_it_read),
+        cmocka_unit_test(writes_settings_and_odd_values),
+        cmocka_unit_test(writes_every_bit),
+        cmocka_unit_test(writes_trigrains),
+        cmocka_unit_test(finds_files_beside_the_scene),
         cmocka_unit_test(survives_noise),
     };
     if (chdir(ORZO_TESTS) != 0) {

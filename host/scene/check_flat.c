@@ -21,6 +21,13 @@ typedef struct Checker {
         oz_tree_fault((checker)->root, (checker)->faults, path_, __VA_ARGS__);                     \
     } while (0)
 
+static bool is_written(const Checker *checker, const char *name)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s.%d.%s", checker->list, checker->index, name);
+    return oz_tree_at(checker->root, path) != NULL;
+}
+
 static void check_corners(const Checker *checker, const OzPopulation *grains)
 {
     const OzRange *corners = &grains->corners;
@@ -96,8 +103,8 @@ static void check_wall(const Checker *checker, const OzWall *wall)
     if (wall->kind == OZ_WALL_HOPPER && wall->width > 0) {
         check_hopper(checker, wall);
     }
-    if (wall->kind == OZ_WALL_SEGMENT && wall->from[0] == wall->to[0] &&
-        wall->from[1] == wall->to[1]) {
+    if (wall->kind == OZ_WALL_SEGMENT && is_written(checker, "from") && is_written(checker, "to") &&
+        wall->from[0] == wall->to[0] && wall->from[1] == wall->to[1]) {
         FAULT(checker, "to", "the segment has length zero; expected two points");
     }
 }

@@ -75,7 +75,7 @@ static void print_expected(const OzKey *key, FILE *file)
 {
     fputs(noun(key), file);
     if (key->type == OZ_KEY_CHOICES) {
-        fprintf(file, "a list of 1 to %d of ", key->width);
+        fprintf(file, key->width > 1 ? "a list of 1 to %d of " : "a list of %d of ", key->width);
     } else if (key->type == OZ_KEY_VECTOR) {
         fprintf(file, "a list of %d numbers ", key->width);
     } else if (key->type == OZ_KEY_COUNTS || key->type == OZ_KEY_SIZE) {

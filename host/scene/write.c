@@ -176,14 +176,21 @@ static bool is_of(const OzKey *key, unsigned bits, const char *name, const void 
     return !choice || bits >> *(const int *)oz_value_at(choice, base) & 1;
 }
 
-/* A law's values: of that law alone, and where nothing asks for them only when there. */
+/* Whether some grains touch by the laws of `contact`, which are then asked for. */
+static bool has_contacts(const OzScene *scene)
+{
+    bool any = scene->model == OZ_MODEL_RODS;
+    for (int i = 0; i < scene->population_count; i++) {
+        any |= scene->populations[i].shape == OZ_SHAPE_DISC;
+    }
+    return any;
+}
+
+/* A law's values: of that law alone, and where they are not asked for those that are there. */
 static bool is_of_law(const Writer *writer, const OzKey *key, const void *base)
 {
-    if (!key->laws) {
-        return true;
-    }
-    return key->laws >> writer->scene->contact.law & 1 &&
-           (writer->scene->model == OZ_MODEL_RODS || oz_value_holds(key, base));
+    return !key->laws || (key->laws >> writer->scene->contact.law & 1 &&
+                          (has_contacts(writer->scene) || oz_value_holds(key, base)));
 }
 
 static bool is_written(const Writer *writer, const OzKey *key, const void *base)
