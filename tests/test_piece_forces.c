@@ -99,6 +99,28 @@ static void test_sums(void **state)
     rig_close(&rig);
 }
 
+/* A corner, which two triangles share, in an edge of another die: two contacts, one pair of grains.
+ */
+static void test_counts(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    rig_read(&rig, "gravity: [0, 0]\ntime: {step: 1e-6, duration: 1}");
+    rig_grains(&rig, 3, 4, 4);
+    rig_square(&rig, 0, 2e-3, rest, 0, rest, 4);
+    rig_square(&rig, 1, 2e-3, (double[2]){2.4e-3, 0.1e-3}, pi / 4, rest, 4);
+    rig_square(&rig, 2, 2e-3, (double[2]){-2.4e-3, 0.1e-3}, pi / 4, rest, 4);
+    rig_start(&rig);
+    assert_int_equal(rig.now.pieces.touches[OZ_TOUCH_I], 4);
+    assert_int_equal(rig.now.pieces.grain_pairs, 2);
+    assert_int_equal(rig.now.pieces.wall_touches, 0);
+    /* sqrt 2 mm from centre to corner: a right-angled corner of height h has the area h^2 */
+    double h = 2.4142135623731e-3 - 2.4e-3;
+    assert_true(fabs(rig.now.pieces.overlap_sum / (2 * h * h) - 1) < 1e-9);
+    assert_true(fabs(rig.now.pieces.overlap_max / (h * h / 2) - 1) < 1e-9);
+    rig_close(&rig);
+}
+
 static const char *const hooke = "contact: {contact_time: 1e-4, restitution: 0.6, friction: 0}";
 
 /* Two discs that meet head on; the first flies. */
@@ -361,6 +383,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_pairs),
         cmocka_unit_test(test_sums),
+        cmocka_unit_test(test_counts),
         cmocka_unit_test(test_disc_restitution),
         cmocka_unit_test(test_disc_hertz),
         cmocka_unit_test(test_disc_friction),
