@@ -239,7 +239,8 @@ OZ_INLINE OzOverlap oz_triangle_overlap(const OzTriangle *a, const OzTriangle *b
     }
     o.moment = OZ_FORCE_POINT ? o.moment : oz_cross2(centroid, o.push);
     o.kind = crosses ? oz_triangle_kind(doubles) : REAL(0.0);
-    o.swallowed = (crossings < REAL(0.5)) & (o.area > REAL(0.0));
+    /* all of the smaller one; edges that coincide leave some rounding's area */
+    o.swallowed = (crossings < REAL(0.5)) & (REAL(2.0) * o.area > oz_smaller(area_a, area_b));
     real most_a = many ? o.area : part_a, most_b = many ? o.area : part_b;
     o.deep = crosses & ((REAL(2.0) * most_a > area_a) | (REAL(2.0) * most_b > area_b));
     o.push = oz_choose2(crosses, o.push, oz_vec2(REAL(0.0), REAL(0.0)));

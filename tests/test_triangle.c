@@ -295,6 +295,25 @@ static void test_deep_and_swallowed(void **state)
     }
 }
 
+/* Just touching: edges that coincide wholly or in part, a corner on an edge or a corner. */
+static void test_touching(void **state)
+{
+    (void)state;
+    const OzTriangle others[] = {
+        {{{-2, -2}, {0, -5}, {2, -2}}},  {{{-1, -2}, {0, -5}, {1, -2}}},
+        {{{0, -2}, {1, -5}, {3, -2}}},   {{{0.3, -2}, {-1, -5}, {2, -4}}},
+        {{{2, -2}, {2.5, -4}, {3, -1}}},
+    };
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        for (int k = -4; k <= 4; k++) {
+            OzTriangle a = moved(wide, 0.1, 0.7, 0.3 * k), b = moved(others[i], 0.1, 0.7, 0.3 * k);
+            OzOverlap o = oz_triangle_overlap(&a, &b);
+            assert_true(o.area < 1e-14 && oz_length2(o.push) < 1e-14 && fabs(o.energy) < 1e-14);
+            assert_false(o.swallowed || o.deep);
+        }
+    }
+}
+
 /* One change of kind of b's contact with a. */
 typedef struct Change {
     int low, high; /* kinds, the lower first; low < 0: between a swallowed triangle and another */
@@ -397,6 +416,7 @@ int main(void)
         cmocka_unit_test(test_gradient),
         cmocka_unit_test(test_loop),
         cmocka_unit_test(test_deep_and_swallowed),
+        cmocka_unit_test(test_touching),
         cmocka_unit_test(test_continuity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
