@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "observe/final.h"
 #include "observe/inclination.h"
+#include "observe/schedule.h"
 #include "observe/series.h"
 #include "observe/spectrum.h"
 
@@ -338,6 +339,31 @@ static void spectrum_gives_amplitudes(void **state)
     assert_near(oz_spectrum_amplitude(values, COUNT, 8), 0, 1e-12);
 }
 
+/* Steps of 1 ms: a state every 4 ms, a row every 10 ms. */
+static void strobe_is_due_at_its_steps(void **state)
+{
+    (void)state;
+    OzScene scene = {.step = 1e-3, .duration = 0.02};
+    scene.observe.interval = 0.01;
+    scene.snapshots.strobe = 4e-3;
+    OzSchedule schedule = oz_schedule_create(&scene, -1);
+    static const int64_t steps[] = {0, 4, 8, 10, 12, 16, 20};
+    int64_t step = 0;
+    int due = 0;
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0]; i++) {
+        assert_true(oz_schedule_next(&schedule, &step, &due));
+        assert_int_equal(step, steps[i]);
+        assert_int_equal(due & OZ_DUE_STROBE, steps[i] % 4 == 0 ? OZ_DUE_STROBE : 0);
+        assert_int_equal(due & OZ_DUE_ROW, steps[i] % 10 == 0 ? OZ_DUE_ROW : 0);
+    }
+    assert_false(oz_schedule_next(&schedule, &step, &due));
+    OzScene other = scene;
+    other.snapshots.strobe = 0;
+    OzSchedule plain = oz_schedule_create(&other, -1);
+    schedule = oz_schedule_create(&scene, -1);
+    assert_false(oz_schedule_agrees(&schedule, &plain));
+}
+
 static void final_has_a_row_for_each_grain(void **state)
 {
     (void)state;
@@ -419,6 +445,7 @@ int main(void)
         cmocka_unit_test(centre_is_seen_from_the_axis),
         cmocka_unit_test(avalanches_are_the_falls_of_a_saw),
         cmocka_unit_test(spectrum_gives_amplitudes),
+        cmocka_unit_test(strobe_is_due_at_its_steps),
         cmocka_unit_test(final_has_a_row_for_each_grain),
         cmocka_unit_test(energy_from_nowhere_is_noticed),
     };
