@@ -8,7 +8,7 @@
 #define OZ_KERNELS_BEAM_H
 
 #include "kernels/piece_law.h"
-#include "kernels/vec2.h"
+#include "kernels/turn.h"
 
 #ifndef OZ_DAMPING_SHEAR
 #error "define OZ_DAMPING_SHEAR before including kernels/beam.h"
@@ -27,14 +27,15 @@ typedef struct OzBeamForce {
     real power_bending;      /* W, dissipated by bending; >= 0 when shear is balanced, else
                                 the damping moments may also drive a turning grain         */
     real stretch;            /* length over length at rest                                 */
-    real bend_a, bend_b;     /* rad, -pi..pi, of each end against the beam's direction     */
+    real bend_a, bend_b;     /* rad, of each end against the beam's direction; of a no more
+                                than OZ_TURN_MOST, beyond what a beam may bend              */
 } OzBeamForce;
 
 /* The same angle between -pi and pi. */
 OZ_INLINE real oz_beam_wrap(real angle)
 {
     const real turn = REAL(6.28318530717958647692);
-    return angle - turn * rint(angle / turn);
+    return angle - turn * oz_turn_round(angle * REAL(0.15915494309189533577));
 }
 
 /* rest_a and rest_b: the ends' angles less the direction from a to b, at rest. */
@@ -43,25 +44,25 @@ OZ_INLINE OzBeamForce oz_beam_force(OzBeamConstants constants, OzBeamEnd a, OzBe
 {
     OzBeamForce f;
     OzVec2 apart = oz_minus2(b.position, a.position), passing = oz_minus2(b.velocity, a.velocity);
-    real length = oz_larger(oz_length2(apart), REAL(OZ_TINY));
-    OzVec2 axis = oz_scale2(apart, REAL(1.0) / length), across = oz_left2(axis);
-    real direction = atan2(apart.y, apart.x);
-    real turning = oz_dot2(passing, across) / length; /* rad/s, of the direction */
+    real length = oz_larger(oz_length2(apart), REAL(OZ_TINY)), inverse = REAL(1.0) / length;
+    OzVec2 axis = oz_scale2(apart, inverse), across = oz_left2(axis);
+    real aim_a = a.angle - rest_a, aim_b = b.angle - rest_b; /* where each end sees the other */
+    real turning = oz_dot2(passing, across) * inverse;       /* rad/s, of the direction       */
     real stretching = oz_dot2(passing, axis);
-    real elongation = length - rest_length;
-    real bending = constants.bending / rest_length;
-    real damping = constants.damping_bending / rest_length;
+    real elongation = length - rest_length, inverse_rest = REAL(1.0) / rest_length;
+    real bending = constants.bending * inverse_rest;
+    real damping = constants.damping_bending * inverse_rest;
     real rate_a = a.spin - turning, rate_b = b.spin - turning;
-    f.stretch = length / rest_length;
-    f.bend_a = oz_beam_wrap(a.angle - rest_a - direction);
-    f.bend_b = oz_beam_wrap(b.angle - rest_b - direction);
+    f.stretch = length * inverse_rest;
+    f.bend_a = -oz_turn_between(oz_turn_of(aim_a), apart, length);
+    f.bend_b = f.bend_a + oz_beam_wrap(aim_b - aim_a);
     real elastic_a = -bending * (REAL(4.0) * f.bend_a + REAL(2.0) * f.bend_b);
     real elastic_b = -bending * (REAL(2.0) * f.bend_a + REAL(4.0) * f.bend_b);
     f.moment_a = elastic_a - damping * rate_a;
     f.moment_b = elastic_b - damping * rate_b;
     real shear = OZ_DAMPING_SHEAR ? -(f.moment_a + f.moment_b) : -(elastic_a + elastic_b);
     real pull = -constants.stiffness * elongation - constants.damping * stretching;
-    f.force = oz_along2(oz_scale2(axis, pull), shear / length, across);
+    f.force = oz_along2(oz_scale2(axis, pull), shear * inverse, across);
     f.energy = REAL(0.5) * constants.stiffness * elongation * elongation +
                REAL(2.0) * bending *
                    (f.bend_a * f.bend_a + f.bend_a * f.bend_b + f.bend_b * f.bend_b);

@@ -107,10 +107,10 @@ OZ_INLINE OzDiscForce oz_piece_contacts_law(const OzPieceWork *w, OzDiscPlace pl
 OZ_INLINE void oz_piece_contacts_discs(const OzPieceWork *w, const OzPiece *a, const OzPiece *b,
                                        const int *slots_a, const int *slots_b, OzPiecePush *push)
 {
-    OzVec2 turn, velocity_a, velocity_b;
+    OzVec2 velocity_a, velocity_b;
     real radius_a, radius_b, light_a, light_b, angle, spin_a, spin_b;
-    oz_piece_work_rest(w, slots_a, &turn, &radius_a, &light_a);
-    oz_piece_work_rest(w, slots_b, &turn, &radius_b, &light_b);
+    oz_piece_work_label(w, slots_a, &radius_a, &light_a);
+    oz_piece_work_label(w, slots_b, &radius_b, &light_b);
     mask disc = (radius_a > REAL(0.0)) | (radius_b > REAL(0.0));
     if (!OZ_ANY(disc)) {
         return;

@@ -69,16 +69,15 @@ typedef struct OzPieceControl {
 } OzPieceControl;
 
 /* Words of a slot's record, what contacts and beams need of a piece: corners in the world, centre of mass,
- * velocity, angle, spin, cosine and sine of the angle, radius (0 for a triangle), inverse mass. */
+ * velocity, angle, spin; and what never changes: radius (0 for a triangle), inverse mass. */
 enum {
     OZ_PR_CORNER = 0,
     OZ_PR_POSITION = 6,
     OZ_PR_VELOCITY = 8,
     OZ_PR_ANGLE = 10,
     OZ_PR_SPIN = 11,
-    OZ_PR_TURN = 12,
-    OZ_PR_RADIUS = 14,
-    OZ_PR_INVERSE_MASS = 15,
+    OZ_PR_RADIUS = 12,
+    OZ_PR_INVERSE_MASS = 13,
     OZ_PIECE_RECORD = 16
 };
 

@@ -1,6 +1,6 @@
 /* What every piece feels: results of pairs and of beams, added up in the order of partners, those of contacts first.
  * One work-item hands each result to both pieces; many work-items gather, each for its own pieces, in the same
- * order. OpenCL C only. */
+ * order. Loads are zero before: who uses them up clears them. OpenCL C only. */
 #ifndef OZ_KERNELS_PIECE_LOADS_H
 #define OZ_KERNELS_PIECE_LOADS_H
 
@@ -18,16 +18,6 @@ OZ_INLINE scalar4 oz_piece_loads_first(scalar4 result)
 }
 
 #if OZ_GROUP == 1
-
-OZ_INLINE void oz_piece_loads_clear(OzPieceWork *w, global scalar *load)
-{
-    for (int block = 0; block < w->z.free_blocks; block++) {
-        global real *words = (global real *)load + (size_t)block * OZ_PIECE_LOAD;
-        for (int k = 0; k < OZ_PIECE_LOAD; k++) {
-            words[k] = REAL(0.0);
-        }
-    }
-}
 
 OZ_INLINE void oz_piece_loads_contacts(OzPieceWork *w, global scalar *load)
 {
@@ -52,14 +42,6 @@ OZ_INLINE void oz_piece_loads_beams(OzPieceWork *w, global scalar *load)
 }
 
 #else
-
-OZ_INLINE void oz_piece_loads_clear(OzPieceWork *w, global scalar *load)
-{
-    OZ_EACH(w, i, w->z.free_slots)
-    {
-        ((global scalar4 *)load)[i] = (scalar4)(0);
-    }
-}
 
 /* Contacts in which a piece is the second have partners before it, the others after it. */
 OZ_INLINE void oz_piece_loads_contacts(OzPieceWork *w, global scalar *load)

@@ -42,13 +42,13 @@ typedef struct OzPieceBody {
     real angle, spin;
 } OzPieceBody;
 
-/* Writes a block's records. */
+/* Writes a block's records, but for what never changes. */
 OZ_INLINE void oz_piece_move_record(OzPieceWork *w, int block, OzPieceBody body)
 {
     global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
     global scalar *record = w->record + (size_t)block * OZ_LANES * OZ_PIECE_RECORD;
     OzVec2 turn = oz_turn_of(body.angle);
-    real words[OZ_PIECE_RECORD];
+    real words[OZ_PR_RADIUS];
     for (int c = 0; c < 3; c++) {
         real x = shape[OZ_PS_CORNER + 2 * c], y = shape[OZ_PS_CORNER + 2 * c + 1];
         words[2 * c] = body.position.x + (turn.x * x - turn.y * y);
@@ -60,13 +60,25 @@ OZ_INLINE void oz_piece_move_record(OzPieceWork *w, int block, OzPieceBody body)
     words[OZ_PR_VELOCITY + 1] = body.velocity.y;
     words[OZ_PR_ANGLE] = body.angle;
     words[OZ_PR_SPIN] = body.spin;
-    words[OZ_PR_TURN] = turn.x;
-    words[OZ_PR_TURN + 1] = turn.y;
-    words[OZ_PR_RADIUS] = shape[OZ_PS_RADIUS];
-    words[OZ_PR_INVERSE_MASS] = shape[OZ_PS_INVERSE_MASS];
-    for (int k = 0; k < OZ_PIECE_RECORD; k += 4) {
+    for (int k = 0; k < OZ_PR_RADIUS; k += 4) {
         oz_lanes_store4(record, OZ_PIECE_RECORD, k, words + k);
     }
+}
+
+/* What never changes: radius and mass. */
+OZ_INLINE void oz_piece_move_label(OzPieceWork *w, int block)
+{
+    global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
+    real words[4] = {shape[OZ_PS_RADIUS], shape[OZ_PS_INVERSE_MASS], REAL(0.0), REAL(0.0)};
+    oz_lanes_store4(w->record + (size_t)block * OZ_LANES * OZ_PIECE_RECORD, OZ_PIECE_RECORD,
+                    OZ_PR_RADIUS, words);
+}
+
+/* Whether a way and a turn (by its magnitude) at some reach are together more than most. */
+OZ_INLINE mask oz_piece_move_beyond(OzVec2 way, real turn, real reach, real most)
+{
+    real left = most - reach * turn;
+    return (left < REAL(0.0)) | (oz_dot2(way, way) > left * left);
 }
 
 /* Marks the inner list as used up where a block has moved too far for it. */
@@ -74,19 +86,19 @@ OZ_INLINE void oz_piece_move_watch(OzPieceWork *w, int block, OzPieceBody body)
 {
     global const real *reference = w->reference_inner + (size_t)block * OZ_PIECE_REFERENCE;
     real reach = w->shape[(size_t)block * OZ_PIECE_SHAPE + OZ_PS_REACH];
-    real moved = oz_piece_lists_moved(reference, body.position.x, body.position.y, body.angle, reach);
-    if (OZ_ANY(moved > reference[OZ_PF_SKIN])) {
+    OzVec2 way = oz_vec2(body.position.x - reference[OZ_PF_X], body.position.y - reference[OZ_PF_Y]);
+    real turn = oz_magnitude(body.angle - reference[OZ_PF_ANGLE]);
+    if (OZ_ANY(oz_piece_move_beyond(way, turn, reach, reference[OZ_PF_SKIN]))) {
         w->control->inner_holds = 0;
     }
 }
 
-/* Stops where a piece goes too far in one step. */
-OZ_INLINE void oz_piece_move_check_stride(OzPieceWork *w, int block, OzPieceBody body, real dt,
-                                          int step)
+/* Stops where a piece goes too far in one step. way, turn: in this step. */
+OZ_INLINE void oz_piece_move_check_stride(OzPieceWork *w, int block, OzVec2 way, real turn, int step)
 {
     global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
-    real stride = (oz_length2(body.velocity) + shape[OZ_PS_REACH] * oz_magnitude(body.spin)) * dt;
-    mask fast = stride > shape[OZ_PS_STRIDE_MOST];
+    mask fast = oz_piece_move_beyond(way, oz_magnitude(turn), shape[OZ_PS_REACH],
+                                     shape[OZ_PS_STRIDE_MOST]);
     if (OZ_ANY(fast)) {
         int slots[OZ_LANES];
         oz_piece_work_slots(block, slots);
@@ -104,27 +116,42 @@ OZ_INLINE OzPieceBody oz_piece_move_body(const real *q, real inverse_dt)
     return body;
 }
 
-/* Free pieces to the end of the step, as far as their derivatives tell. */
+/* A block to the end of a step, as far as its derivatives tell: its state's words, and its records. */
+OZ_INLINE void oz_piece_move_ahead(OzPieceWork *w, int block, real *q, real inverse_dt, int step)
+{
+    for (int c = 0; c < 3; c++) {
+        oz_piece_move_predict_one(q + c * OZ_ORDER);
+    }
+    OzPieceBody body = oz_piece_move_body(q, inverse_dt);
+    oz_piece_move_check_stride(w, block, oz_vec2(q[1], q[OZ_ORDER + 1]), q[2 * OZ_ORDER + 1], step);
+    oz_piece_move_record(w, block, body);
+    oz_piece_move_watch(w, block, body);
+}
+
+OZ_INLINE void oz_piece_move_load(const OzPieceWork *w, int block, real *q)
+{
+    for (int k = 0; k < OZ_PIECE_STATE; k++) {
+        q[k] = w->state[(size_t)block * OZ_PIECE_STATE + k];
+    }
+}
+
+OZ_INLINE void oz_piece_move_store(OzPieceWork *w, int block, const real *q)
+{
+    for (int k = 0; k < OZ_PIECE_STATE; k++) {
+        w->state[(size_t)block * OZ_PIECE_STATE + k] = q[k];
+    }
+}
+
+/* Free pieces to the end of a step; walls are moved apart. */
 OZ_INLINE void oz_piece_move_predict(OzPieceWork *w, int step)
 {
-    real dt = REAL(w->parameters->dt), inverse_dt = REAL(1.0) / dt;
+    real inverse_dt = REAL(1.0) / REAL(w->parameters->dt);
     OZ_EACH(w, block, w->z.free_blocks)
     {
-        global real *state = w->state + (size_t)block * OZ_PIECE_STATE;
         real q[OZ_PIECE_STATE];
-        for (int k = 0; k < OZ_PIECE_STATE; k++) {
-            q[k] = state[k];
-        }
-        for (int c = 0; c < 3; c++) {
-            oz_piece_move_predict_one(q + c * OZ_ORDER);
-        }
-        for (int k = 0; k < OZ_PIECE_STATE; k++) {
-            state[k] = q[k];
-        }
-        OzPieceBody body = oz_piece_move_body(q, inverse_dt);
-        oz_piece_move_check_stride(w, block, body, dt, step);
-        oz_piece_move_record(w, block, body);
-        oz_piece_move_watch(w, block, body);
+        oz_piece_move_load(w, block, q);
+        oz_piece_move_ahead(w, block, q, inverse_dt, step);
+        oz_piece_move_store(w, block, q);
     }
 }
 
@@ -189,35 +216,43 @@ OZ_INLINE void oz_piece_move_check(OzPieceWork *w, int block, const real *q, int
     }
 }
 
-/* Corrects the prediction by what the forces really are. */
-OZ_INLINE void oz_piece_move_correct(OzPieceWork *w, int step)
+/* Corrects a block's prediction by what its forces really are, which are used up. */
+OZ_INLINE void oz_piece_move_back(OzPieceWork *w, int block, real *q, int step)
 {
     global const OzPieceParameters *p = w->parameters;
+    global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
     real half_step2 = REAL((scalar)0.5 * p->dt * p->dt), drag = REAL(p->drag / p->dt);
+    int slots[OZ_LANES];
+    real load[4];
+    oz_piece_work_slots(block, slots);
+    oz_lanes_load4(w->load, slots, OZ_PIECE_LOAD, 0, load);
+    for (int k = 0; k < OZ_PIECE_LOAD; k++) {
+        ((global real *)w->load)[(size_t)block * OZ_PIECE_LOAD + k] = REAL(0.0);
+    }
+    real lightness = shape[OZ_PS_INVERSE_MASS];
+    real weight = lightness > REAL(0.0) ? REAL(1.0) : REAL(0.0); /* padding stays where it is */
+    real x = load[0] * lightness + weight * REAL(p->gravity[0]) - drag * q[1];
+    real y = load[1] * lightness + weight * REAL(p->gravity[1]) - drag * q[OZ_ORDER + 1];
+    real turn = load[2] * shape[OZ_PS_INVERSE_INERTIA] - drag * q[2 * OZ_ORDER + 1];
+    oz_piece_move_correct_one(q, x, half_step2);
+    oz_piece_move_correct_one(q + OZ_ORDER, y, half_step2);
+    oz_piece_move_correct_one(q + 2 * OZ_ORDER, turn, half_step2);
+    oz_piece_move_check(w, block, q, step);
+}
+
+/* Ends a step, and begins the next where there is one: one way through memory for both. */
+OZ_INLINE void oz_piece_move_correct(OzPieceWork *w, int step, int goes_on)
+{
+    real inverse_dt = REAL(1.0) / REAL(w->parameters->dt);
     OZ_EACH(w, block, w->z.free_blocks)
     {
-        global const real *shape = w->shape + (size_t)block * OZ_PIECE_SHAPE;
-        global real *state = w->state + (size_t)block * OZ_PIECE_STATE;
-        int slots[OZ_LANES];
-        real load[4], q[OZ_PIECE_STATE];
-        oz_piece_work_slots(block, slots);
-        oz_lanes_load4(w->load, slots, OZ_PIECE_LOAD, 0, load);
-        for (int k = 0; k < OZ_PIECE_STATE; k++) {
-            q[k] = state[k];
+        real q[OZ_PIECE_STATE];
+        oz_piece_move_load(w, block, q);
+        oz_piece_move_back(w, block, q, step);
+        if (goes_on) {
+            oz_piece_move_ahead(w, block, q, inverse_dt, step + 1);
         }
-        real lightness = shape[OZ_PS_INVERSE_MASS];
-        mask real_piece = lightness > REAL(0.0); /* padding stays where it is */
-        real x = load[0] * lightness + (real_piece ? REAL(p->gravity[0]) : REAL(0.0)) - drag * q[1];
-        real y = load[1] * lightness + (real_piece ? REAL(p->gravity[1]) : REAL(0.0)) -
-                 drag * q[OZ_ORDER + 1];
-        real turn = load[2] * shape[OZ_PS_INVERSE_INERTIA] - drag * q[2 * OZ_ORDER + 1];
-        oz_piece_move_correct_one(q, x, half_step2);
-        oz_piece_move_correct_one(q + OZ_ORDER, y, half_step2);
-        oz_piece_move_correct_one(q + 2 * OZ_ORDER, turn, half_step2);
-        for (int k = 0; k < OZ_PIECE_STATE; k++) {
-            state[k] = q[k];
-        }
-        oz_piece_move_check(w, block, q, step);
+        oz_piece_move_store(w, block, q);
     }
 }
 

@@ -132,15 +132,13 @@ OZ_INLINE void oz_piece_work_motion(const OzPieceWork *w, const int *slots, OzVe
     *spin = words[3];
 }
 
-/* Cosine, sine, radius and inverse mass. */
-OZ_INLINE void oz_piece_work_rest(const OzPieceWork *w, const int *slots, OzVec2 *turn, real *radius,
-                                  real *inverse_mass)
+OZ_INLINE void oz_piece_work_label(const OzPieceWork *w, const int *slots, real *radius,
+                                   real *inverse_mass)
 {
     real words[4];
-    oz_lanes_load4(w->record, slots, OZ_PIECE_RECORD, OZ_PR_TURN, words);
-    *turn = oz_vec2(words[0], words[1]);
-    *radius = words[2];
-    *inverse_mass = words[3];
+    oz_lanes_load4(w->record, slots, OZ_PIECE_RECORD, OZ_PR_RADIUS, words);
+    *radius = words[0];
+    *inverse_mass = words[1];
 }
 
 #endif

@@ -85,17 +85,8 @@ OZ_INLINE int renew(OzPieceWork *w)
     return holds;
 }
 
-OZ_INLINE void move(OzPieceWork *w, int step)
-{
-    oz_piece_move_predict(w, step);
-    if (OZ_MOVING) {
-        oz_piece_move_walls(w, step + 1);
-    }
-    oz_piece_loads_clear(w, w->load);
-}
-
-/* Forces where pieces are predicted, and the correction by them; the lists hold. */
-OZ_INLINE void push_and_correct(OzPieceWork *w, int step)
+/* Forces where pieces are predicted; the lists hold. */
+OZ_INLINE void push(OzPieceWork *w, int step)
 {
     OzPieceSums sums;
     oz_piece_sums_clear(&sums);
@@ -116,8 +107,6 @@ OZ_INLINE void push_and_correct(OzPieceWork *w, int step)
         oz_piece_loads_beams(w, w->load);
     }
     OZ_PIECE_MEET();
-    oz_piece_move_correct(w, step);
-    OZ_PIECE_MEET();
 }
 
 #if OZ_GROUP > 1
@@ -137,6 +126,7 @@ OZ_PIECE_KERNEL void oz_begin(OZ_PIECE_ARGUMENTS)
         for (int k = 0; k < OZ_PIECE_STATE; k++) {
             q[k] = w.state[(size_t)block * OZ_PIECE_STATE + k];
         }
+        oz_piece_move_label(&w, block);
         oz_piece_move_record(&w, block, oz_piece_move_body(q, inverse_dt));
     }
     if (OZ_MOVING) {
@@ -156,9 +146,12 @@ OZ_PIECE_KERNEL void oz_advance(OZ_PIECE_ARGUMENTS, int last)
         int ends = w.control->stop_bits != 0 || step >= last;
         OZ_PIECE_MEET();
         if (!ends && !moved) {
-            move(&w, step);
-            moved = 1;
+            oz_piece_move_predict(&w, step);
         }
+        if (OZ_MOVING && !ends) {
+            oz_piece_move_walls(&w, step + 1);
+        }
+        moved |= !ends;
         OZ_PIECE_MEET();
         int stale = !w.control->inner_holds;
         OZ_PIECE_MEET();
@@ -168,8 +161,11 @@ OZ_PIECE_KERNEL void oz_advance(OZ_PIECE_ARGUMENTS, int last)
         if (ends) {
             break;
         }
-        push_and_correct(&w, step);
-        moved = 0;
+        push(&w, step);
+        moved = step + 1 < last && !w.control->stop_bits;
+        OZ_PIECE_MEET();
+        oz_piece_move_correct(&w, step, moved);
+        OZ_PIECE_MEET();
     }
     if (w.item == 0) {
         w.control->step = step;

@@ -1,0 +1,34 @@
+/* What the parts of a step of trigrains cost, each timed by itself on a simulation that stands
+ * still. For `orzo bench`. */
+#ifndef OZ_COMPUTE_PIECE_PHASES_H
+#define OZ_COMPUTE_PIECE_PHASES_H
+
+#include "compute/piece_sim.h"
+
+/* THE list of parts: name, kernel, the kernel whose time is taken off (NULL: none). */
+#define OZ_PIECE_PHASES(X)                                                                         \
+    X(PREDICT, "predictor", "oz_repeat_predict_correct", "oz_repeat_correct")                      \
+    X(CLASSIFY, "classifying", "oz_repeat_classify", NULL)                                         \
+    X(CONTACTS, "contact forces", "oz_repeat_contacts", NULL)                                      \
+    X(BEAMS, "beams", "oz_repeat_beams", NULL)                                                     \
+    X(LOADS, "adding up", "oz_repeat_loads", NULL)                                                 \
+    X(CORRECT, "corrector", "oz_repeat_correct", NULL)                                             \
+    X(REFRESH, "inner list", "oz_repeat_refresh", NULL)                                            \
+    X(REBUILD, "outer list", "oz_repeat_rebuild", "oz_repeat_refresh")
+
+typedef enum OzPiecePhase {
+#define OZ_PIECE_PHASES_ID(id, name, kernel, less) OZ_PIECE_PHASE_##id,
+    OZ_PIECE_PHASES(OZ_PIECE_PHASES_ID)
+#undef OZ_PIECE_PHASES_ID
+        OZ_PIECE_PHASE_COUNT
+} OzPiecePhase;
+
+/* "classifying" */
+const char *oz_piece_phases_name(OzPiecePhase phase);
+
+/* Seconds (of a CPU: processor time) of doing each once for all pieces of the first member. The
+ * state is the same afterwards, and the simulation can go on. */
+OzStatus oz_piece_phases_measure(double seconds[OZ_PIECE_PHASE_COUNT], OzPieceSim *sim,
+                                 const char *source_dir);
+
+#endif
