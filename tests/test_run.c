@@ -204,8 +204,11 @@ static void test_other_commands(void **state)
     char *said = read_file("said", NULL), names[1024] = "";
     for (int row = 0; line_of(said, row)[0]; row++) {
         size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%.*s", used ? "," : "",
-                 (int)strcspn(line_of(said, row), " "), line_of(said, row));
+        char name[64], unit[16], model[16];
+        assert_int_equal(sscanf(line_of(said, row), "%63s %15s %15s", name, unit, model), 3);
+        if (strcmp(model, "trigrains") != 0) { /* a column of rods, whose header is known */
+            snprintf(names + used, sizeof names - used, "%s%s", used ? "," : "", name);
+        }
     }
     free(said);
     assert_true(strncmp(names, header, strlen(header)) == 0);
