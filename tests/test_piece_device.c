@@ -3,7 +3,6 @@
 #include "device_rig.h"
 
 #include "compute/drive.h"
-#include "compute/piece_private.h"
 #include "compute/piece_reference.h"
 
 /* Two dice that meet at once. */
@@ -36,6 +35,21 @@ static const char *const heap =
     "acceleration_ratio: 0.1}}\n"
     "observe: {ledger: true, interval: 1e-3}\n";
 
+/* A drum that turns, with a die and a disc on a floor that is taken away. */
+static const char *const drum =
+    "model: trigrains\n"
+    "gravity: [3, -20]\n"
+    "time: {step: 1e-6, duration: 1}\n"
+    "contact: {law: hertz, hertz_stiffness: 1e5, normal_damping_rate: 500}\n"
+    "grains:\n"
+    "  - {kind: single, shape: square, edge: 2e-3, position: [0, 1.6e-3], angle: 10}\n"
+    "  - {kind: single, shape: disc, radius: 1e-3, density: 4, position: [-3e-3, 1.2e-3]}\n"
+    "walls:\n"
+    "  - {kind: segment, from: [-9e-3, 0], to: [9e-3, 0], until: 8e-3}\n"
+    "  - {kind: drum, point: [0, 0], diameter: 1.2e-2, teeth: 20, tooth_depth: 5e-4, "
+    "motion: {angular_velocity: 20}}\n"
+    "observe: {ledger: true, interval: 1e-3}\n";
+
 typedef struct Scene {
     OzScene scene;
     OzGrains grains;
@@ -59,7 +73,9 @@ static void close_scene(Scene *s)
     oz_scene_free(&s->scene);
 }
 
-static OzSnapshot run_device(const Scene *s, const OzDevice *device, int64_t step)
+/* The state at a step, and what it cost. */
+static OzSnapshot run_device(const Scene *s, const OzDevice *device, int64_t step,
+                             OzSimCounts *counts)
 {
     OzDrive *drive = NULL;
     OzSnapshot now;
@@ -68,6 +84,7 @@ static OzSnapshot run_device(const Scene *s, const OzDevice *device, int64_t ste
     must(oz_drive_advance(drive, step));
     must(oz_snapshot_create(&now, &s->scene, &s->grains));
     must(oz_drive_capture(drive, 0, &now, true));
+    *counts = oz_drive_counts(drive);
     oz_drive_free(drive);
     return now;
 }
@@ -125,7 +142,8 @@ static void assert_same_ledger(const OzPieceLedger *a, const OzPieceLedger *b, d
 
 static void compare_with_reference(const Scene *s, int64_t step)
 {
-    OzSnapshot device = run_device(s, &rig_device, step), host = run_reference(s, step);
+    OzSimCounts counts;
+    OzSnapshot device = run_device(s, &rig_device, step, &counts), host = run_reference(s, step);
     int64_t touches = 0;
     for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
         touches += host.pieces.touches[k];
@@ -139,14 +157,11 @@ static void compare_with_reference(const Scene *s, int64_t step)
 
 static void test_two_dice(void **state)
 {
-    static const char *const integrators[] = {"gear4", "velocity-verlet"};
     (void)state;
-    for (int k = 0; k < 2; k++) {
-        Scene s;
-        open_scene(&s, two_dice, 1e-6, integrators[k]);
-        compare_with_reference(&s, 400);
-        close_scene(&s);
-    }
+    Scene s;
+    open_scene(&s, two_dice, 1e-6, "velocity-verlet");
+    compare_with_reference(&s, 400);
+    close_scene(&s);
 }
 
 static void test_heap(void **state)
@@ -158,11 +173,173 @@ static void test_heap(void **state)
     close_scene(&s);
 }
 
+/* Before and after the floor goes. */
+static void test_walls(void **state)
+{
+    (void)state;
+    Scene s;
+    open_scene(&s, drum);
+    compare_with_reference(&s, 7000);
+    compare_with_reference(&s, 30000);
+    close_scene(&s);
+}
+
+static void assert_same_piece_bits(const OzSnapshot *a, const OzSnapshot *b)
+{
+    size_t count = (size_t)a->piece_count * sizeof(double);
+    assert_memory_equal(a->piece_position, b->piece_position, 2 * count);
+    assert_memory_equal(a->piece_velocity, b->piece_velocity, 2 * count);
+    assert_memory_equal(a->piece_angle, b->piece_angle, count);
+    assert_memory_equal(a->piece_spin, b->piece_spin, count);
+}
+
+/* However wide the lanes, however many the work-items, however far the lists reach, small or grown.
+ */
+static void test_same_bits(void **state)
+{
+    static const struct {
+        Shape shape;
+        double skin;
+        bool grows;
+    } ways[] = {{SCALAR, 0, false},
+                {GROUP, 0, false},
+                {NATIVE, 1e-4, false},
+                {NATIVE, 2e-2, true},
+                {GROUP, 2e-2, true}};
+    enum { STEPS = 16000 };
+    (void)state;
+    Scene s;
+    OzSimCounts counts;
+    open_scene(&s, heap, "gear4", 20);
+    OzSnapshot one = run_device(&s, &rig_device, STEPS, &counts);
+    assert_true(counts.rebuilds > 1 && counts.refreshes > 2 * counts.rebuilds);
+    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
+        OzDevice device = shaped_device(ways[k].shape);
+        s.scene.skin = ways[k].skin;
+        OzSnapshot other = run_device(&s, &device, STEPS, &counts);
+        assert_same_piece_bits(&one, &other);
+        assert_int_equal(counts.growths > 0, ways[k].grows);
+        oz_snapshot_free(&other);
+    }
+    oz_snapshot_free(&one);
+    close_scene(&s);
+}
+
+/* Side by side as alone, with other numbers of pieces beside. */
+static void test_members(void **state)
+{
+    enum { STEPS = 9000 };
+    static const int discs[] = {20, 5};
+    (void)state;
+    Scene s[2];
+    OzMember members[2];
+    OzDrive *drive = NULL;
+    OzSnapshot now;
+    OzSimCounts counts;
+    for (int k = 0; k < 2; k++) {
+        open_scene(&s[k], heap, "gear4", discs[k]);
+        members[k] = (OzMember){&s[k].scene, &s[k].grains};
+    }
+    assert_true(oz_drive_fits(&rig_device, &members[0], &members[1]));
+    must(oz_drive_create(&drive, &rig_device, members, 2, NULL));
+    must(oz_drive_advance(drive, STEPS));
+    for (int k = 0; k < 2; k++) {
+        OzSnapshot alone = run_device(&s[k], &rig_device, STEPS, &counts);
+        must(oz_snapshot_create(&now, &s[k].scene, &s[k].grains));
+        must(oz_drive_capture(drive, k, &now, true));
+        assert_same_piece_bits(&alone, &now);
+        assert_memory_equal(&alone.piece_ledger, &now.piece_ledger, sizeof now.piece_ledger);
+        oz_snapshot_free(&alone);
+        oz_snapshot_free(&now);
+    }
+    oz_drive_free(drive);
+    for (int k = 0; k < 2; k++) {
+        close_scene(&s[k]);
+    }
+}
+
+static void speed_up(Scene *s)
+{
+    s->grains.pieces->velocity[0] = 1e3;
+}
+
+static void fling(Scene *s)
+{
+    for (int i = 0; i < 4; i++) {
+        s->grains.pieces->velocity[2 * i] = 1e13;
+    }
+}
+
+static void lose_number(Scene *s)
+{
+    s->grains.pieces->velocity[1] = NAN;
+}
+
+static void stretch(Scene *s)
+{
+    s->grains.pieces->beam_length[0] *= 2.5;
+}
+
+static void bend(Scene *s)
+{
+    s->grains.pieces->beam_rest_a[1] += 1.5;
+}
+
+static void fold(Scene *s)
+{
+    s->grains.pieces->beam_rest_a[1] += 3.14159265358979;
+    s->grains.pieces->beam_rest_b[1] += 3.14159265358979;
+}
+
+static void press(Scene *s)
+{
+    for (int i = 4; i < 8; i++) {
+        s->grains.pieces->position[2 * i] -= 0.7e-3;
+    }
+}
+
+static void swallow(Scene *s)
+{
+    OzPieces *pieces = s->grains.pieces;
+    for (int k = 0; k < 6; k++) {
+        pieces->corner[6 * 4 + k] *= 1e-2;
+    }
+    memcpy(&pieces->position[2 * 4], &pieces->position[0], 2 * sizeof(double));
+}
+
+/* Each guard speaks up by its name within a step. */
+static void test_guards(void **state)
+{
+    static const struct {
+        void (*spoil)(Scene *s);
+        const char *text;
+    } guards[] = {{lose_number, "not a number"},      {fling, "left its container"},
+                  {swallow, "wholly inside another"}, {press, "by more than half"},
+                  {stretch, "shorter than half"},     {bend, "bent by more than 1 rad"},
+                  {fold, "bent by more than 1 rad"},  {speed_up, "more than half its thickness"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof guards / sizeof guards[0]; k++) {
+        Scene s;
+        OzDrive *drive = NULL;
+        open_scene(&s, two_dice, 1e-6, "velocity-verlet");
+        guards[k].spoil(&s);
+        OzMember member = {&s.scene, &s.grains};
+        OzStatus status = oz_drive_create(&drive, &rig_device, &member, 1, NULL);
+        status = status == OZ_OK ? oz_drive_advance(drive, 3) : status;
+        if (status != OZ_ERR_BLOWUP || !strstr(oz_status_text(), guards[k].text)) {
+            fail_msg("expected '%s' in: %s", guards[k].text, oz_status_text());
+        }
+        oz_drive_free(drive);
+        close_scene(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two_dice),
-        cmocka_unit_test(test_heap),
+        cmocka_unit_test(test_two_dice), cmocka_unit_test(test_heap),
+        cmocka_unit_test(test_walls),    cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_members),  cmocka_unit_test(test_guards),
     };
     return cmocka_run_group_tests(tests, open_rig_device, close_rig_device);
 }

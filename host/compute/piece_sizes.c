@@ -91,7 +91,7 @@ OzStatus oz_piece_sizes_parameters(OzPieceParameters *p, const OzScene *scene,
         p->law[w + 1] = oz_piece_laws_disc(scene, w);
     }
     p->outer_most = scene->skin > 0 ? scene->skin / 2 : most_outer * reach;
-    p->outer_least = fmin(least_outer * reach, p->outer_most);
+    p->outer_least = scene->skin > 0 ? p->outer_most : least_outer * reach;
     p->outer_time = outer_steps * scene->step;
     p->skin_most = fmin(most_skin * reach, p->outer_least / 2);
     p->skin_least = fmin(least_skin * reach, p->skin_most);
