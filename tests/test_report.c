@@ -42,7 +42,12 @@ static OzReportJob job_of(const char *scene, char path[static 512])
     snprintf(path, 512, "%s/report/%s.yaml", ORZO_SCENES, scene);
     const OzReportCase *row = oz_report_cases_find(scene);
     assert_non_null(row);
-    return (OzReportJob){&no_options, &device, path, row, 4, 1};
+    return (OzReportJob){.options = &no_options,
+                         .device = &device,
+                         .path = path,
+                         .row = row,
+                         .phases = 4,
+                         .repeats = 1};
 }
 
 static double truth_of(const char *scene)
@@ -60,6 +65,7 @@ static OzReportPoint measured(const char *scene, OzIntegrator integrator, int st
     OzReportJob job = job_of(scene, path);
     OzReportPoint point = {.device = &device,
                            .label = "",
+                           .cycle = "contact",
                            .integrator = integrator,
                            .precision = OZ_PRECISION_DOUBLE,
                            .steps = steps,
@@ -151,6 +157,7 @@ static OzReportPoint made_up(int steps, double wall, double error)
 {
     return (OzReportPoint){.scene = "made_up",
                            .label = "",
+                           .cycle = "contact",
                            .row = oz_report_cases_find("normal_hit"),
                            .steps = steps,
                            .step = 1e-3 / steps,

@@ -6,11 +6,11 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "model/predict.h"
-#include "scene/keys.h"
 #include "study/report_bed.h"
 #include "study/report_ensemble.h"
 #include "study/report_extreme.h"
 #include "study/report_map.h"
+#include "study/report_piece.h"
 #include "study/report_plot.h"
 #include "study/report_table.h"
 
@@ -31,7 +31,7 @@ enum {
     PHASES_QUICK = 8,
     REPEATS = 5,
     DEVICES_MOST = 4,
-    METHODS_MOST = 8 * DEVICES_MOST /* integrators x precisions x devices */
+    METHODS_MOST = 16 * DEVICES_MOST /* integrators x precisions x devices */
 };
 
 /* Without --tolerance. */
@@ -51,8 +51,10 @@ typedef struct Report {
     char *folder;
 } Report;
 
-/* "scenes/report/bounce.yaml" is the case "bounce". */
-static OzStatus find_case(const OzReportCase **row, const char *path)
+/* "scenes/report/bounce.yaml" is the case "bounce"; *pieces is NULL unless it is one of trigrains.
+ */
+static OzStatus find_case(const OzReportCase **row, const OzReportPieceCase **pieces,
+                          const char *path)
 {
     OzStatus status = OZ_OK;
     char *copy = NULL;
@@ -61,7 +63,8 @@ static OzStatus find_case(const OzReportCase **row, const char *path)
     if (dot) {
         *dot = '\0';
     }
-    *row = oz_report_cases_find(name);
+    *pieces = oz_report_piece_cases_find(name);
+    *row = *pieces ? &(*pieces)->row : oz_report_cases_find(name);
     if (!*row) {
         status = oz_status_fail(OZ_ERR_INPUT,
                                 "%s: no answer is known for a scene called %s; orzo report studies "
@@ -77,18 +80,51 @@ static OzStatus study_method(Report *report, const OzReportJob *job, const OzRep
 {
     OzStatus status = OZ_OK;
     bool quick = job->options->quick;
-    for (int r = 0; r < (quick ? RUNGS_QUICK : RUNGS); r++) {
+    const int *steps = quick ? ladder_quick : ladder;
+    int rungs = quick ? RUNGS_QUICK : RUNGS;
+    if (job->pieces) {
+        steps = oz_report_piece_ladder(quick, &rungs);
+    }
+    for (int r = 0; r < rungs; r++) {
         OzReportPoint *point = &report->points[report->count];
+        char method[64];
         *point = *like;
-        point->steps = quick ? ladder_quick[r] : ladder[r];
-        oz_log_progress("%s: %s, %s, %d steps per contact", job->row->scene,
-                        oz_keys_choice_name("integrator", (int)like->integrator),
-                        oz_keys_choice_name("precision", (int)like->precision), point->steps);
+        point->steps = steps[r];
+        oz_report_table_method(point, method, sizeof method);
+        oz_log_progress("%s: %s, %d steps per %s", job->row->scene, method, point->steps,
+                        point->cycle);
         OZ_TRY(oz_report_point_measure(point, job));
         report->count++;
     }
 done:
     oz_log_progress("%s", "");
+    return status;
+}
+
+/* Those of trigrains: on the host once, and on every device. */
+static OzStatus study_pieces(Report *report, OzReportJob *job, const OzReportPoint *like)
+{
+    OzStatus status = OZ_OK;
+    int count;
+    const OzReportMethod *methods = oz_report_piece_methods(&count);
+    for (int i = 0; i < count; i++) {
+        OzReportPoint point = *like;
+        point.integrator = methods[i].integrator;
+        point.precision = methods[i].precision;
+        point.substeps = methods[i].substeps;
+        point.host = methods[i].host;
+        point.label = point.host ? "host" : "";
+        for (int d = 0; d < (point.host ? 1 : report->device_count); d++) {
+            job->device = point.device = point.host ? NULL : &report->devices[d];
+            if (!point.host && report->device_count > 1) {
+                point.label = report->labels[d];
+            }
+            if (point.host || point.precision == OZ_PRECISION_FLOAT || point.device->has_double) {
+                OZ_TRY(study_method(report, job, &point));
+            }
+        }
+    }
+done:
     return status;
 }
 
@@ -110,7 +146,8 @@ done:
     return status;
 }
 
-static OzStatus study_scene(Report *report, const char *path, const OzReportCase *row)
+static OzStatus study_scene(Report *report, const char *path, const OzReportCase *row,
+                            const OzReportPieceCase *pieces)
 {
     OzStatus status = OZ_OK;
     const OzOptions *options = report->options;
@@ -119,11 +156,17 @@ static OzStatus study_scene(Report *report, const char *path, const OzReportCase
     OzReportJob job = {.options = options,
                        .path = path,
                        .row = row,
+                       .pieces = pieces,
                        .phases = options->quick ? PHASES_QUICK : PHASES,
                        .repeats = REPEATS};
-    OzReportPoint like = {0};
-    OZ_TRY(oz_report_point_truth(&like.truth, &job));
-    for (int d = 0; d < report->device_count; d++) {
+    OzReportPoint like = {.cycle = pieces ? "period" : "contact"};
+    if (pieces) {
+        OZ_TRY(oz_report_piece_truth(&job));
+        OZ_TRY(study_pieces(report, &job, &like));
+    } else {
+        OZ_TRY(oz_report_point_truth(&like.truth, &job));
+    }
+    for (int d = 0; d < report->device_count && !pieces; d++) {
         OZ_TRY(study_device(report, &job, &like, d));
     }
     oz_report_table_front(report->points + first, report->count - first);
@@ -171,14 +214,15 @@ static OzStatus study_scenes(Report *report)
     OZ_TRY(oz_file_make_folder(report->folder));
     for (int i = 0; i < options->path_count; i++) {
         const OzReportCase *row = NULL;
-        OzStatus found = find_case(&row, options->paths[i]);
+        const OzReportPieceCase *pieces = NULL;
+        OzStatus found = find_case(&row, &pieces, options->paths[i]);
         if (found != OZ_OK && options->path_count > 1) {
             oz_log_line("%s: left out", oz_status_text());
             continue;
         }
         OZ_TRY(found);
         OZ_TRY(row->study ? row->study(options->paths[i], report->folder, options)
-                          : study_scene(report, options->paths[i], row));
+                          : study_scene(report, options->paths[i], row, pieces));
     }
     oz_log_line("%d settings in %.0f s; %s/report.csv and pictures", report->count,
                 oz_clock_now() - start, report->folder);

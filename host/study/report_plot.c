@@ -2,7 +2,6 @@
 #include "study/report_plot.h"
 
 #include "base/log.h"
-#include "scene/keys.h"
 #include "study/report_table.h"
 
 #include <math.h>
@@ -57,13 +56,12 @@ static void send_curve(FILE *gnuplot, const OzReportPoint *points, int count, in
     static const char *const colours[] = {"#d55e00", "#0072b2", "#009e73",
                                           "#cc79a7", "#e69f00", "#000000"};
     const OzReportPoint *p = &points[i];
-    const char *colour = colours[(int)p->integrator % 6];
+    const char *colour = colours[((int)p->integrator + (p->substeps > 1 ? 3 : 0)) % 6];
     bool is_double = p->precision == OZ_PRECISION_DOUBLE;
     double order = oz_report_table_order(points, count, p);
-    char title[128];
-    snprintf(
-        title, sizeof title, "%s, %s%s%.40s", oz_keys_choice_name("integrator", (int)p->integrator),
-        oz_keys_choice_name("precision", (int)p->precision), p->label[0] ? ", " : "", p->label);
+    char title[160], method[64];
+    oz_report_table_method(p, method, sizeof method);
+    snprintf(title, sizeof title, "%s%s%.40s", method, p->label[0] ? ", " : "", p->label);
     if (is_double && isfinite(order)) {
         size_t length = strlen(title);
         snprintf(title + length, sizeof title - length, " (order %.1f)", order);
@@ -71,7 +69,14 @@ static void send_curve(FILE *gnuplot, const OzReportPoint *points, int count, in
     fprintf(gnuplot,
             "$curve%d using %d:3:3:4 with yerrorbars pt -1 ps 0 lw 1 lc rgb '%s' notitle, "
             "$curve%d using %d:3 with linespoints lw 2 ps 0.9 pt %d dt %d lc rgb '%s' title '%s', ",
-            i, x, colour, i, x, is_double ? 7 : 6, is_double ? 1 : 2, colour, title);
+            i, x, colour, i, x,
+            p->host     ? 4
+            : is_double ? 7
+                        : 6,
+            p->host     ? 4
+            : is_double ? 1
+                        : 2,
+            colour, title);
     if (is_double || x == 1) {
         fprintf(gnuplot,
                 "$curve%d using %d:3:7 with labels offset 0,%s font ',7' tc rgb '%s' notitle, ", i,
@@ -101,12 +106,12 @@ static void send_picture(FILE *gnuplot, const char *terminal, const char *path, 
     const OzReportCase *row = points[0].row;
     fprintf(gnuplot,
             "set terminal %s size 1500,700 noenhanced font 'DejaVu Sans,11'\nset output '%s'\n"
-            "set multiplot layout 1,2 title \"%s: error in %s; labels: steps per contact; bars: up "
+            "set multiplot layout 1,2 title \"%s: error in %s; labels: steps per %s; bars: up "
             "to the greatest error of any phase\\n%s\"\n"
             "set logscale xy\nset grid xtics ytics lc rgb '#dddddd'\nset format '%%g'\n"
             "set ylabel 'RMS error, %s'\nset xlabel 'wall seconds per simulated second'\n"
             "set key below font ',9' maxcols 2\nset bmargin 8\n",
-            terminal, path, points[0].scene, row->quantity, device,
+            terminal, path, points[0].scene, row->quantity, points[0].cycle, device,
             row->unit[0] ? row->unit : "as a share");
     send_panel(gnuplot, points, count, 1);
     fprintf(gnuplot, "set xlabel 'force evaluations per simulated second'\n");
@@ -119,12 +124,12 @@ static void list_failures(const OzReportPoint *points, int count, FILE *gnuplot)
     int line = 0;
     for (int i = 0; i < count && line < 12; i++) {
         if (!points[i].good) {
+            char method[64];
+            oz_report_table_method(&points[i], method, sizeof method);
             fprintf(gnuplot,
-                    "set label %d 'left out: %s, %s, %d: %.80s' at graph 0.01,%.3f font ',7' "
+                    "set label %d 'left out: %s, %d: %.80s' at graph 0.01,%.3f font ',7' "
                     "front\n",
-                    line + 1, oz_keys_choice_name("integrator", (int)points[i].integrator),
-                    oz_keys_choice_name("precision", (int)points[i].precision), points[i].steps,
-                    points[i].reason, 0.02 + 0.025 * line);
+                    line + 1, method, points[i].steps, points[i].reason, 0.02 + 0.025 * line);
             line++;
         }
     }

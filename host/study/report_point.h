@@ -5,7 +5,7 @@
 
 #include "cli.h"
 #include "compute/device.h"
-#include "study/report_cases.h"
+#include "study/report_piece_cases.h"
 
 /* Steps per contact of the truth where no exact answer exists. Halving the step again moves it by
  * less than a tenth of the error of the finest point of the ladder. */
@@ -16,6 +16,8 @@ typedef struct OzReportJob {
     const OzDevice *device;   /* that of the points */
     const char *path;         /* scene file                                       */
     const OzReportCase *row;
+    const OzReportPieceCase *pieces;      /* of trigrains, and row is its; NULL of rods      */
+    double truth[OZ_REPORT_PIECE_VALUES]; /* of pieces' values                               */
     int phases;  /* copies side by side, each starting earlier by another share of a step, evenly
                     stratified  (without phases of first touch all alike)  */
     int repeats; /* timed runs of all copies                                              */
@@ -28,12 +30,16 @@ typedef struct OzReportPoint {
     const char *label;      /* the device as it was asked for; "" when it is the only one */
     OzIntegrator integrator;
     OzPrecision precision;
-    int steps;        /* per contact time                                     */
-    double step;      /* s                                                    */
-    double truth;     /* what the value should be                             */
-    double error_rms; /* over the phases                                      */
-    double error_max; /* of any phase                                         */
-    double wall;      /* s per simulated s: median, for one of the copies     */
+    int substeps;      /* of beams; 0: none                                    */
+    bool host;         /* by the reference on the host, one copy after another */
+    int steps;         /* per cycle                                            */
+    const char *cycle; /* "contact": the contact time; "period" of the fastest
+                         vibration                                            */
+    double step;       /* s                                                    */
+    double truth;      /* what the value should be; of pieces 0, the distance  */
+    double error_rms;  /* over the phases                                      */
+    double error_max;  /* of any phase                                         */
+    double wall;       /* s per simulated s: median, for one of the copies     */
     double wall_low, wall_high;
     double evaluations; /* of all forces, per simulated s                       */
     bool good;          /* all of the above is filled in; otherwise: */
@@ -41,8 +47,8 @@ typedef struct OzReportPoint {
     bool front;         /* no other point is both faster and more accurate      */
 } OzReportPoint;
 
-/* The truth of a scene: exact, or the double reference (velocity-verlet) at OZ_REPORT_POINT_TRUTH
- * steps per contact. */
+/* The truth of a scene of rods: exact, or the double reference (velocity-verlet) at
+ * OZ_REPORT_POINT_TRUTH steps per contact. */
 OzStatus oz_report_point_truth(double *truth, const OzReportJob *job);
 
 /* Fills the point's errors and times from its integrator, precision, steps and truth. A setting

@@ -22,6 +22,16 @@ static const char *precision_name(const OzReportPoint *point)
     return oz_keys_choice_name("precision", (int)point->precision);
 }
 
+void oz_report_table_method(const OzReportPoint *point, char *text, size_t size)
+{
+    if (point->substeps > 1) {
+        snprintf(text, size, "%s, %d substeps, %s", integrator_name(point), point->substeps,
+                 precision_name(point));
+    } else {
+        snprintf(text, size, "%s, %s", integrator_name(point), precision_name(point));
+    }
+}
+
 static bool beats(const OzReportPoint *a, const OzReportPoint *b)
 {
     bool better = a->wall < b->wall || a->error_rms < b->error_rms;
@@ -53,7 +63,8 @@ const OzReportPoint *oz_report_table_cheapest(const OzReportPoint *points, int c
 
 bool oz_report_table_alike(const OzReportPoint *a, const OzReportPoint *b)
 {
-    return a->integrator == b->integrator && a->precision == b->precision && a->device == b->device;
+    return a->integrator == b->integrator && a->substeps == b->substeps &&
+           a->precision == b->precision && a->device == b->device;
 }
 
 double oz_report_table_order(const OzReportPoint *points, int count, const OzReportPoint *like)
@@ -77,9 +88,11 @@ static void say_failures(FILE *file, const OzReportPoint *points, int count)
 {
     for (int i = 0; i < count; i++) {
         if (!points[i].good) {
-            fprintf(file, "  left out: %s, %s, %d steps per contact%s%s: %s\n",
-                    integrator_name(&points[i]), precision_name(&points[i]), points[i].steps,
-                    points[i].label[0] ? " on " : "", points[i].label, points[i].reason);
+            char method[64];
+            oz_report_table_method(&points[i], method, sizeof method);
+            fprintf(file, "  left out: %s, %d steps per %s%s%s: %s\n", method, points[i].steps,
+                    points[i].cycle, points[i].label[0] ? " on " : "", points[i].label,
+                    points[i].reason);
         }
     }
 }
@@ -88,6 +101,9 @@ static void say_setting(FILE *file, const OzReportPoint *best)
 {
     fprintf(file, "time:\n  step: %.6g\nintegrator: %s\nprecision: %s\n", best->step,
             integrator_name(best), precision_name(best));
+    if (best->substeps > 1) {
+        fprintf(file, "beams: {substeps: %d}\n", best->substeps);
+    }
 }
 
 void oz_report_table_say(FILE *file, const OzReportPoint *points, int count, double tolerance,
@@ -98,18 +114,19 @@ void oz_report_table_say(FILE *file, const OzReportPoint *points, int count, dou
     }
     const OzReportCase *row = points[0].row;
     const OzReportPoint *best = oz_report_table_cheapest(points, count, tolerance);
-    char error[64];
+    char error[64], method[64];
     if (row->unit[0]) {
         snprintf(error, sizeof error, "%g %s", tolerance, row->unit);
     } else {
         snprintf(error, sizeof error, "%g %%", 100 * tolerance);
     }
     if (best) {
+        oz_report_table_method(best, method, sizeof method);
         fprintf(file,
-                "%s: for an error of %s in %s use %s, %s, at dt = %.4g s (%d steps per contact): "
+                "%s: for an error of %s in %s use %s, at dt = %.4g s (%d steps per %s): "
                 "%.3g seconds per simulated second%s%s\n",
-                points[0].scene, error, row->quantity, integrator_name(best), precision_name(best),
-                best->step, best->steps, best->wall, best->label[0] ? " on " : "", best->label);
+                points[0].scene, error, row->quantity, method, best->step, best->steps, best->cycle,
+                best->wall, best->label[0] ? " on " : "", best->label);
     } else {
         fprintf(file, "%s: no setting of this ladder keeps the error in %s below %s\n",
                 points[0].scene, row->quantity, error);
@@ -130,7 +147,8 @@ static void write_row(FILE *file, const OzReportPoint *p)
     } else {
         fprintf(file, ",,,,,,");
     }
-    fprintf(file, "\"%s\",\"%s\"\n", p->reason, p->device ? p->device->name : "");
+    fprintf(file, "\"%s\",\"%s\",%d\n", p->reason, p->device ? p->device->name : p->label,
+            p->substeps > 1 ? p->substeps : 1);
 }
 
 OzStatus oz_report_table_write(const char *folder, const OzReportPoint *points, int count)
@@ -146,7 +164,7 @@ OzStatus oz_report_table_write(const char *folder, const OzReportPoint *points, 
     }
     fprintf(file, "scene,quantity,integrator,precision,steps_per_contact,step,"
                   "evaluations_per_simulated_s,truth,error_rms,error_max,wall_per_simulated_s,"
-                  "wall_low,wall_high,pareto,reason,device\n");
+                  "wall_low,wall_high,pareto,reason,device,substeps\n");
     for (int i = 0; i < count; i++) {
         write_row(file, &points[i]);
     }

@@ -14,7 +14,10 @@ void oz_report_table_front(OzReportPoint *points, int count);
 const OzReportPoint *oz_report_table_cheapest(const OzReportPoint *points, int count,
                                               double tolerance);
 
-/* Whether two points are of one method: integrator, precision and device. */
+/* "velocity-verlet, 4 substeps, double": integrator and precision in words. */
+void oz_report_table_method(const OzReportPoint *point, char *text, size_t size);
+
+/* Whether two points are of one method: integrator, substeps, precision and device. */
 bool oz_report_table_alike(const OzReportPoint *a, const OzReportPoint *b);
 
 /* The order at which one method's RMS error falls with the step, fitted over its good points
