@@ -51,6 +51,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(scalar, pair_history, OZ_HISTORY ? z.regions * z.inner_capacity * OZ_SPRING : 0)             \
     X(scalar, load, z.slots *OZ_LOAD)                                                              \
     X(scalar, pair_force, OZ_SCATTER ? 0 : z.regions * z.inner_capacity * OZ_PAIR_FORCE)           \
+    X(scalar, pair_torque, OZ_SCATTER ? 0 : z.regions * z.inner_capacity * OZ_PAIR_TORQUE)         \
     X(integer, pair_picked, z.regions *z.inner_capacity / OZ_LANES)                                \
     X(integer, pair_count, z.regions)                                                              \
     X(integer, pair_first, OZ_SCATTER ? 0 : z.slots)                                               \

@@ -95,8 +95,9 @@ enum {
     OZ_RECORD = 16
 };
 
-/* Words of a pair's result: force on b, torque on a, torque on b, each with one to spare. */
-enum { OZ_F_FORCE = 0, OZ_F_TORQUE_A = 4, OZ_F_TORQUE_B = 8, OZ_PAIR_FORCE = 12 };
+/* Words of a pair's result: force and torque on b, each with one to spare; torque on a, likewise, is kept apart:
+ * b's grain comes for its part from elsewhere and then waits for one line of memory only. */
+enum { OZ_F_FORCE = 0, OZ_F_TORQUE = 4, OZ_PAIR_FORCE = 8, OZ_PAIR_TORQUE = 4 };
 
 /* Words of a pair's tangential spring: m, one to spare. */
 enum { OZ_SPRING = 4 };

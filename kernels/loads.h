@@ -26,7 +26,7 @@ OZ_INLINE void oz_loads_sum_backs(OzSum *sum, const OzWork *w, int slot, int fir
             (global const scalar4 *)(w->pair_force + (size_t)back[k] * OZ_PAIR_FORCE);
         if (oz_loads_picked(w, back[k])) {
             sum->force += pair[OZ_F_FORCE / 4];
-            sum->torque += pair[OZ_F_TORQUE_B / 4];
+            sum->torque += pair[OZ_F_TORQUE / 4];
         }
     }
 }
@@ -36,11 +36,10 @@ OZ_INLINE void oz_loads_sum_own(OzSum *sum, const OzWork *w, int slot)
 {
     int first = w->pair_first[slot], last = first + w->pair_number[slot];
     for (int p = first; p < last; p++) {
-        global const scalar4 *pair =
-            (global const scalar4 *)(w->pair_force + (size_t)p * OZ_PAIR_FORCE);
+        global const scalar *force = w->pair_force + (size_t)p * OZ_PAIR_FORCE + OZ_F_FORCE;
         if (oz_loads_picked(w, p)) {
-            sum->force -= pair[OZ_F_FORCE / 4];
-            sum->torque += pair[OZ_F_TORQUE_A / 4];
+            sum->force -= *(global const scalar4 *)force;
+            sum->torque += *(global const scalar4 *)(w->pair_torque + (size_t)p * OZ_PAIR_TORQUE);
         }
     }
 }

@@ -158,8 +158,8 @@ OZ_INLINE void oz_pairs_keep(OzWork *w, const int *items, const scalar4 *forces,
     for (int l = 0; l < OZ_LANES; l++) {
         global scalar4 *to = (global scalar4 *)(w->pair_force + (size_t)items[l] * OZ_PAIR_FORCE);
         to[OZ_F_FORCE / 4] = forces[l];
-        to[OZ_F_TORQUE_A / 4] = torques_a[l];
-        to[OZ_F_TORQUE_B / 4] = torques_b[l];
+        to[OZ_F_TORQUE / 4] = torques_b[l];
+        *(global scalar4 *)(w->pair_torque + (size_t)items[l] * OZ_PAIR_TORQUE) = torques_a[l];
     }
 }
 

@@ -6,6 +6,9 @@
 
 #include "kernels/lists.h"
 
+/* Words of a slot's springs at walls. */
+#define OZ_RESORT_SPRINGS (OZ_HISTORY ? 3 * OZ_WALL_ENDS : 0)
+
 OZ_INLINE void oz_resort_out_words(global scalar *to, global const scalar *from, int slot, int words)
 {
     for (int k = 0; k < words; k++) {
@@ -31,10 +34,8 @@ OZ_INLINE void oz_resort_out(OzWork *w, int region)
         if (!OZ_EQUAL) {
             oz_resort_out_words(to + 1 + OZ_STATE, (global const scalar *)w->shape, from, OZ_SHAPE);
         }
-        if (OZ_HISTORY && OZ_WALL_ENDS > 0) {
-            oz_resort_out_words(to + 1 + OZ_STATE + OZ_SHAPE, (global const scalar *)w->wall_history,
-                                from, 3 * OZ_WALL_ENDS);
-        }
+        oz_resort_out_words(to + 1 + OZ_STATE + OZ_SHAPE, (global const scalar *)w->wall_history,
+                            from, OZ_RESORT_SPRINGS);
     }
 }
 
@@ -64,10 +65,8 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
         if (!OZ_EQUAL) {
             oz_resort_in_words((global scalar *)w->shape, from + 1 + OZ_STATE, slot, OZ_SHAPE);
         }
-        if (OZ_HISTORY && OZ_WALL_ENDS > 0) {
-            oz_resort_in_words((global scalar *)w->wall_history, from + 1 + OZ_STATE + OZ_SHAPE, slot,
-                               3 * OZ_WALL_ENDS);
-        }
+        oz_resort_in_words((global scalar *)w->wall_history, from + 1 + OZ_STATE + OZ_SHAPE, slot,
+                           OZ_RESORT_SPRINGS);
     }
     oz_resort_records(w, region);
 }
