@@ -31,8 +31,7 @@
 #define LYING ROD("4", "0, 0, 2.5e-3", "0, 1, 0", "0, 0, 0")
 
 /* A light rod that lies far away, so that grains are not all alike. */
-#define COMPANION                                                                                  \
-    GRAIN("5e-3", "1", "0, 1, 2.5e-3", "1, 0, 0", "0, 0, 0", ", density: 1")
+#define COMPANION GRAIN("5e-3", "1", "0, 1, 2.5e-3", "1, 0, 0", "0, 0, 0", ", density: 1")
 
 /* A floor that moves, in a cylinder of 20 mm. */
 #define SHAKEN(motion)                                                                             \
