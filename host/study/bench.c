@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "study/bench_features.h"
 #include "study/bench_limits.h"
+#include "study/bench_pieces.h"
 #include "study/bench_plot.h"
 #include "study/bench_shares.h"
 #include "study/bench_table.h"
@@ -264,13 +265,21 @@ static OzStatus run_side_by_side(Bench *bench, OzBenchBed *bed, const char *name
     return status;
 }
 
-/* Keeps the first scene. */
+/* Keeps the first scene of rods; trigrains are only taken apart. */
 static OzStatus run_scene(Bench *bench, const char *path)
 {
     OzStatus status = OZ_OK;
-    OzBenchBed later = {0};
-    OzBenchBed *bed = bench->first.scene.path ? &later : &bench->first;
+    OzBenchBed later = {0}, *bed = &later;
     OZ_TRY(oz_bench_bed_load(bed, bench->options, path));
+    if (bed->scene.model == OZ_MODEL_TRIGRAINS) {
+        status = oz_bench_pieces_print(bed, bench->options, bench->folder, stdout);
+        goto done;
+    }
+    if (!bench->first.scene.path) {
+        bench->first = later;
+        later = (OzBenchBed){0};
+        bed = &bench->first;
+    }
     OZ_TRY(oz_bench_bed_settle(bed, bench->options, 0));
     OZ_TRY(run_bed(bench, bed, bed->scene.name, true));
     OZ_TRY(run_side_by_side(bench, bed, bed->scene.name));
@@ -384,6 +393,9 @@ static OzStatus run_all(Bench *bench)
         OZ_TRY(run_scene(bench, NULL));
         OZ_TRY(run_yardstick(bench));
         OZ_TRY(run_ladder(bench));
+    }
+    if (!bench->first.scene.path) {
+        goto done; /* no rods */
     }
     oz_bench_table_explain(stdout);
     OZ_TRY(take_apart(bench));

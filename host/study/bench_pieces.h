@@ -1,0 +1,13 @@
+/* Where a step of a trigrains scene spends its time: the rows of Table 1 of Poeschel and Buchholtz
+ * (1995). */
+#ifndef OZ_STUDY_BENCH_PIECES_H
+#define OZ_STUDY_BENCH_PIECES_H
+
+#include "study/bench_bed.h"
+
+/* Takes the scene apart after it has settled and run for a while, in a process of its own, and
+ * prints the table; `folder`/pieces_NAME.csv receives the same. */
+OzStatus oz_bench_pieces_print(const OzBenchBed *bed, const OzOptions *options, const char *folder,
+                               FILE *text);
+
+#endif
