@@ -10,7 +10,7 @@
 typedef enum OzVerdict {
     OZ_VERDICT_RIGHT,   /* the value is in its range                                       */
     OZ_VERDICT_REFUSED, /* it was not computed, or stopped, with a message, as it should be */
-    OZ_VERDICT_STOPPED, /* it was, though it should have been computed                     */
+    OZ_VERDICT_STOPPED, /* it was, though it should have been computed, or for another reason */
     OZ_VERDICT_WRONG    /* a result out of its range and no message                        */
 } OzVerdict;
 
@@ -19,6 +19,9 @@ typedef struct OzExtremeOutcome {
     double value;      /* NAN when there is none */
     char message[240]; /* of a refusal           */
 } OzExtremeOutcome;
+
+/* Whether the row is for numbers of this precision. */
+bool oz_report_extreme_serves(const OzExtremeCase *row, OzPrecision precision);
 
 /* Runs one case. brief takes the row's short duration. A refusal or a blow-up is an outcome; fails
  * only when the device does. */

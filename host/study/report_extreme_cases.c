@@ -53,6 +53,11 @@ const char *oz_report_extreme_cases_common(void)
     return common;
 }
 
+const char *oz_report_extreme_cases_walls(void)
+{
+    return "  - {kind: plane}\n";
+}
+
 /* Of the first two grains along z. */
 static double restitution(const OzSnapshot *end)
 {
@@ -143,109 +148,117 @@ static double count(const OzSnapshot *end)
     return (double)end->count;
 }
 
+/* The end of a row: no step is forced, and any message will do. */
+#define RODS OZ_MODEL_RODS, false, NULL
+
 #define RESTITUTION "restitution", restitution, 0.485, 0.515, 0
 #define PARALLEL(angle)                                                                            \
     {                                                                                              \
         "parallel within " angle " rad", HIT("4", "1, 0, 0", "5", "1, " angle ", 0"), NULL,        \
-            {NULL}, NULL, RESTITUTION                                                              \
+            {NULL}, NULL, RESTITUTION, RODS                                                        \
     }
 #define ASPECT(aspect)                                                                             \
     {                                                                                              \
-        "aspect " aspect, HIT(aspect, "1, 0, 0", "5", "0, 1, 0"), NULL, {NULL}, NULL, RESTITUTION  \
+        "aspect " aspect, HIT(aspect, "1, 0, 0", "5", "0, 1, 0"), NULL, {NULL}, NULL, RESTITUTION, \
+            RODS                                                                                   \
     }
 
 /* clang-format off */
 static const OzExtremeCase rows[] = {
     /* the overlap, 3e-8 m, is a hundred roundings of the distance in float */
     {"stiffness x 1e6", CROSSED, NULL, {"contact.contact_time=1e-6", "time.step=1.9e-8",
-     "time.duration=1.3e-4"}, NULL, "restitution", restitution, 0.47, 0.53, 0},
+     "time.duration=1.3e-4"}, NULL, "restitution", restitution, 0.47, 0.53, 0, RODS},
     {"stiffness x 1e6, step as before", CROSSED, NULL, {"contact.contact_time=1e-6"}, NULL, NULL,
-     NULL, 0, 0, 0},
+     NULL, 0, 0, 0, RODS},
     {"wall 1000 times stiffer", ROD("4", "0, 0, 12.511e-3", "0, 0, 1", "0, 0, -0.1"),
      "  - {kind: plane, contact: {contact_time: 3.1622777e-5}}\n", {"time.step=6e-7"}, NULL,
-     "rebound", rebound, 0.485, 0.515, 0},
+     "rebound", rebound, 0.485, 0.515, 0, RODS},
     ASPECT("0"), ASPECT("1e-6"), ASPECT("1"), ASPECT("100"), ASPECT("1000"),
     {"size ratio 100",
      GRAIN("0.5", "1", "0, 0, 1", "1, 0, 0", "0, 0, 0", "") ROD("5", "0, 0, 1.252511", "0, 1, 0",
-     "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION},
+     "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION, RODS},
     {"mass ratio 1e6", GRAIN("5e-3", "4", "0, 0, 0.1", "1, 0, 0", "0, 0, 0", ", density: 1e4")
      GRAIN("5e-3", "4", "0, 0, 0.105011", "0, 1, 0", "0, 0, -0.1", ", density: 1e-2"), NULL, {NULL},
-     NULL, RESTITUTION},
+     NULL, RESTITUTION, RODS},
     PARALLEL("1e-1"), PARALLEL("1e-3"), PARALLEL("1e-6"), PARALLEL("1e-9"), PARALLEL("1e-12"),
     PARALLEL("0"),
     {"anti-parallel", HIT("4", "1, 0, 0", "5", "-1, 0, 0"), NULL, {NULL}, NULL,
-     RESTITUTION},
+     RESTITUTION, RODS},
     {"collinear, end to end", ROD("4", "0, 0, 0.1", "0, 0, 1", "0, 0, 0") ROD("5", "0, 0, 0.127511",
-     "0, 0, 1", "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION},
-    {"crossed at 90 degrees", CROSSED, NULL, {NULL}, NULL, RESTITUTION},
+     "0, 0, 1", "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION, RODS},
+    {"crossed at 90 degrees", CROSSED, NULL, {NULL}, NULL, RESTITUTION, RODS},
     {"sweeping through parallel, off-centre", ROD("4", "0, 0, 0.1", "1, 0, 0", "0, 0, 0")
      GRAIN("5e-3", "5", "5e-3, 0, 0.105011", "1, -6e-4, 0", "0, 0, -0.1", ", spin: [0, 0, 1]"),
-     NULL, {NULL}, NULL, "energy left, as a share", energy_share, 0.1, 1.0, 0},
-    {"shafts that intersect", OVERLAPPING(""), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0},
+     NULL, {NULL}, NULL, "energy left, as a share", energy_share, 0.1, 1.0, 0, RODS},
+    {"shafts that intersect", OVERLAPPING(""), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0, RODS},
     {"identical positions", ROD("4", "0, 0, 0.1", "1, 0, 0", "0, 0, 0") ROD("4", "0, 0, 0.1",
-     "1, 0, 0", "0, 0, 0"), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0},
+     "1, 0, 0", "0, 0, 0"), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0, RODS},
     /* a spring let go: at most sqrt(kappa) x overlap = 3217 1/s x 0.5 mm */
     {"overlap of 10 % at the start", OVERLAPPING("045"), NULL, {NULL}, NULL, "parting speed, m/s",
-     parting_speed, 0.5, 1.61, 0},
+     parting_speed, 0.5, 1.61, 0, RODS},
     {"overlap of 49 % at the start", OVERLAPPING("02551"), NULL, {NULL}, NULL,
-     "parting speed, m/s", parting_speed, 2.5, 7.9, 0},
+     "parting speed, m/s", parting_speed, 2.5, 7.9, 0, RODS},
     {"overlap of 51 % at the start", OVERLAPPING("02449"), NULL, {NULL}, NULL, NULL, NULL, 0, 0,
-     0},
+     0, RODS},
     /* one contact in the middle carries no rod straight: rounding makes it jump to an end and
-     * back; two contacts do. In float a hundred shafts may each turn by a rounding, 1.2e-7 diameters
+     * back; two contacts do. In float a hundred shafts may each turn by a rounding,
+     1.2e-7 diameters
      * at its ends */
     {"column of 100 rods lying flat: single", COLUMN, NULL, {GRAVITY, "time.duration=0.5"}, NULL,
-     "lean, diameters", lean, 0, 0.3, 0},
+     "lean, diameters", lean, 0, 0.3, 0, RODS},
     {"column of 100 rods lying flat: line", COLUMN, NULL, {GRAVITY, "contact.parallel=line",
-     "time.duration=0.5"}, NULL, "lean, diameters", lean, 0, 1e-6, 1.2e-5},
+     "time.duration=0.5"}, NULL, "lean, diameters", lean, 0, 1e-6, 1.2e-5, RODS},
     /* in float the shaft's direction jumps by a rounding, 6e-8 rad: its ends by 1.2e-7 diameters, and
      * at 5.7e3 1/s, the swing of a rod on its ends, that is 3.4e-4 rad/s */
     {"rod at rest for 1e6 steps: place", LYING, NULL, {GRAVITY, "time.duration=20"},
-     "time.duration=0.5", "way, diameters", unrest, 0, 1e-9, 5e-7},
+     "time.duration=0.5", "way, diameters", unrest, 0, 1e-9, 5e-7, RODS},
     {"rod at rest for 1e6 steps: spin", LYING, NULL, {GRAVITY, "time.duration=20"},
-     "time.duration=0.5", "spin, rad/s", spin_rate, 0, 1e-9, 3.4e-4},
+     "time.duration=0.5", "spin, rad/s", spin_rate, 0, 1e-9, 3.4e-4, RODS},
     {"speed above a diameter per step", ROD("4", "0, 0, 0.1", "1, 0, 0", "1000, 0, 0") ROD("5",
-     "0, 0, 0.2", "1, 0, 0", "0, 0, 0"), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0},
+     "0, 0, 0.2", "1, 0, 0", "0, 0, 0"), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0, RODS},
     {"restitution 0", CROSSED, NULL, {"contact.restitution=0"}, NULL, "restitution", restitution,
-     0, 0.02, 0},
+     0, 0.02, 0, RODS},
     {"restitution 1", CROSSED, NULL, {"contact.restitution=1"}, NULL, "restitution", restitution,
-     0.999, 1.001, 0},
+     0.999, 1.001, 0, RODS},
     {"friction 0", ROD("4", "0, 0, 2.5e-3", "0, 1, 0", "0.1, 0, 0"),
      "  - {kind: plane, contact: {friction: 0}}\n", {GRAVITY, "time.duration=0.1"}, NULL,
      "speed kept", speed_kept, 0.9999, 1.0001,
-     0},
+     0, RODS},
     /* 5/7 of the speed when it rolls */
     {"friction 1000", ROD("0", "0, 0, 2.5e-3", "0, 1, 0", "0.1, 0, 0") COMPANION, NULL, {GRAVITY,
-     "contact.friction=1000", "time.duration=0.1"}, NULL, "speed kept", speed_kept, 0.70, 0.73, 0},
+     "contact.friction=1000", "time.duration=0.1"}, NULL, "speed kept", speed_kept, 0.70, 0.73, 0,
+     RODS},
     {"zero grains", "  - {kind: random, diameter: 5e-3, count: 0}\n", NULL, {NULL}, NULL, "grains",
-     count, 0, 0, 0},
+     count, 0, 0, 0, RODS},
     {"one grain", ROD("4", "0, 0, 0.1", "1, 0, 0", "0, 0, 0"), NULL, {GRAVITY,
-     "time.duration=0.1"}, NULL, "fall over g t^2 / 2", fall, 0.9995, 1.0005, 0},
+     "time.duration=0.1"}, NULL, "fall over g t^2 / 2", fall, 0.9995, 1.0005, 0, RODS},
     {"17 grains: in no group's size",
      "  - {kind: random, diameter: 5e-3, aspect: [1, 3], count: 17}\n",
      SHAKEN("frequency: 30, acceleration_ratio: 2"), {GRAVITY, "time.duration=0.5"},
-     "time.duration=0.2", "clearance, diameters", clearance, -0.1, 3, 0},
+     "time.duration=0.2", "clearance, diameters", clearance, -0.1, 3, 0, RODS},
     {"1000 diameters from the origin", ROD("4", "5, 0, 0.1", "1, 0, 0", "0, 0, 0") ROD("5",
-     "5, 0, 0.105011", "0, 1, 0", "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION},
+     "5, 0, 0.105011", "0, 1, 0", "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION, RODS},
     {"slanted rod wedged in a cylinder", ROD("4", "0, 0, 15e-3", "1, 0, 1", "0, 0, 0")
      GRAIN("1e-3", "0", "0, 9e-3, 0.5e-3", "0, 0, 1", "0, 0, 0", ""),
      SHAKEN("frequency: 30, acceleration_ratio: 0"), {GRAVITY, "time.duration=1"},
-     "time.duration=0.3", "spin, rad/s", spin_rate, 0, 0.05, 0},
+     "time.duration=0.3", "spin, rad/s", spin_rate, 0, 0.05, 0, RODS},
     {"floor amplitude longer than a rod", HEAP, SHAKEN("frequency: 5, amplitude: 0.05"), {GRAVITY,
-     "time.duration=1.05"}, "time.duration=0.25", "clearance, diameters", clearance, -0.3, 100, 0},
+     "time.duration=1.05"}, "time.duration=0.25", "clearance, diameters", clearance, -0.3, 100, 0,
+     RODS},
     {"Gamma 50", HEAP, SHAKEN("frequency: 50, acceleration_ratio: 50"), {GRAVITY,
-     "time.duration=1"}, "time.duration=0.2", "clearance, diameters", clearance, -0.5, 2000, 0},
+     "time.duration=1"}, "time.duration=0.2", "clearance, diameters", clearance, -0.5, 2000, 0,
+     RODS},
     {"floor period of 10 steps", HEAP, SHAKEN("frequency: 5000, acceleration_ratio: 50"), {GRAVITY,
-     "time.duration=1"}, "time.duration=0.2", "clearance, diameters", clearance, -0.1, 10, 0},
+     "time.duration=1"}, "time.duration=0.2", "clearance, diameters", clearance, -0.1, 10, 0, RODS},
     /* roundings of 1e7 steps as a random walk: 3e3 of 6e-8 */
     {"free rotation for 1e7 steps", GRAIN("5e-3", "4", "0, 0, 0.1", "0, 0, 1", "0, 0, 0",
      ", spin: [200, 0, 300]"), NULL, {"time.duration=200"}, "time.duration=0.5",
-     "energy drift, as a share", energy_drift, -2e-4, 2e-4, 0},
+     "energy drift, as a share", energy_drift, -2e-4, 2e-4, 0, RODS},
     {"undamped bouncing for 1e7 steps: energy",
      ROD("0", "0, 0, 6e-3", "0, 0, 1", "0, 0, 0") COMPANION, NULL,
      {GRAVITY, "contact.restitution=1", "time.duration=200"}, "time.duration=2",
-     "energy drift, as a share", energy_drift, -0.05, 0.05, 0},
-    {NULL, NULL, NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0},
+     "energy drift, as a share", energy_drift, -0.05, 0.05, 0, RODS},
+    {NULL, NULL, NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0, RODS},
 };
 /* clang-format on */
 

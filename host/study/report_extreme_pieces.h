@@ -1,0 +1,18 @@
+/* THE list of stiff and extreme cases of trigrains. A new case is a row (study/
+ * report_extreme_cases.h says what a row is). */
+#ifndef OZ_STUDY_REPORT_EXTREME_PIECES_H
+#define OZ_STUDY_REPORT_EXTREME_PIECES_H
+
+#include "study/report_extreme_cases.h"
+
+/* The rows, ending with one whose name is NULL. */
+const OzExtremeCase *oz_report_extreme_pieces_all(void);
+
+/* The keys that all cases share, as YAML without grains and walls: dice of 2 mm with the beams of
+ * Poeschel and Buchholtz (1995), 1 us, no gravity, the ledger. */
+const char *oz_report_extreme_pieces_common(void);
+
+/* The walls they share: one floor far below. */
+const char *oz_report_extreme_pieces_walls(void);
+
+#endif
