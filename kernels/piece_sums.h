@@ -18,19 +18,35 @@ OZ_INLINE void oz_piece_sums_clear(OzPieceSums *sums)
 }
 
 #if OZ_LEDGER
+/* One word over all lanes. */
+OZ_INLINE double oz_piece_sums_of(const OzPieceSums *sums, int word)
+{
+    scalar lane[OZ_LANES];
+    double sum = 0;
+    OZ_LANES_STORE(sums->word[word], lane);
+    for (int l = 0; l < OZ_LANES; l++) {
+        sum += lane[l];
+    }
+    return sum;
+}
+
 /* Adds a step's work to the work-item's own row: the mean of the powers at its ends. */
 OZ_INLINE void oz_piece_sums_add(OzPieceWork *w, const OzPieceSums *sums)
 {
     global double *row = w->ledger + w->item * OZ_PIECE_LEDGER_WORDS, *last = row + OZ_PIECE_LEDGER;
     for (int k = 0; k < OZ_PIECE_LEDGER; k++) {
-        scalar lane[OZ_LANES];
-        double sum = 0;
-        OZ_LANES_STORE(sums->word[k], lane);
-        for (int l = 0; l < OZ_LANES; l++) {
-            sum += lane[l];
-        }
+        double sum = oz_piece_sums_of(sums, k);
         row[k] += 0.5 * w->parameters->dt * (last[k] + sum);
         last[k] = sum;
+    }
+}
+
+/* Adds the work of a part of a step, at the power of its end. */
+OZ_INLINE void oz_piece_sums_add_part(OzPieceWork *w, const OzPieceSums *sums, scalar part)
+{
+    global double *row = w->ledger + w->item * OZ_PIECE_LEDGER_WORDS;
+    for (int k = 0; k < OZ_PIECE_LEDGER; k++) {
+        row[k] += oz_piece_sums_of(sums, k) * w->parameters->dt * part;
     }
 }
 #endif

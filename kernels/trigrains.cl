@@ -3,6 +3,9 @@
 #include "kernels/piece_contacts.h"
 #include "kernels/piece_loads.h"
 #include "kernels/piece_move.h"
+#if OZ_SUBSTEPS > 1
+#include "kernels/piece_substeps.h"
+#endif
 
 /* Sizes of the structs that both sides share. */
 kernel void oz_layout(global int *sizes)
@@ -95,18 +98,46 @@ OZ_INLINE void push(OzPieceWork *w, int step)
         oz_piece_contacts_classify(w, region);
         oz_piece_contacts_push(w, region, step, &sums);
     }
+#if OZ_SUBSTEPS == 1
     if (OZ_BEAMS) {
         oz_piece_beams_pull(w, step, &sums);
     }
+#endif
 #if OZ_LEDGER
     oz_piece_sums_add(w, &sums);
 #endif
     OZ_PIECE_MEET();
+#if OZ_SUBSTEPS == 1
     oz_piece_loads_contacts(w, w->load);
     if (OZ_BEAMS) {
         oz_piece_loads_beams(w, w->load);
     }
+#else
+    oz_piece_loads_contacts(w, w->slow_load);
+#endif
     OZ_PIECE_MEET();
+}
+
+/* Pieces to where the forces of a step are wanted. */
+OZ_INLINE void move(OzPieceWork *w, int step)
+{
+#if OZ_SUBSTEPS == 1
+    oz_piece_move_predict(w, step);
+#else
+    oz_piece_substeps_run(w, step);
+#endif
+}
+
+/* Ends a step, and moves pieces for the next where that can be done with it; 1 when it was. */
+OZ_INLINE int finish(OzPieceWork *w, int step, int goes_on)
+{
+#if OZ_SUBSTEPS == 1
+    oz_piece_move_correct(w, step, goes_on);
+    return goes_on;
+#else
+    oz_piece_substeps_end(w, step);
+    return 0;
+#endif
 }
 
 #if OZ_GROUP > 1
@@ -146,7 +177,7 @@ OZ_PIECE_KERNEL void oz_advance(OZ_PIECE_ARGUMENTS, int last)
         int ends = w.control->stop_bits != 0 || step >= last;
         OZ_PIECE_MEET();
         if (!ends && !moved) {
-            oz_piece_move_predict(&w, step);
+            move(&w, step);
         }
         if (OZ_MOVING && !ends) {
             oz_piece_move_walls(&w, step + 1);
@@ -164,7 +195,7 @@ OZ_PIECE_KERNEL void oz_advance(OZ_PIECE_ARGUMENTS, int last)
         push(&w, step);
         moved = step + 1 < last && !w.control->stop_bits;
         OZ_PIECE_MEET();
-        oz_piece_move_correct(&w, step, moved);
+        moved = finish(&w, step, moved);
         OZ_PIECE_MEET();
     }
     if (w.item == 0) {

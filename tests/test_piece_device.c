@@ -165,6 +165,15 @@ static void test_two_dice(void **state)
     close_scene(&s);
 }
 
+static void test_substeps(void **state)
+{
+    (void)state;
+    Scene s;
+    open_scene(&s, two_dice, 2e-6, "velocity-verlet\nbeams: {substeps: 3}");
+    compare_with_reference(&s, 250);
+    close_scene(&s);
+}
+
 static void test_heap(void **state)
 {
     (void)state;
@@ -338,9 +347,10 @@ static void test_guards(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two_dice), cmocka_unit_test(test_heap),
-        cmocka_unit_test(test_walls),    cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_members),  cmocka_unit_test(test_guards),
+        cmocka_unit_test(test_two_dice),  cmocka_unit_test(test_substeps),
+        cmocka_unit_test(test_heap),      cmocka_unit_test(test_walls),
+        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_members),
+        cmocka_unit_test(test_guards),
     };
     return cmocka_run_group_tests(tests, open_rig_device, close_rig_device);
 }

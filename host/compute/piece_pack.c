@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Words of a state and of a coordinate are told apart by the device's order, not by a macro, here.
  */
@@ -92,6 +93,25 @@ static OzStatus write_state(OzPieceArrays *arrays, int member, const OzScene *sc
         }
     }
     OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_state, member, words, count));
+done:
+    free(words);
+    return status;
+}
+
+static OzStatus write_slow_loads(OzPieceArrays *arrays, int member, const OzPieces *pieces,
+                                 const double *touch)
+{
+    OzStatus status = OZ_OK;
+    size_t count = (size_t)arrays->sizes.slots * OZ_PIECE_LOAD;
+    double *words = NULL;
+    if (arrays->switches.substeps == 1) {
+        return OZ_OK;
+    }
+    OZ_TRY(OZ_NEW(&words, count));
+    for (int64_t i = 0; i < pieces->free_count; i++) {
+        memcpy(&words[OZ_PIECE_LOAD * i], &touch[3 * i], 3 * sizeof *words);
+    }
+    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_slow_load, member, words, count));
 done:
     free(words);
     return status;
@@ -215,6 +235,7 @@ OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzScene *s
     OzStatus status = OZ_OK;
     OZ_TRY(write_shapes(arrays, member, grains->pieces));
     OZ_TRY(write_state(arrays, member, scene, grains->pieces, start));
+    OZ_TRY(write_slow_loads(arrays, member, grains->pieces, start->touch));
     OZ_TRY(oz_piece_pack_bodies(arrays, member, grains, ~0U));
     OZ_TRY(write_beams(arrays, member, grains->pieces));
     OZ_TRY(oz_piece_pack_ledger(arrays, member, &start->power));

@@ -9,6 +9,8 @@
  * 3 x free_count (x, y, angle). */
 typedef struct OzPieceStart {
     double *acceleration, *third, *fourth;
+    double *touch;       /* 3 x free_count: N, N, N m of contacts, where beams go in substeps; the
+                            acceleration is then that of beams and gravity alone                */
     OzPieceLedger power; /* W: how fast each entry of the ledger grows */
 } OzPieceStart;
 

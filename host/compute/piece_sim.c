@@ -79,9 +79,12 @@ static void fill_start(OzSnapshot *now, bool at_rest)
                          now->piece_velocity, now->piece_spin);
 }
 
-static OzStatus derive_power(OzPieceLedger *power, const OzSnapshot *now, bool at_rest)
+/* How fast the ledger grows; and, where beams go in substeps, what contacts do apart from beams and
+ * gravity. */
+static OzStatus derive_forces(OzPieceStart *start, const OzSnapshot *now, bool at_rest, bool parts)
 {
     OzStatus status = OZ_OK;
+    const OzPieces *pieces = now->grains->pieces;
     OzPieceForces forces = {0};
     OzPieceState state = {.position = now->piece_position,
                           .angle = now->piece_angle,
@@ -89,28 +92,38 @@ static OzStatus derive_power(OzPieceLedger *power, const OzSnapshot *now, bool a
                           .spin = now->piece_spin,
                           .at_rest = at_rest};
     OZ_TRY(oz_piece_forces_create(&forces, now->scene, now->grains));
-    OZ_TRY(oz_piece_forces_evaluate(&forces, &state));
-    *power = forces.power;
+    OZ_TRY(parts ? oz_piece_forces_touch(&forces, &state)
+                 : oz_piece_forces_evaluate(&forces, &state));
+    start->power = forces.power;
+    for (int64_t i = 0; parts && i < pieces->free_count; i++) {
+        double *touch = &start->touch[3 * i], *acceleration = &start->acceleration[3 * i];
+        memcpy(touch, &forces.force[2 * i], 2 * sizeof *touch);
+        touch[2] = forces.torque[i];
+        acceleration[0] -= touch[0] / pieces->mass[i];
+        acceleration[1] -= touch[1] / pieces->mass[i];
+        acceleration[2] -= touch[2] / pieces->inertia[i];
+    }
 done:
     oz_piece_forces_free(&forces);
     return status;
 }
 
-/* Derivatives at the start, which both integrators begin with. */
-static OzStatus derive_start(OzPieceStart *start, const OzMember *member)
+/* Derivatives at the start, which all integrators begin with. */
+static OzStatus derive_start(OzPieceStart *start, const OzMember *member, bool parts)
 {
     OzStatus status = OZ_OK;
-    const OzPieces *pieces = member->grains->pieces;
+    size_t count = 3 * (size_t)member->grains->pieces->free_count;
     OzSnapshot now = {0};
     bool at_rest = member->scene->settle.present;
-    OZ_TRY(OZ_NEW(&start->acceleration, 3 * pieces->free_count));
-    OZ_TRY(OZ_NEW(&start->third, 3 * pieces->free_count));
-    OZ_TRY(OZ_NEW(&start->fourth, 3 * pieces->free_count));
+    OZ_TRY(OZ_NEW(&start->acceleration, count));
+    OZ_TRY(OZ_NEW(&start->third, count));
+    OZ_TRY(OZ_NEW(&start->fourth, count));
+    OZ_TRY(OZ_NEW(&start->touch, count));
     OZ_TRY(oz_snapshot_create(&now, member->scene, member->grains));
     fill_start(&now, at_rest);
     OZ_TRY(oz_piece_reference_start_derivatives(&now, at_rest, start->acceleration, start->third,
                                                 start->fourth));
-    OZ_TRY(derive_power(&start->power, &now, at_rest));
+    OZ_TRY(derive_forces(start, &now, at_rest, parts));
 done:
     oz_snapshot_free(&now);
     return status;
@@ -122,7 +135,7 @@ static OzStatus upload_member(OzPieceSim *sim, int m)
     OzPieceStart start = {0};
     const OzMember *member = &sim->members[m];
     const OzPieces *pieces = member->grains->pieces;
-    OZ_TRY(derive_start(&start, member));
+    OZ_TRY(derive_start(&start, member, sim->arrays.switches.substeps > 1));
     OZ_TRY(oz_piece_pack_start(&sim->arrays, m, member->scene, member->grains, &start));
     sim->present[m] = ~0U;
     sim->control[m] = (OzPieceControl){.free_count = (int)pieces->free_count,
@@ -134,6 +147,7 @@ done:
     free(start.acceleration);
     free(start.third);
     free(start.fourth);
+    free(start.touch);
     return status;
 }
 
