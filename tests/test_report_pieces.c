@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "study/report_midpoint.h"
 #include "study/report_piece.h"
 #include "study/report_table.h"
 
@@ -141,6 +142,51 @@ static void test_device(void **state)
     oz_device_close(&device);
 }
 
+/* A closed loop of press, turn and release: Simpson's error alone with the centroid. */
+static void test_loop(void **state)
+{
+    (void)state;
+    double centroid, midpoint;
+    assert_int_equal(OZ_OK, oz_report_midpoint_loop(&centroid, OZ_FORCE_CENTROID));
+    assert_int_equal(OZ_OK, oz_report_midpoint_loop(&midpoint, OZ_FORCE_MIDPOINT));
+    assert_true(fabs(centroid) < 1e-6);
+    assert_true(fabs(midpoint) > 0.01);
+}
+
+/* Eight grains, falling and at rest. The vessel moves by less than any rounding: so the extreme
+ * suite's kernels serve. */
+static OzMidpointPile pile_of(const OzDevice *device, OzForcePoint point)
+{
+    char *settings[] = {"grains.0.count=8", "time.duration=0.6", "walls.0.motion.frequency=1",
+                        "walls.0.motion.amplitude=1e-18"};
+    OzScene scene = {0};
+    OzMidpointPile pile;
+    char path[512];
+    snprintf(path, sizeof path, "%s/report/settled_pile.yaml", ORZO_SCENES);
+    assert_int_equal(OZ_OK, oz_scene_load(&scene, path, settings, 4));
+    scene.triangles.force_point = point;
+    assert_int_equal(OZ_OK, oz_report_midpoint_pile(&pile, &scene, device, NULL, NULL));
+    oz_scene_free(&scene);
+    return pile;
+}
+
+static void test_pile(void **state)
+{
+    (void)state;
+    OzDevice device = {0};
+    assert_int_equal(OZ_OK, oz_device_open(&device, NULL, 0));
+    if (device.has_double) {
+        OzMidpointPile centroid = pile_of(&device, OZ_FORCE_CENTROID);
+        OzMidpointPile midpoint = pile_of(&device, OZ_FORCE_MIDPOINT);
+        print_message("injected: centroid %.1e W, midpoint %.1e W; kinetic energy over its peak "
+                      "%.1e, then %.1e\n",
+                      centroid.power, midpoint.power, centroid.before, centroid.after);
+        assert_true(fabs(centroid.power) < 1e-3 * fabs(midpoint.power));
+        assert_true(centroid.after < centroid.before && centroid.before < 1e-3);
+    }
+    oz_device_close(&device);
+}
+
 static void test_unstable_steps_are_named(void **state)
 {
     (void)state;
@@ -185,6 +231,8 @@ int main(void)
         cmocka_unit_test(test_energy),
         cmocka_unit_test(test_dice),
         cmocka_unit_test(test_device),
+        cmocka_unit_test(test_loop),
+        cmocka_unit_test(test_pile),
         cmocka_unit_test(test_unstable_steps_are_named),
         cmocka_unit_test(test_sentence),
     };

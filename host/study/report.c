@@ -159,7 +159,8 @@ static OzStatus study_scene(Report *report, const char *path, const OzReportCase
                        .pieces = pieces,
                        .phases = options->quick ? PHASES_QUICK : PHASES,
                        .repeats = REPEATS};
-    OzReportPoint like = {.cycle = pieces ? "period" : "contact"};
+    OzReportPoint like = {.cycle = pieces ? "period" : "contact",
+                          .floor = pieces ? pieces->floor : 0};
     if (pieces) {
         OZ_TRY(oz_report_piece_truth(&job));
         OZ_TRY(study_pieces(report, &job, &like));

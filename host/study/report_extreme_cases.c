@@ -201,15 +201,14 @@ static const OzExtremeCase rows[] = {
     {"overlap of 51 % at the start", OVERLAPPING("02449"), NULL, {NULL}, NULL, NULL, NULL, 0, 0,
      0, RODS},
     /* one contact in the middle carries no rod straight: rounding makes it jump to an end and
-     * back; two contacts do. In float a hundred shafts may each turn by a rounding,
-     1.2e-7 diameters
-     * at its ends */
+     * back; two contacts do. In float a hundred shafts may each turn by a rounding, 1.2e-7
+     * diameters at its ends */
     {"column of 100 rods lying flat: single", COLUMN, NULL, {GRAVITY, "time.duration=0.5"}, NULL,
      "lean, diameters", lean, 0, 0.3, 0, RODS},
     {"column of 100 rods lying flat: line", COLUMN, NULL, {GRAVITY, "contact.parallel=line",
      "time.duration=0.5"}, NULL, "lean, diameters", lean, 0, 1e-6, 1.2e-5, RODS},
-    /* in float the shaft's direction jumps by a rounding, 6e-8 rad: its ends by 1.2e-7 diameters, and
-     * at 5.7e3 1/s, the swing of a rod on its ends, that is 3.4e-4 rad/s */
+    /* in float the shaft's direction jumps by a rounding, 6e-8 rad: its ends by 1.2e-7 diameters,
+     * and at 5.7e3 1/s, the swing of a rod on its ends, that is 3.4e-4 rad/s */
     {"rod at rest for 1e6 steps: place", LYING, NULL, {GRAVITY, "time.duration=20"},
      "time.duration=0.5", "way, diameters", unrest, 0, 1e-9, 5e-7, RODS},
     {"rod at rest for 1e6 steps: spin", LYING, NULL, {GRAVITY, "time.duration=20"},

@@ -187,8 +187,8 @@ static const OzExtremeCase rows[] = {
      DIE("2.3e-3, 3e-4", "0, 0", ""), NULL, {NULL}, NULL, REFUSED, NAMED("more than half")},
     {"an edge per step", DIE("0, 0", "2000, 0", "") DIE("0, 0.1", "0, 0", ""), NULL, {NULL}, NULL,
      REFUSED, NAMED("in one step")},
-    /* in float a step of 1e-8 s at 0.5 m/s is a few roundings of a coordinate, and beams' forces are
-     * 1e6 times theirs */
+    /* in float a step of 1e-8 s at 0.5 m/s is a few roundings of a coordinate, and beams' forces
+     * are 1e6 times theirs */
     {"beams x 1e6", MEETING, NULL, {"beams.stiffness=1e8", "time.step=1e-8",
      "time.duration=6e-4"}, NULL, RESIDUAL, 0, 1e-6, DOUBLE_ONLY, PIECES},
     {"beams x 1e6, step as before", MEETING, NULL, {"beams.stiffness=1e8"}, NULL, REFUSED,

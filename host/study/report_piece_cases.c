@@ -2,6 +2,7 @@
 #include "study/report_piece_cases.h"
 
 #include "observe/piece_energy.h"
+#include "study/report_midpoint.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -150,16 +151,24 @@ static int values_energy(const OzSnapshot *end, double *values)
 static const OzReportPieceCase rows[] = {
     {{"beam_vibration", "the shape of a beam", "", false, NULL, NULL, NULL},
      MODES,
+     AMPLITUDE *AMPLITUDE,
      true,
      start_mode,
      values_modes},
     {{"two_dice", "velocities and spins", "", true, NULL, NULL, NULL},
      0,
+     0,
      false,
      NULL,
      values_motion},
-    {{"undamped_dice", "the energy", "", true, NULL, NULL, NULL}, 0, true, NULL, values_energy},
-    {{NULL, NULL, NULL, false, NULL, NULL, NULL}, 0, false, NULL, NULL},
+    {{"undamped_dice", "the energy", "", true, NULL, NULL, NULL}, 0, 0, true, NULL, values_energy},
+    {{"settled_pile", "energy", "", false, NULL, NULL, oz_report_midpoint_study},
+     0,
+     0,
+     false,
+     NULL,
+     NULL},
+    {{NULL, NULL, NULL, false, NULL, NULL, NULL}, 0, 0, false, NULL, NULL},
 };
 
 const OzReportPieceCase *oz_report_piece_cases_all(void)

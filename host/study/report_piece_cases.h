@@ -11,10 +11,11 @@ enum { OZ_REPORT_PIECE_VALUES = 8 };
 typedef struct OzReportPieceCase {
     OzReportCase row; /* scene, quantity, unit and phases of it                                 */
     int starts;       /* without phases: how many starts of its own; 0: all alike               */
+    double floor;     /* what is not linear, say, keeps errors above this: no order below it     */
     bool exact;       /* the values are 0 in truth; otherwise the reference's in small steps     */
     /* makes a start (0 .. starts - 1) of the placed grains; NULL: they start as placed         */
     void (*start)(const OzScene *scene, OzGrains *grains, int index);
-    /* fills at most OZ_REPORT_PIECE_VALUES numbers and returns how many                        */
+    /* fills at most OZ_REPORT_PIECE_VALUES numbers and returns how many; NULL with a study     */
     int (*values)(const OzSnapshot *end, double *values);
 } OzReportPieceCase;
 

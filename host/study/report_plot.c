@@ -104,15 +104,19 @@ static void send_picture(FILE *gnuplot, const char *terminal, const char *path, 
                          const OzReportPoint *points, int count)
 {
     const OzReportCase *row = points[0].row;
+    int bottom = 5; /* lines below the axis: its title, and the key's */
+    for (int i = 0; i < count; i++) {
+        bottom += begins_curve(points, i) ? 1 : 0;
+    }
     fprintf(gnuplot,
             "set terminal %s size 1500,700 noenhanced font 'DejaVu Sans,11'\nset output '%s'\n"
             "set multiplot layout 1,2 title \"%s: error in %s; labels: steps per %s; bars: up "
             "to the greatest error of any phase\\n%s\"\n"
             "set logscale xy\nset grid xtics ytics lc rgb '#dddddd'\nset format '%%g'\n"
             "set ylabel 'RMS error, %s'\nset xlabel 'wall seconds per simulated second'\n"
-            "set key below font ',9' maxcols 2\nset bmargin 8\n",
+            "set key below font ',9' maxcols 2\nset bmargin %d\n",
             terminal, path, points[0].scene, row->quantity, points[0].cycle, device,
-            row->unit[0] ? row->unit : "as a share");
+            row->unit[0] ? row->unit : "as a share", bottom);
     send_panel(gnuplot, points, count, 1);
     fprintf(gnuplot, "set xlabel 'force evaluations per simulated second'\n");
     send_panel(gnuplot, points, count, 2);

@@ -37,6 +37,7 @@ typedef struct OzReportPoint {
                          vibration                                            */
     double step;       /* s                                                    */
     double truth;      /* what the value should be; of pieces 0, the distance  */
+    double floor;      /* errors below it are not the method's                 */
     double error_rms;  /* over the phases                                      */
     double error_max;  /* of any phase                                         */
     double wall;       /* s per simulated s: median, for one of the copies     */

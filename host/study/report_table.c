@@ -72,7 +72,7 @@ double oz_report_table_order(const OzReportPoint *points, int count, const OzRep
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (int i = 0; i < count; i++) {
         const OzReportPoint *p = &points[i];
-        if (p->good && oz_report_table_alike(p, like) && p->error_rms > ROUNDING) {
+        if (p->good && oz_report_table_alike(p, like) && p->error_rms > fmax(ROUNDING, p->floor)) {
             double a = log(p->step), b = log(p->error_rms);
             n += 1;
             x += a;
