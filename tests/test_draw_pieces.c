@@ -326,6 +326,7 @@ static void look_frames_drum_outlet_and_flight(void **state)
     heap_start(&heap);
     OzLook look = oz_renderer_look(&heap.scene, &heap.snapshot);
     assert_true(look.flat && look.view_count == 1 && look.elevation == 0);
+    assert_int_equal(look.colour, OZ_COLOUR_SPEED); /* as movie.colour, which there is none of here */
     assert_true(look.half_width >= 5e-3 && look.half_width < 5.5e-3); /* all around, and a margin */
     assert_true(look.height_low <= -5e-3 && look.height_high >= 5e-3);
     heap.scene.observe = (OzObserve){.outlet = -20e-3, .has_outlet = true};

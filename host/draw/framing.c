@@ -164,14 +164,15 @@ static void frame_standing(OzLook *look, const OzScene *scene, const OzSnapshot 
 
 OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
 {
+    bool flat = snapshot->grains->pieces != NULL;
     OzLook look = {.width = 1280,
                    .height = 720,
                    .views = {OZ_VIEW_LATERAL, OZ_VIEW_CUT},
                    .view_count = 2,
-                   .colour = OZ_COLOUR_ANGLE,
+                   .colour = flat ? OZ_COLOUR_SPEED : OZ_COLOUR_ANGLE,
                    .elevation = ELEVATION};
     take_settings(&look, &scene->movie);
-    if (snapshot->grains->pieces) {
+    if (flat) {
         oz_plane_frame(&look, scene, snapshot);
     } else {
         frame_standing(&look, scene, snapshot);
