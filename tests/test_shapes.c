@@ -1,5 +1,7 @@
 /* Shapes of grains: their areas against formulas, their outlines closed, their beams; polygons cut
- * into triangles whatever their corners; and what is refused, with its reason. */
+ * into triangles whatever their corners; what is refused, with its reason; and a hopper's corners.
+ */
+#include "model/piece_walls.h"
 #include "model/shape.h"
 #include "model/triangulation.h"
 
@@ -349,6 +351,37 @@ static void refuses_what_is_no_simple_polygon(void **state)
     refuse_corners(touching, 2, "grains.yaml:7: a grain of 2 corners; expected 3 to 300");
 }
 
+/* The backs of side and slope meet at the knee's outer corner, and nothing lies beyond the sides'.
+ */
+static void hoppers_have_whole_corners(void **state)
+{
+    (void)state;
+    static const double slopes[] = {0, 30, 45, 80};
+    for (size_t k = 0; k < sizeof slopes / sizeof slopes[0]; k++) {
+        OzPatch patch;
+        OzWall wall = {.kind = OZ_WALL_HOPPER,
+                       .width = 6,
+                       .height = 30,
+                       .opening = 1,
+                       .slope = slopes[k] * PI / 180,
+                       .tooth_count = k % 2 ? 5 : 0,
+                       .tooth_depth = 0.1,
+                       .thickness = 0.4};
+        double back = wall.width / 2 + wall.thickness;
+        double rise = (wall.width - wall.opening) / 2 * tan(wall.slope);
+        double corner = rise - wall.thickness * tan((PI / 2 - wall.slope) / 2);
+        int at_corner = 0;
+        assert_int_equal(oz_piece_walls_make(&patch, &wall, 0), OZ_OK);
+        for (int v = 0; v < patch.vertex_count; v++) {
+            double x = fabs(patch.vertex[2 * v]), y = patch.vertex[2 * v + 1];
+            assert_true(x < back * (1 + ROUNDING));
+            at_corner += hypot(x - back, y - corner) < 100 * ROUNDING;
+        }
+        assert_int_equal(at_corner, 4); /* a side's and a slope's, left and right */
+        oz_patch_free(&patch);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -361,6 +394,7 @@ int main(void)
         cmocka_unit_test(cuts_across_the_short_way),
         cmocka_unit_test(cuts_random_polygons),
         cmocka_unit_test(refuses_what_is_no_simple_polygon),
+        cmocka_unit_test(hoppers_have_whole_corners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,17 +90,20 @@ static void add_floor(Strips *strips, const OzWall *wall)
     add_toothed(strips, a, b, 0, 0, wall);
 }
 
+/* Sides and slopes go on beyond the knees, each behind the other's face, as far as where their backs
+ * meet: their outer corner is whole, and nothing sticks out of it. */
 static void add_hopper(Strips *strips, const OzWall *wall)
 {
-    double x = wall->point[0], y = wall->point[1], t = strips->thickness;
+    double x = wall->point[0], y = wall->point[1];
+    double beyond = strips->thickness * tan(0.25 * PI - 0.5 * wall->slope);
     double half = wall->width / 2, gap = wall->opening / 2, rise = (half - gap) * tan(wall->slope);
     double left_top[2] = {x - half, y + wall->height}, left_knee[2] = {x - half, y + rise};
     double left_lip[2] = {x - gap, y}, right_lip[2] = {x + gap, y};
     double right_knee[2] = {x + half, y + rise}, right_top[2] = {x + half, y + wall->height};
-    add_face(strips, left_top, left_knee, 0, t, true);
-    add_toothed(strips, left_knee, left_lip, t, 0, wall);
-    add_toothed(strips, right_lip, right_knee, 0, t, wall);
-    add_face(strips, right_knee, right_top, t, 0, false);
+    add_face(strips, left_top, left_knee, 0, beyond, true);
+    add_toothed(strips, left_knee, left_lip, beyond, 0, wall);
+    add_toothed(strips, right_lip, right_knee, 0, beyond, wall);
+    add_face(strips, right_knee, right_top, beyond, 0, false);
 }
 
 static void add_vessel(Strips *strips, const OzWall *wall)
