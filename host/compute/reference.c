@@ -1,43 +1,11 @@
-/* The host reference: bodies, a pair list with skin, forces, motion and guards, all in double. */
-#include "compute/reference.h"
+/* The host reference: bodies, a pair list with skin, forces and motion, all in double. */
+#include "compute/reference_guard.h"
 
 #include "base/memory.h"
-#include "compute/dialect.h"
-#include "compute/ledger.h"
-#include "compute/near.h"
 #include "compute/touch.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* What one end of a grain and a wall did in the last step. */
-typedef struct WallForce {
-    OzContact contact;
-    OzContactForce parts;
-    OzVec3 arm;
-} WallForce;
-
-struct OzReference {
-    const OzScene *scene;
-    const OzGrains *grains;
-    OzPhysics physics;
-    int64_t step;
-    bool primed; /* the forces of step 0 are known (velocity-verlet) */
-    int count;
-    int wall_ends; /* of a grain, over all walls */
-    OzShape *shape;
-    OzBody *body;
-    OzGrain *seen; /* as the forces of this step see them */
-    OzLoad *load;
-    double *position, *axis; /* 3 x count each, of body */
-    OzNear near;
-    OzPairForce *pair_force;          /* of each pair of near             */
-    WallForce *wall_force;            /* count x walls x ends             */
-    OzVec3 *wall_history;             /* count x walls x ends             */
-    double wall_offset[OZ_WALLS_MAX]; /* when the forces act              */
-    double wall_speed[OZ_WALLS_MAX];  /* when the forces act              */
-    OzWork work;
-};
 
 /* One row for each integrator: moves before the forces, velocities they see, moves after. */
 typedef struct Method {
@@ -186,7 +154,7 @@ static int64_t wall_index(const OzReference *r, int i, int wall, int end)
 static void touch_wall(OzReference *r, int i, int wall, int end, double dt)
 {
     int64_t k = wall_index(r, i, wall, end);
-    WallForce *f = &r->wall_force[k];
+    OzWallForce *f = &r->wall_force[k];
     f->parts =
         oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_offset[wall],
                               r->wall_speed[wall], dt, &r->wall_history[k], &f->contact, &f->arm);
@@ -226,7 +194,8 @@ static void note_pairs(OzReference *r, double dt)
                 oz_minus(oz_grain_velocity_at(b, f->arm_b), oz_grain_velocity_at(a, f->arm_a));
             oz_ledger_note(&r->work, f->contact, f->parts, after, dt);
             if (OZ_LINE) {
-                oz_ledger_note_couple(&r->work, f->couple, f->turning, oz_minus(b.rate, a.rate), dt);
+                oz_ledger_note_couple(&r->work, f->couple, f->turning, oz_minus(b.rate, a.rate),
+                                      dt);
             }
         }
     }
@@ -238,7 +207,7 @@ static void note_wall(OzReference *r, int i, int wall, double dt)
     double offset, speed;
     oz_constants_motion(motion, (double)r->step * r->scene->step + dt, &offset, &speed);
     for (int end = 0; end < r->physics.ends; end++) {
-        const WallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
+        const OzWallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
         if (f->contact.touching) {
             OzVec3 after = oz_grain_velocity_at(grain_now(r, i), f->arm);
             after.z -= speed;
@@ -259,57 +228,6 @@ static void note_ledger(OzReference *r, double dt)
     }
 }
 
-static OzStatus blowup(const OzReference *r, int grain, const char *what)
-{
-    return oz_status_fail(OZ_ERR_BLOWUP,
-                          "grain %d %s in step %lld (time %g s); a smaller time.step may help",
-                          grain, what, (long long)r->step, (double)r->step * r->scene->step);
-}
-
-static OzStatus check_contacts(const OzReference *r)
-{
-    for (int64_t p = 0; p < r->near.pairs.count; p++) {
-        if (r->pair_force[p].deep) {
-            char what[96];
-            snprintf(what, sizeof what, "overlaps grain %d by more than the smaller radius",
-                     r->near.pairs.pair[p].b);
-            return blowup(r, r->near.pairs.pair[p].a, what);
-        }
-    }
-    for (int64_t k = 0; k < (int64_t)r->count * r->wall_ends; k++) {
-        const OzContact *contact = &r->wall_force[k].contact;
-        int i = (int)(k / r->wall_ends);
-        if (contact->touching && contact->overlap > r->shape[i].radius) {
-            return blowup(r, i,
-                          contact->overlap > 2 * r->shape[i].radius
-                              ? "is through a wall"
-                              : "overlaps a wall by more than its radius");
-        }
-    }
-    return OZ_OK;
-}
-
-/* The bounds are those of the kernels; the comparisons are false for NaN. */
-static OzStatus check_bodies(const OzReference *r, double dt)
-{
-    for (int i = 0; i < r->count; i++) {
-        const OzBody *b = &r->body[i];
-        double speed2 = oz_dot(b->velocity, b->velocity), spin2 = oz_dot(b->spin, b->spin);
-        double far = fmax(fabs(b->place.x), fmax(fabs(b->place.y), fabs(b->place.z)));
-        if (!(speed2 + spin2 < 1e30)) {
-            return blowup(r, i, "is NaN or faster than 1e15 m/s");
-        }
-        if (!(far < r->physics.parameters.domain)) {
-            return blowup(r, i, "has escaped");
-        }
-        double allowed = OZ_BODY_STEP_SHARE * r->shape[i].radius;
-        if (!(oz_body_step2(*b, r->shape[i], dt) < allowed * allowed)) {
-            return blowup(r, i, "moves an end farther than half its radius");
-        }
-    }
-    return OZ_OK;
-}
-
 static OzStatus make_step(OzReference *r, double dt)
 {
     OzStatus status = OZ_OK;
@@ -322,8 +240,7 @@ static OzStatus make_step(OzReference *r, double dt)
     if (r->physics.switches.ledger) {
         note_ledger(r, dt);
     }
-    OZ_TRY(check_contacts(r));
-    OZ_TRY(check_bodies(r, dt));
+    OZ_TRY(oz_reference_guard_check(r, dt));
 done:
     return status;
 }
