@@ -1,5 +1,6 @@
 /* Neighbour lists must not change a bit, however they are made: while a bed of all sizes is shaken,
- * runs with other lists are compared with the run with none but all pairs. ORZO_NEEDS_DEVICE. */
+ * runs with other lists are compared with the run with none but all pairs, and so are runs by the
+ * way of large scenes, in which grains change places. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
 #include "compute/sim_private.h"
@@ -27,7 +28,10 @@ typedef struct Bed {
     OzSnapshot end;
 } Bed;
 
-static void open_bed(Bed *b, const char *broadphase, double skin)
+/* The device, and the same for which every scene is a large one. */
+static OzDevice large_device;
+
+static void open_bed(Bed *b, const char *broadphase, double skin, const OzDevice *device)
 {
     memset(b, 0, sizeof *b);
     rig_open(&b->rig, bed, broadphase, skin);
@@ -35,7 +39,7 @@ static void open_bed(Bed *b, const char *broadphase, double skin)
     for (int64_t i = 0; i < GRAINS; i++) { /* down onto the floor at once */
         b->rig.grains.velocity[3 * i + 2] -= 1;
     }
-    b->sim = start_sim(&b->rig, &rig_device);
+    b->sim = start_sim(&b->rig, device);
 }
 
 static void run_bed(Bed *b)
@@ -62,38 +66,49 @@ static void check_bed(Bed *b)
     close_bed(b);
 }
 
-static void check_rows(const char *broadphase, double skin)
+static void check_rows(const char *broadphase, double skin, const OzDevice *device)
 {
     Bed b;
-    open_bed(&b, broadphase, skin);
+    open_bed(&b, broadphase, skin, device);
+    assert_int_equal(b.sim->arrays.switches.resort, device == &large_device);
     check_bed(&b);
 }
 
 static void test_twice(void **state)
 {
     (void)state;
-    check_rows("all_pairs", 0);
+    check_rows("all_pairs", 0, &rig_device);
 }
 
 static void test_hash(void **state)
 {
     (void)state;
-    check_rows("hash", 0);
+    check_rows("hash", 0, &rig_device);
 }
 
 static void test_sort_axis(void **state)
 {
     (void)state;
-    check_rows("sort_axis", 0);
+    check_rows("sort_axis", 0, &rig_device);
 }
 
 /* Springs survive rebuilds: rare or frequent ones, the bits are the same. */
 static void test_other_skins(void **state)
 {
     (void)state;
-    check_rows("hash", 5e-5);
-    check_rows("hash", 2e-3);
-    check_rows("sort_axis", 1e-4);
+    check_rows("hash", 5e-5, &rig_device);
+    check_rows("hash", 2e-3, &rig_device);
+    check_rows("sort_axis", 1e-4, &rig_device);
+}
+
+/* Every rebuilding puts the grains in another order, springs and all. */
+static void test_large(void **state)
+{
+    (void)state;
+    check_rows("hash", 0, &large_device);
+    check_rows("hash", 5e-5, &large_device);
+    check_rows("hash", 2e-3, &large_device);
+    check_rows("sort_axis", 0, &large_device);
 }
 
 /* Begins again with lists that hold next to nothing. */
@@ -107,10 +122,10 @@ static void shrink_lists(OzSim *sim)
     sim->control[0].truth = OZ_TRUTH_NONE;
 }
 
-static void check_growth(const char *broadphase)
+static void check_growth(const char *broadphase, const OzDevice *device)
 {
     Bed b;
-    open_bed(&b, broadphase, 0);
+    open_bed(&b, broadphase, 0, device);
     shrink_lists(b.sim);
     run_bed(&b);
     assert_true(oz_sim_counts(b.sim).growths >= 3);
@@ -121,16 +136,16 @@ static void check_growth(const char *broadphase)
 static void test_full_lists_grow(void **state)
 {
     (void)state;
-    check_growth("hash");
-    check_growth("sort_axis");
+    check_growth("hash", &rig_device);
+    check_growth("sort_axis", &rig_device);
+    check_growth("hash", &large_device);
 }
 
 /* Looking at the bed in between changes nothing. */
-static void test_many_launches(void **state)
+static void check_launches(const OzDevice *device)
 {
-    (void)state;
     Bed b;
-    open_bed(&b, "hash", 0);
+    open_bed(&b, "hash", 0, device);
     for (int64_t step = 0; step < STEPS; step += 37) {
         OzSnapshot now = state_at(&b.rig, b.sim, step);
         oz_snapshot_free(&now);
@@ -138,12 +153,21 @@ static void test_many_launches(void **state)
     check_bed(&b);
 }
 
+static void test_many_launches(void **state)
+{
+    (void)state;
+    check_launches(&rig_device);
+    check_launches(&large_device);
+}
+
 static int open_all(void **state)
 {
     if (open_rig_device(state) != 0) {
         return -1;
     }
-    open_bed(&by_all_pairs, "all_pairs", 0);
+    large_device = rig_device;
+    large_device.small_most = 0;
+    open_bed(&by_all_pairs, "all_pairs", 0, &rig_device);
     run_bed(&by_all_pairs);
     return 0;
 }
@@ -157,9 +181,10 @@ static int close_all(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_twice),           cmocka_unit_test(test_hash),
-        cmocka_unit_test(test_sort_axis),       cmocka_unit_test(test_other_skins),
-        cmocka_unit_test(test_full_lists_grow), cmocka_unit_test(test_many_launches),
+        cmocka_unit_test(test_twice),         cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_sort_axis),     cmocka_unit_test(test_other_skins),
+        cmocka_unit_test(test_large),         cmocka_unit_test(test_full_lists_grow),
+        cmocka_unit_test(test_many_launches),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);
 }

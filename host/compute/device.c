@@ -76,6 +76,7 @@ static void describe(OzDevice *device, const Candidate *candidate)
     device->largest_buffer = largest;
     device->float_lanes = lanes_for(float_lanes, device->is_cpu);
     device->double_lanes = lanes_for(double_lanes, device->is_cpu);
+    device->small_most = OZ_DEVICE_SMALL_MOST;
     device->group = device->is_cpu ? 1 : (group < GPU_GROUP ? (int)group : GPU_GROUP);
 }
 
@@ -208,8 +209,8 @@ OzStatus oz_device_list(FILE *file)
         fprintf(file, "%d  %s: %s, %d units, %.1f GiB, %d float lanes, %s%s%s\n", i,
                 device.is_cpu ? "cpu" : "gpu", device.name, device.units,
                 (double)device.memory / 1073741824.0, device.float_lanes,
-                device.has_double ? "float and double" : "float only",
-                reason ? "; refused: " : "", reason ? reason : "");
+                device.has_double ? "float and double" : "float only", reason ? "; refused: " : "",
+                reason ? reason : "");
     }
     if (count == 0) {
         fprintf(file, "no OpenCL device; package pocl-opencl-icd gives any CPU one\n");

@@ -10,7 +10,8 @@ static const double shares[] = {
 OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGrains *grains)
 {
     OzScene in_double = *scene;
-    OzDevice none = {.float_lanes = 1, .double_lanes = 1, .group = 1};
+    OzDevice none = {
+        .float_lanes = 1, .double_lanes = 1, .group = 1, .small_most = OZ_DEVICE_SMALL_MOST};
     in_double.precision = OZ_PRECISION_DOUBLE;
     physics->switches = oz_switches_derive(&in_double, grains, &none);
     physics->wall_count = scene->wall_count;

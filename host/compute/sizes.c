@@ -1,9 +1,9 @@
 /* Choosing sizes. */
 #include "compute/sizes.h"
 
-/* Skins of a grain in the lists, measured on the tapped bed of Pournin et al.: larger ones are used up less often but
- * hold more pairs. Lengths in mean diameters; the steps are those for which a grain's skin shall last at its
- * present speed. */
+/* Skins of a grain in the lists, measured on the tapped bed of Pournin et al.: larger ones are used
+ * up less often but hold more pairs. Lengths in mean diameters; the steps are those for which a
+ * grain's skin shall last at its present speed. */
 static const double least_outer = 0.25, most_outer = 0.7, outer_steps = 60;
 static const double least_skin = 0.008, most_skin = 0.12, skin_steps = 12;
 
@@ -12,7 +12,8 @@ enum {
     INNER_PAIRS = 4,
     BACK_PAIRS = 16,
     MOTION_STEPS = 8192, /* of one launch */
-    LARGE_REGION = 256   /* slots: enough of them for any number of threads, each long enough to pay */
+    LARGE_REGION = 256,  /* slots: enough for any number of threads, each long enough to pay */
+    LARGE_REGIONS = 16   /* at least, should a large scene have less than 4096 grains */
 };
 
 static int round_up(double count, int to)
@@ -51,9 +52,10 @@ static void extents(double size[3], const OzGrains *grains)
     }
 }
 
-/* Cells of the hashed grid, as wide as the longest reach: the neighbouring ones hold all partners (half as wide
- * and two away measured slower, more rows of cells costing more than fewer candidates save). The grid wraps
- * around, so its size is a matter of speed only, as long as no cell is met twice. */
+/* Cells of the hashed grid, as wide as the longest reach: the neighbouring ones hold all partners
+ * (half as wide and two away measured slower, more rows of cells costing more than fewer candidates
+ * save). The grid wraps around, so its size is a matter of speed only, as long as no cell is met
+ * twice. */
 static void choose_cells(OzSizes *z, OzParameters *p, const OzGrains *grains)
 {
     double reach = 2 * (p->reach_max + p->outer_most), size[3];
@@ -94,7 +96,8 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
     z->count = (int)grains->count;
     z->slots = round_up((double)z->count, s->lanes);
     z->blocks = z->slots / s->lanes;
-    double share_slots = s->resort ? LARGE_REGION : ceil((double)z->slots / s->group);
+    double share_slots = s->resort ? fmin(LARGE_REGION, (double)z->slots / LARGE_REGIONS)
+                                   : ceil((double)z->slots / s->group);
     z->region_slots = round_up(fmax(1, share_slots), s->lanes);
     int filled = (int)fmax(1, ceil((double)z->slots / z->region_slots));
     z->regions = s->resort ? filled : s->group; /* one for each work-item, some may be empty */

@@ -75,7 +75,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.ledger = scene->observe.ledger;
     s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
     s.host_lists = scene->broadphase == OZ_BROADPHASE_SORT_AXIS;
-    s.resort = grains->count > OZ_SWITCHES_SMALL_MOST;
+    s.resort = grains->count > device->small_most;
     return s;
 }
 
@@ -85,7 +85,8 @@ void oz_switches_options(const OzSwitches *switches, char *text, size_t size)
     text[0] = '\0';
 #define ADD(name, member, left_out)                                                                \
     if (used < size) {                                                                             \
-        used += (size_t)snprintf(text + used, size - used, "-DOZ_" #name "=%d ", switches->member); \
+        used +=                                                                                    \
+            (size_t)snprintf(text + used, size - used, "-DOZ_" #name "=%d ", switches->member);    \
     }
     OZ_SWITCHES(ADD)
 #undef ADD
@@ -103,7 +104,7 @@ void oz_switches_print(const OzSwitches *switches, FILE *file)
     const char *separator = "";
 #define MISSING(name, member, left_out)                                                            \
     if ((left_out) && !switches->member) {                                                         \
-        fprintf(file, "%s%s", separator, (const char *)(left_out));                                 \
+        fprintf(file, "%s%s", separator, (const char *)(left_out));                                \
         separator = ", ";                                                                          \
     }
     OZ_SWITCHES(MISSING)

@@ -1,5 +1,5 @@
-/* What a scene needs of its kernels: THE list of switches. Each becomes -D OZ_<NAME>=<value>; those that
- * are off are what `orzo check` says was left out. */
+/* What a scene needs of its kernels: THE list of switches. Each becomes -D OZ_<NAME>=<value>; those
+ * that are off are what `orzo check` says was left out. */
 #ifndef OZ_COMPUTE_SWITCHES_H
 #define OZ_COMPUTE_SWITCHES_H
 
@@ -7,7 +7,8 @@
 #include "model/grains.h"
 #include "scene/scene.h"
 
-/* name, what the kernels do with it, what is saved without it (NULL: not a feature that can be missing) */
+/* name, what the kernels do with it, what is saved without it (NULL: not a feature that can be
+ * missing) */
 #define OZ_SWITCHES(X)                                                                             \
     X(LANES, lanes, NULL)                                                                          \
     X(GROUP, group, NULL)                                                                          \
@@ -31,10 +32,6 @@
     X(ALL_PAIRS, all_pairs, NULL)                                                                  \
     X(HOST_LISTS, host_lists, NULL)                                                                \
     X(RESORT, resort, "spatial re-sort of grains")
-
-/* Scenes with more grains are computed phase by phase, by many work-groups, and re-sorted in space; smaller ones
- * by one work-group in launches of many steps. */
-enum { OZ_SWITCHES_SMALL_MOST = 6000 };
 
 typedef struct OzSwitches {
 #define OZ_SWITCHES_MEMBER(name, member, left_out) int member;
