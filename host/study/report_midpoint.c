@@ -122,7 +122,8 @@ static void sum_up(OzMidpointPile *pile, const Look *looks)
 
 static void write_looks(FILE *csv, const OzScene *scene, const Look *looks)
 {
-    const char *point = oz_keys_choice_name("triangles.force_point", scene->triangles.force_point);
+    const char *point =
+        oz_keys_choice_name("triangles.force_point", (int)scene->triangles.force_point);
     for (int i = 0; csv && i < SAMPLES; i++) {
         fprintf(csv, "%s,%.6g,%.6g,%.6g\n", point, looks[i].time, looks[i].kinetic,
                 looks[i].unaccounted - looks[0].unaccounted);

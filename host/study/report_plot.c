@@ -104,7 +104,7 @@ static void send_picture(FILE *gnuplot, const char *terminal, const char *path, 
                          const OzReportPoint *points, int count)
 {
     const OzReportCase *row = points[0].row;
-    int bottom = 5; /* lines below the axis: its title, and the key's */
+    int bottom = 3; /* lines below the axis: its title, and the key's */
     for (int i = 0; i < count; i++) {
         bottom += begins_curve(points, i) ? 1 : 0;
     }
