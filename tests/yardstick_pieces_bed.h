@@ -111,7 +111,7 @@ static void build(void)
     for (int side = -1; side <= 1; side += 2) {
         double out = 24e-3 * tan(50 * PI / 180), s = side;
         Vec low = {s * 6e-3, 0}, high = {s * 30e-3, out}, under = {s * 26e-3, -4e-3};
-        Vec top = {s * 30e-3, 0.25}, back = {s * 34e-3, 0.12};
+        Vec top = {s * 30e-3, 0.25}, back = {s * 60e-3, out};
         add_triangle(low, high, under, -1, 0);
         add_triangle(high, top, back, -1, 0);
     }
