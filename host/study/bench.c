@@ -244,7 +244,20 @@ done:
     return status;
 }
 
-/* As many equal scenes as the device has units, in one launch. */
+/* What seeds side by side gain over the same ones one after the other on one thread. */
+static void tell_gain(const Bench *bench, const OzBenchRow *many)
+{
+    const OzBenchRow *one = last_row(bench, (Setting){1, false});
+    if (one && bench->device.is_cpu) {
+        double count = many->value[OZ_BENCH_MEMBERS];
+        printf(
+            "%.0f scenes side by side, a thread each, as `orzo run --seeds` makes them: %.2f times "
+            "the steps of one scene on one thread\n",
+            count, count * one->value[OZ_BENCH_US_STEP] / many->value[OZ_BENCH_US_STEP]);
+    }
+}
+
+/* As many equal scenes as the device has units. */
 static OzStatus run_side_by_side(Bench *bench, OzBenchBed *bed, const char *name)
 {
     OzBenchRow row;
@@ -261,6 +274,7 @@ static OzStatus run_side_by_side(Bench *bench, OzBenchBed *bed, const char *name
     OzStatus status = oz_bench_row_measure(&row, &job);
     if (status == OZ_OK) {
         keep_row(bench, &row);
+        tell_gain(bench, &row);
     }
     return status;
 }

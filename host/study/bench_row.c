@@ -1,4 +1,5 @@
-/* Timing one row. */
+/* Timing one row. Scenes side by side are timed as a run makes them: on a CPU each with a queue and
+ * a thread of its own, on a GPU all in one launch. */
 #include "study/bench_row.h"
 
 #include "base/clock.h"
@@ -12,7 +13,9 @@
 #include "study/bench_cost.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     PIECES_LEAST = 5,
@@ -23,11 +26,12 @@ enum {
     PROBES = 8          /* over one piece: contacts come and go with the floor       */
 };
 
-/* A row being measured. Zeroed is valid. */
-typedef struct Bench {
+/* Scenes of a row that share a simulation. Zeroed is valid. */
+typedef struct Course {
     const OzBenchJob *job;
-    OzDevice device;
+    OzDevice device; /* a branch */
     OzMember *members;
+    int member_count;
     OzSim *sim;
     OzSnapshot now;
     OzSeries *series;
@@ -36,7 +40,18 @@ typedef struct Bench {
     int piece_count, piece_steps;
     double wall, cpu;   /* s, of all pieces */
     OzSimCounts before; /* the first piece  */
-    OzBenchRow *row;    /* borrowed         */
+    pthread_t thread;
+    OzStatus status; /* how its timing ended, and why */
+    char text[4096];
+} Course;
+
+/* A row being measured. Zeroed is valid. */
+typedef struct Bench {
+    const OzBenchJob *job;
+    OzDevice device;
+    Course *courses;
+    int count;
+    OzBenchRow *row; /* borrowed */
 } Bench;
 
 OzBenchRow oz_bench_row_empty(const char *name)
@@ -69,67 +84,93 @@ static int steps_of_tap(const OzScene *scene)
     return scene->period > 0 ? (int)lround(scene->period / scene->step) : STEPS_STILL;
 }
 
+static OzStatus open_course(Course *course, const Bench *bench)
+{
+    OzStatus status = OZ_OK;
+    const OzBenchJob *job = bench->job;
+    const OzBenchBed *bed = job->bed;
+    course->job = job;
+    course->member_count = job->members / bench->count;
+    OZ_TRY(oz_device_branch(&course->device, &bench->device));
+    OZ_TRY(OZ_NEW(&course->members, course->member_count));
+    for (int m = 0; m < course->member_count; m++) {
+        course->members[m] = (OzMember){&bed->scene, &bed->grains};
+    }
+    OZ_TRY(oz_sim_create(&course->sim, &course->device, course->members, course->member_count,
+                         job->options->source_dir));
+    OZ_TRY(oz_sim_launch(course->sim, steps_of_tap(&bed->scene)));
+    if (job->observed) {
+        OZ_TRY(oz_snapshot_create(&course->now, &bed->scene, &bed->grains));
+        OZ_TRY(oz_series_create(&course->series, "/dev/null", &bed->scene, &bed->grains));
+    }
+done:
+    return status;
+}
+
+static void close_course(Course *course)
+{
+    oz_series_free(course->series);
+    oz_snapshot_free(&course->now);
+    oz_sim_free(course->sim);
+    free(course->members);
+    oz_device_close(&course->device);
+}
+
 static OzStatus open_bench(Bench *bench)
 {
     OzStatus status = OZ_OK;
     const OzBenchJob *job = bench->job;
-    OzBenchBed *bed = job->bed;
-    bed->scene.precision = job->is_double ? OZ_PRECISION_DOUBLE : OZ_PRECISION_FLOAT;
+    job->bed->scene.precision = job->is_double ? OZ_PRECISION_DOUBLE : OZ_PRECISION_FLOAT;
     double start = oz_clock_now();
     OZ_TRY(oz_device_open(&bench->device, job->options->device, job->threads));
-    OZ_TRY(OZ_NEW(&bench->members, job->members));
-    for (int m = 0; m < job->members; m++) {
-        bench->members[m] = (OzMember){&bed->scene, &bed->grains};
+    int count = bench->device.is_cpu ? job->members : 1;
+    OZ_TRY(OZ_NEW(&bench->courses, count));
+    bench->count = count;
+    for (int k = 0; k < count; k++) {
+        OZ_TRY(open_course(&bench->courses[k], bench));
     }
-    OZ_TRY(oz_sim_create(&bench->sim, &bench->device, bench->members, job->members,
-                         job->options->source_dir));
-    OZ_TRY(oz_sim_launch(bench->sim, steps_of_tap(&bed->scene)));
     bench->row->value[OZ_BENCH_START] = oz_clock_now() - start;
-    if (job->observed) {
-        OZ_TRY(oz_snapshot_create(&bench->now, &bed->scene, &bed->grains));
-        OZ_TRY(oz_series_create(&bench->series, "/dev/null", &bed->scene, &bed->grains));
-    }
 done:
     return status;
 }
 
 static void close_bench(Bench *bench)
 {
-    oz_series_free(bench->series);
-    oz_snapshot_free(&bench->now);
-    oz_sim_free(bench->sim);
-    free(bench->members);
+    for (int k = 0; k < bench->count; k++) {
+        close_course(&bench->courses[k]);
+    }
+    free(bench->courses);
     oz_device_close(&bench->device);
 }
 
 /* A sample for the tap means; at the piece's end a row. */
-static OzStatus observe(Bench *bench, bool last)
+static OzStatus observe(Course *course, bool last)
 {
     OzStatus status = OZ_OK;
     double start = oz_clock_now();
-    for (int m = 0; m < bench->job->members; m++) {
-        OZ_TRY(oz_capture_snapshot(bench->sim, m, &bench->now, last));
-        oz_series_sample(bench->series, &bench->now);
+    for (int m = 0; m < course->member_count; m++) {
+        OZ_TRY(oz_capture_snapshot(course->sim, m, &course->now, last));
+        oz_series_sample(course->series, &course->now);
         if (last) {
-            OZ_TRY(oz_series_write(bench->series, &bench->now));
+            OZ_TRY(oz_series_write(course->series, &course->now));
         }
     }
-    bench->observing += oz_clock_now() - start;
+    course->observing += oz_clock_now() - start;
 done:
     return status;
 }
 
 /* So many steps, observed as a run would when the job says so. */
-static OzStatus make_piece(Bench *bench, int steps)
+static OzStatus make_piece(Course *course, int steps)
 {
     OzStatus status = OZ_OK;
-    const OzBenchJob *job = bench->job;
-    int64_t first = oz_sim_step(bench->sim);
+    const OzBenchJob *job = course->job;
+    int64_t first = oz_sim_step(course->sim);
     int samples = job->observed ? (int)job->bed->scene.observe.samples_per_tap : 1;
     for (int k = 1; k <= samples; k++) {
-        OZ_TRY(oz_sim_advance(bench->sim, first + (int64_t)steps * k / samples));
+        OZ_TRY(oz_sim_advance(course->sim, first + (int64_t)steps * k / samples));
         if (job->observed) {
-            OZ_TRY(observe(bench, k == samples));
+            OZ_TRY(observe(course, k == samples));
         }
     }
 done:
@@ -137,15 +178,15 @@ done:
 }
 
 /* Seconds of a step, while caches, lists and launch sizes find their state. */
-static OzStatus warm_up(Bench *bench, double *step_seconds)
+static OzStatus warm_up(Course *course, double *step_seconds)
 {
     OzStatus status = OZ_OK;
-    int most = steps_of_tap(&bench->job->bed->scene), steps = STEPS_WARM;
-    double start = oz_clock_now(), end = start + 0.1 * bench->job->seconds, now = start;
+    int most = steps_of_tap(&course->job->bed->scene), steps = STEPS_WARM;
+    double start = oz_clock_now(), end = start + 0.1 * course->job->seconds, now = start;
     *step_seconds = 0;
     for (int made = 0; made < most && (made == 0 || now < end); made += steps) {
         double before = oz_clock_now();
-        OZ_TRY(oz_sim_advance(bench->sim, oz_sim_step(bench->sim) + steps));
+        OZ_TRY(oz_sim_advance(course->sim, oz_sim_step(course->sim) + steps));
         now = oz_clock_now();
         *step_seconds = (now - before) / steps;
     }
@@ -153,26 +194,61 @@ done:
     return status;
 }
 
-static OzStatus time_pieces(Bench *bench)
+static OzStatus time_pieces(Course *course)
 {
     OzStatus status = OZ_OK;
-    int tap = steps_of_tap(&bench->job->bed->scene);
+    int tap = steps_of_tap(&course->job->bed->scene);
     double step_seconds = 0;
-    OZ_TRY(warm_up(bench, &step_seconds));
-    double wanted = bench->job->seconds / PIECES_LEAST / step_seconds;
-    bench->piece_steps = wanted >= tap ? tap : (int)fmax(STEPS_LEAST, wanted);
-    bench->before = oz_sim_counts(bench->sim);
-    bench->observing = 0;
-    double end = oz_clock_now() + bench->job->seconds;
+    OZ_TRY(warm_up(course, &step_seconds));
+    double wanted = course->job->seconds / PIECES_LEAST / step_seconds;
+    course->piece_steps = wanted >= tap ? tap : (int)fmax(STEPS_LEAST, wanted);
+    course->before = oz_sim_counts(course->sim);
+    course->observing = 0;
+    double end = oz_clock_now() + course->job->seconds;
     for (int k = 0; k < PIECES_MOST && (k < PIECES_LEAST || oz_clock_now() < end); k++) {
         double wall = oz_clock_now(), cpu = oz_clock_processor();
-        OZ_TRY(make_piece(bench, bench->piece_steps));
-        bench->pieces[k] = oz_clock_now() - wall;
-        bench->wall += bench->pieces[k];
-        bench->cpu += oz_clock_processor() - cpu;
-        bench->piece_count = k + 1;
+        OZ_TRY(make_piece(course, course->piece_steps));
+        course->pieces[k] = oz_clock_now() - wall;
+        course->wall += course->pieces[k];
+        course->cpu += oz_clock_processor() - cpu;
+        course->piece_count = k + 1;
     }
 done:
+    return status;
+}
+
+static void *time_thread(void *context)
+{
+    Course *course = context;
+    course->status = time_pieces(course);
+    snprintf(course->text, sizeof course->text, "%s", oz_status_text());
+    return NULL;
+}
+
+/* All at once, the first in this thread. */
+static OzStatus time_courses(Bench *bench)
+{
+    OzStatus status = OZ_OK;
+    int started = 1;
+    for (; started < bench->count && status == OZ_OK; started++) {
+        Course *course = &bench->courses[started];
+        int code = pthread_create(&course->thread, NULL, time_thread, course);
+        if (code != 0) {
+            status = oz_status_fail(OZ_ERR_DEVICE, "no more threads than %d: %s", started,
+                                    strerror(code));
+            break;
+        }
+    }
+    time_thread(&bench->courses[0]);
+    for (int k = 1; k < started; k++) {
+        pthread_join(bench->courses[k].thread, NULL);
+    }
+    for (int k = 0; k < started && status == OZ_OK; k++) {
+        const Course *course = &bench->courses[k];
+        if (course->status != OZ_OK) {
+            status = oz_status_fail(course->status, "%s", course->text);
+        }
+    }
     return status;
 }
 
@@ -187,35 +263,49 @@ static double per(double count, double events)
     return events > 0 ? count / events : NAN;
 }
 
-/* What the clocks and the simulation's counters say. */
+/* us of a step: the median of whole taps, else the mean, because the lists are not rebuilt in each
+ * piece. Sorts the pieces. */
+static double step_time(Course *course)
+{
+    double made = course->piece_steps;
+    bool whole = course->piece_steps == steps_of_tap(&course->job->bed->scene);
+    qsort(course->pieces, (size_t)course->piece_count, sizeof course->pieces[0], compare);
+    double middle =
+        whole ? course->pieces[course->piece_count / 2] : course->wall / course->piece_count;
+    return 1e6 * middle / made;
+}
+
+/* The time in which every scene makes a step: courses' rates add up. Counters are the first's. */
 static void note_times(Bench *bench)
 {
-    OzSimCounts before = bench->before, after = oz_sim_counts(bench->sim);
-    double *value = bench->row->value, count = bench->piece_count, made = bench->piece_steps;
+    Course *first = &bench->courses[0];
+    OzSimCounts before = first->before, after = oz_sim_counts(first->sim);
     const OzScene *scene = &bench->job->bed->scene;
-    bool whole = bench->piece_steps == steps_of_tap(scene);
-    qsort(bench->pieces, (size_t)bench->piece_count, sizeof bench->pieces[0], compare);
-    double middle = whole ? bench->pieces[bench->piece_count / 2] : bench->wall / count;
-    double steps = (double)(after.steps - before.steps);
-    value[OZ_BENCH_US_STEP] = 1e6 * middle / made;
-    value[OZ_BENCH_US_LEAST] = 1e6 * bench->pieces[0] / made;
-    value[OZ_BENCH_US_CPU] = 1e6 * bench->cpu / (count * made);
-    value[OZ_BENCH_OBSERVE] = bench->job->observed ? 1e6 * bench->observing / (count * made) : NAN;
-    value[OZ_BENCH_TAPS] = scene->period > 0 ? count * made * scene->step / scene->period : NAN;
-    value[OZ_BENCH_PIECES] = count;
+    double *value = bench->row->value, rate = 0, steps = (double)(after.steps - before.steps);
+    for (int k = 0; k < bench->count; k++) {
+        rate += 1 / step_time(&bench->courses[k]);
+    }
+    double all = (double)first->piece_count * first->piece_steps;
+    value[OZ_BENCH_US_STEP] = bench->count / rate;
+    value[OZ_BENCH_US_LEAST] = 1e6 * first->pieces[0] / first->piece_steps;
+    value[OZ_BENCH_US_CPU] = 1e6 * first->cpu / all;
+    value[OZ_BENCH_OBSERVE] = bench->job->observed ? 1e6 * first->observing / all : NAN;
+    value[OZ_BENCH_TAPS] = scene->period > 0 ? all * scene->step / scene->period : NAN;
+    value[OZ_BENCH_PIECES] = first->piece_count;
     value[OZ_BENCH_REFRESH] = per(steps, (double)(after.refreshes - before.refreshes));
     value[OZ_BENCH_REBUILD] = per(steps, (double)(after.rebuilds - before.rebuilds));
     value[OZ_BENCH_STEPS_LAUNCH] = per(steps, (double)(after.launches - before.launches));
 }
 
-/* The mean of several moments of one more piece. */
+/* The mean of several moments of one more piece of the first course. */
 static OzStatus probe_piece(Bench *bench, OzProbe *mean)
 {
     OzStatus status = OZ_OK;
-    int64_t pairs = 0, touching = 0, first = oz_sim_step(bench->sim);
+    Course *course = &bench->courses[0];
+    int64_t pairs = 0, touching = 0, first = oz_sim_step(course->sim);
     for (int k = 1; k <= PROBES; k++) {
-        OZ_TRY(oz_sim_advance(bench->sim, first + bench->piece_steps * k / PROBES));
-        OZ_TRY(oz_probe_read(mean, bench->sim));
+        OZ_TRY(oz_sim_advance(course->sim, first + course->piece_steps * k / PROBES));
+        OZ_TRY(oz_probe_read(mean, course->sim));
         pairs += mean->pairs;
         touching += mean->touching;
     }
@@ -225,7 +315,7 @@ done:
     return status;
 }
 
-/* What the simulation holds, and how far a step is from what the device could do. */
+/* What the simulations hold, and how far a step is from what the device could do. */
 static OzStatus note_work(Bench *bench)
 {
     OzStatus status = OZ_OK;
@@ -234,12 +324,14 @@ static OzStatus note_work(Bench *bench)
     OzProbe probe;
     OZ_TRY(probe_piece(bench, &probe));
     OzBenchCost cost = oz_bench_cost_step(&probe);
+    cost.bytes *= bench->count;
+    cost.operations *= bench->count;
     OZ_TRY(oz_limits_copy(&copy, &bench->device, job->options->source_dir, (size_t)cost.bytes,
                           job->is_double));
     OZ_TRY(oz_limits_multiply_add(&multiply_add, &bench->device, job->options->source_dir,
                                   job->is_double));
     double seconds = 1e-6 * value[OZ_BENCH_US_STEP], grains = (double)probe.grains;
-    value[OZ_BENCH_NS_GRAIN] = 1e9 * seconds / grains;
+    value[OZ_BENCH_NS_GRAIN] = 1e9 * seconds / (grains * bench->count);
     value[OZ_BENCH_PAIRS] = (double)probe.pairs / grains;
     value[OZ_BENCH_TOUCHING] = (double)probe.touching / grains;
     value[OZ_BENCH_BYTES] = (double)probe.bytes / grains;
@@ -269,7 +361,7 @@ static OzStatus measure(void *context)
     Bench *bench = context;
     OZ_TRY(open_bench(bench));
     note_setting(bench);
-    OZ_TRY(time_pieces(bench));
+    OZ_TRY(time_courses(bench));
     note_times(bench);
     OZ_TRY(note_work(bench));
 done:
