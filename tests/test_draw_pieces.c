@@ -1,18 +1,13 @@
 /* Pictures of flat grains, against areas and colours that are known. */
+#include "draw_rig.h"
 #include "hand_heap.h"
 
-#include "base/file.h"
-#include "draw/camera.h"
 #include "draw/gallery.h"
 #include "draw/palette.h"
 #include "observe/frames.h"
 
-#include <sys/wait.h>
-
 static const double PI = 3.14159265358979323846;
-enum { SIDE = 600, NO_CONTEXT = 77 };
-
-static OzRenderer *renderer;
+enum { SIDE = 600 };
 
 /* 4 mm about the origin in 600 pixels, grains alone. */
 static OzLook plain_look(void)
@@ -28,22 +23,6 @@ static OzLook plain_look(void)
                     .bare = true,
                     .flat = true,
                     .outlines = true};
-}
-
-static double pixels_per_metre(const OzLook *look)
-{
-    OzCamera camera = oz_camera_make(look);
-    return camera.scale / camera.unit;
-}
-
-static OzImage draw_states(const OzSnapshot *snapshots, int count, const OzLook *look)
-{
-    OzImage image;
-    assert_int_equal(oz_image_create(&image, look->width, look->height), OZ_OK);
-    if (oz_renderer_draw_states(renderer, snapshots, count, look, &image) != OZ_OK) {
-        fail_msg("%s", oz_status_text());
-    }
-    return image;
 }
 
 static OzImage draw(const Heap *heap, const OzLook *look)
@@ -73,24 +52,6 @@ static bool has_colour(const uint8_t *pixel, const float rgb[3])
 static double darkness(const uint8_t *pixel)
 {
     return 1 - (pixel[0] + pixel[1] + pixel[2]) / 765.0;
-}
-
-static int count_drawn(const OzImage *image)
-{
-    int count = 0;
-    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
-        count += darkness(image->pixels + 4 * i) > 0;
-    }
-    return count;
-}
-
-/* A pixel counts when one of its samples is covered; samples lie within 0.4 pixels of its middle
- * along each axis, so that the count exceeds the area by up to that band about the outline. */
-static void assert_area(int count, double area, double outline)
-{
-    if (count < area - 0.05 * outline || count > area + 0.45 * outline) {
-        fail_msg("%d pixels are not the area %.1f with its outline of %.1f", count, area, outline);
-    }
 }
 
 static void square_covers_its_area(void **state)
@@ -326,7 +287,8 @@ static void look_frames_drum_outlet_and_flight(void **state)
     heap_start(&heap);
     OzLook look = oz_renderer_look(&heap.scene, &heap.snapshot);
     assert_true(look.flat && look.view_count == 1 && look.elevation == 0);
-    assert_int_equal(look.colour, OZ_COLOUR_SPEED); /* as movie.colour, which there is none of here */
+    assert_int_equal(look.colour,
+                     OZ_COLOUR_SPEED); /* as movie.colour, which there is none of here */
     assert_true(look.half_width >= 5e-3 && look.half_width < 5.5e-3); /* all around, and a margin */
     assert_true(look.height_low <= -5e-3 && look.height_high >= 5e-3);
     heap.scene.observe = (OzObserve){.outlet = -20e-3, .has_outlet = true};
@@ -344,14 +306,9 @@ static void look_frames_drum_outlet_and_flight(void **state)
     heap_free(&heap);
 }
 
-/* Draws with the back-end named, in a process of its own: one process has one. */
-static int draw_in_child(const char *name, const char *path)
+static OzImage picture_for_both(void)
 {
     Heap heap;
-    OzGlBackend backend = strcmp(name, "egl") == 0 ? OZ_GL_EGL : OZ_GL_OSMESA;
-    if (oz_renderer_create(&renderer, backend, NULL) != OZ_OK) {
-        return NO_CONTEXT;
-    }
     heap_create(&heap, 2, 1, 1);
     heap.scene.name = "picture";
     heap_put_square(&heap, 0, 0, 0, 2e-3, 0.3);
@@ -363,63 +320,8 @@ static int draw_in_child(const char *name, const char *path)
     look.width = 640;
     look.height = 360;
     OzImage image = draw(&heap, &look);
-    FILE *file = fopen(path, "wb");
-    bool good = file && fwrite(image.pixels, 1, 640 * 360 * 4, file) == 640 * 360 * 4;
-    good = file && fclose(file) == 0 && good;
-    oz_image_free(&image);
     heap_free(&heap);
-    oz_renderer_free(renderer);
-    return good ? 0 : 1;
-}
-
-static char *self;
-
-static uint8_t *pixels_from(const char *name, size_t size)
-{
-    char path[256], command[768];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    snprintf(command, sizeof command, "'%s' %s '%s' 2>&1", self, name, path);
-    int outcome = system(command);
-    assert_true(WIFEXITED(outcome));
-    if (WEXITSTATUS(outcome) == NO_CONTEXT) {
-        return NULL;
-    }
-    assert_int_equal(WEXITSTATUS(outcome), 0);
-    char *pixels = NULL;
-    size_t length = 0;
-    assert_int_equal(oz_file_read(&pixels, &length, path), OZ_OK);
-    assert_int_equal(length, size);
-    remove(path);
-    return (uint8_t *)pixels;
-}
-
-/* Compilers may order sums differently, which moves a colour by a level and, on an edge, a sample;
- * anything more is another picture. */
-static void back_ends_draw_the_same(void **state)
-{
-    (void)state;
-    size_t size = (size_t)640 * 360 * 4, far = 0;
-    uint8_t *a = pixels_from("egl", size), *b = pixels_from("osmesa", size);
-    if (!a || !b) {
-        free(a);
-        free(b);
-        skip();
-    }
-    for (size_t i = 0; i < size; i++) {
-        far += abs(a[i] - b[i]) > 3;
-    }
-    assert_true(far < size / 1000);
-    free(a);
-    free(b);
-}
-
-static int begin(void **state)
-{
-    if (make_folder(state) != 0 || oz_renderer_create(&renderer, OZ_GL_AUTO, NULL) != OZ_OK) {
-        fprintf(stderr, "%s\n", oz_status_text());
-        return -1;
-    }
-    return 0;
+    return image;
 }
 
 static int end(void **state)
@@ -444,9 +346,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(gallery_ends_with_the_strobe),
         cmocka_unit_test(look_frames_drum_outlet_and_flight),
     };
-    self = argv[0];
     if (argc == 3) {
-        return draw_in_child(argv[1], argv[2]);
+        return draw_in_child(argv[1], argv[2], picture_for_both);
     }
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, begin_drawing, end);
 }
