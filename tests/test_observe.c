@@ -1,6 +1,7 @@
 /* Observables against beds written by hand whose answers are known, and series.csv, which holds
  * them. */
 #include "hand_bed.h"
+#include "hand_series.h"
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -8,29 +9,6 @@
 #include "observe/series.h"
 
 static const double PI = 3.14159265358979323846;
-/* The cell of the named column in the given row (1 is the first after the header). */
-static void read_cell(const char *path, int row, const char *name, char cell[64])
-{
-    char *text = NULL;
-    assert_int_equal(oz_file_read(&text, NULL, path), OZ_OK);
-    char *rest = text, *line = strsep(&rest, "\n"), *head = NULL;
-    int column = 0, index = -1;
-    while ((head = strsep(&line, ","))) {
-        index = strcmp(head, name) == 0 ? column : index;
-        column++;
-    }
-    assert_true(index >= 0);
-    for (int i = 0; i < row; i++) {
-        line = strsep(&rest, "\n");
-    }
-    assert_non_null(line);
-    for (int i = 0; i <= index; i++) {
-        head = strsep(&line, ",");
-    }
-    assert_non_null(head);
-    snprintf(cell, 64, "%s", head);
-    free(text);
-}
 
 /* The named value of a one-row series of the snapshot, printed with 9 digits. */
 static double value_of(const Bed *bed, const char *name)
@@ -42,7 +20,7 @@ static double value_of(const Bed *bed, const char *name)
     assert_int_equal(oz_series_write(series, &bed->snapshot), OZ_OK);
     assert_int_equal(oz_series_free(series), OZ_OK);
     read_cell(in_folder("one.csv"), 1, name, cell);
-    return *cell ? strtod(cell, NULL) : -1e99; /* an empty cell: no column can have this value */
+    return number_in(cell);
 }
 
 static void assert_empty(const Bed *bed, const char *name)

@@ -1,7 +1,7 @@
 /* Observables of flat grains against states written by hand whose answers are known. */
 #include "hand_heap.h"
+#include "hand_series.h"
 
-#include "base/file.h"
 #include "observe/final.h"
 #include "observe/inclination.h"
 #include "observe/schedule.h"
@@ -12,37 +12,11 @@ static const double PI = 3.14159265358979323846;
 static const double DEGREES = 180 / 3.14159265358979323846;
 static const char *file_name = "series.csv";
 
-/* The cell of the named column in the given row (1 is the first after the header). */
-static void read_cell(int row, const char *name, char cell[64])
-{
-    char *text = NULL;
-    assert_int_equal(oz_file_read(&text, NULL, in_folder(file_name)), OZ_OK);
-    char *rest = text, *line = strsep(&rest, "\n"), *head = NULL;
-    int column = 0, index = -1;
-    while ((head = strsep(&line, ","))) {
-        index = strcmp(head, name) == 0 ? column : index;
-        column++;
-    }
-    if (index < 0) {
-        fail_msg("there is no column %s", name);
-    }
-    for (int i = 0; i < row; i++) {
-        line = strsep(&rest, "\n");
-    }
-    assert_non_null(line);
-    for (int i = 0; i <= index; i++) {
-        head = strsep(&line, ",");
-    }
-    assert_non_null(head);
-    snprintf(cell, 64, "%s", head);
-    free(text);
-}
-
 static double value_in(int row, const char *name)
 {
     char cell[64];
-    read_cell(row, name, cell);
-    return *cell ? strtod(cell, NULL) : -1e99; /* an empty cell: no column can have this value */
+    read_cell(in_folder(file_name), row, name, cell);
+    return number_in(cell);
 }
 
 static OzSeries *open_series(const Heap *heap)
