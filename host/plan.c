@@ -60,6 +60,11 @@ static OzStatus check_pieces(const OzScene *scene, const OzGrains *grains, bool 
                               "gear4 or velocity-verlet",
                               scene->path);
     }
+    if (scene->precision == OZ_PRECISION_FLOAT) {
+        oz_log_line("warning: precision float rounds away what a step of %g s moves: energies and "
+                    "rest are not to be trusted; double is the default",
+                    scene->step);
+    }
     OzStatus status = oz_beam_limits_find(&limit, scene, grains);
     if (status != OZ_OK || scene->step < limit.largest_step) {
         return status;

@@ -69,6 +69,10 @@ OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrain
     OzBeamLimit limit;
     print_bodies(file, grains);
     print_walls(file, scene);
+    if (scene->precision == OZ_PRECISION_FLOAT) {
+        fprintf(file, "precision          float: rounds away what a small step moves; energies and "
+                      "rest are not to be trusted\n");
+    }
     OzStatus status = oz_beam_limits_find(&limit, scene, grains);
     if (status != OZ_OK || isinf(limit.largest_step)) {
         return status;
