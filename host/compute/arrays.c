@@ -2,6 +2,7 @@
 #include "compute/arrays.h"
 
 #include "base/memory.h"
+#include "compute/buffers.h"
 #include "compute/cl_try.h"
 
 #include <stdlib.h>
@@ -57,30 +58,6 @@ static const char *field_name(OzFieldId field)
     return names[field];
 }
 
-/* One field's buffer, zeroed. */
-static OzStatus make_buffer(cl_mem *buffer, const OzDevice *device, OzFieldId field, size_t bytes)
-{
-    OzStatus status = OZ_OK;
-    cl_int code = CL_SUCCESS;
-    cl_uint zero = 0;
-    size_t rounded = (bytes + 63) / 64 * 64;
-    *buffer = NULL;
-    if (bytes == 0) {
-        return OZ_OK;
-    }
-    if (rounded > device->largest_buffer) {
-        return oz_status_fail(OZ_ERR_DEVICE, "%s needs %zu bytes, %s gives at most %llu at once",
-                              field_name(field), bytes, device->name,
-                              (unsigned long long)device->largest_buffer);
-    }
-    *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, rounded, NULL, &code);
-    CL_TRY(code);
-    CL_TRY(
-        clEnqueueFillBuffer(device->queue, *buffer, &zero, sizeof zero, 0, rounded, 0, NULL, NULL));
-done:
-    return status;
-}
-
 static size_t all_bytes(const OzArrays *arrays, OzFieldId field, const OzSizes *sizes)
 {
     return oz_arrays_bytes(field, &arrays->switches, sizes) * (size_t)sizes->members;
@@ -96,7 +73,8 @@ OzStatus oz_arrays_create(OzArrays *arrays, const OzDevice *device, const OzSwit
     arrays->sizes = *sizes;
     for (int f = 0; f < OZ_FIELD_COUNT; f++) {
         OzFieldId field = (OzFieldId)f;
-        OZ_TRY(make_buffer(&arrays->buffer[f], device, field, all_bytes(arrays, field, sizes)));
+        OZ_TRY(oz_buffers_make(&arrays->buffer[f], device, field_name(field),
+                               all_bytes(arrays, field, sizes)));
     }
 done:
     if (status != OZ_OK) {
@@ -107,11 +85,7 @@ done:
 
 void oz_arrays_free(OzArrays *arrays)
 {
-    for (int f = 0; f < OZ_FIELD_COUNT; f++) {
-        if (arrays->buffer[f]) {
-            clReleaseMemObject(arrays->buffer[f]);
-        }
-    }
+    oz_buffers_free(arrays->buffer, OZ_FIELD_COUNT);
     memset(arrays, 0, sizeof *arrays);
 }
 
@@ -154,7 +128,7 @@ static OzStatus resize_field(OzArrays *arrays, OzFieldId field, const OzSizes *s
     if (old_bytes == new_bytes) {
         return OZ_OK;
     }
-    OZ_TRY(make_buffer(&grown, arrays->device, field, new_bytes));
+    OZ_TRY(oz_buffers_make(&grown, arrays->device, field_name(field), new_bytes));
     if (keeps_contents(field)) {
         OZ_TRY(copy_rows(arrays, arrays->buffer[field], old_bytes, grown, new_bytes));
     }
@@ -182,36 +156,23 @@ done:
 OzStatus oz_arrays_write(OzArrays *arrays, OzFieldId field, int member, const void *data,
                          size_t bytes)
 {
-    OzStatus status = OZ_OK;
     size_t stride = oz_arrays_bytes(field, &arrays->switches, &arrays->sizes);
-    if (arrays->buffer[field] && bytes > 0) {
-        CL_TRY(clEnqueueWriteBuffer(arrays->device->queue, arrays->buffer[field], CL_TRUE,
-                                    stride * (size_t)member, bytes, data, 0, NULL, NULL));
-    }
-done:
-    return status;
+    return oz_buffers_write(arrays->device, arrays->buffer[field], stride * (size_t)member, data,
+                            bytes);
 }
 
 OzStatus oz_arrays_read(const OzArrays *arrays, OzFieldId field, int member, void *data,
                         size_t bytes)
 {
-    OzStatus status = OZ_OK;
     size_t stride = oz_arrays_bytes(field, &arrays->switches, &arrays->sizes);
-    if (arrays->buffer[field] && bytes > 0) {
-        CL_TRY(clEnqueueReadBuffer(arrays->device->queue, arrays->buffer[field], CL_TRUE,
-                                   stride * (size_t)member, bytes, data, 0, NULL, NULL));
-    }
-done:
-    return status;
+    return oz_buffers_read(arrays->device, arrays->buffer[field], stride * (size_t)member, data,
+                           bytes);
 }
 
 OzStatus oz_arrays_bind(const OzArrays *arrays, cl_kernel kernel, cl_uint *next)
 {
     OzStatus status = OZ_OK;
-    for (cl_uint f = 0; f < OZ_FIELD_COUNT; f++) {
-        CL_TRY(clSetKernelArg(kernel, f, sizeof(cl_mem),
-                              arrays->buffer[f] ? &arrays->buffer[f] : NULL));
-    }
+    OZ_TRY(oz_buffers_bind(arrays->buffer, OZ_FIELD_COUNT, kernel));
     CL_TRY(clSetKernelArg(kernel, OZ_FIELD_COUNT, sizeof(OzSizes), &arrays->sizes));
     *next = OZ_FIELD_COUNT + 1;
 done:

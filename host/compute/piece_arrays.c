@@ -2,6 +2,7 @@
 #include "compute/piece_arrays.h"
 
 #include "base/memory.h"
+#include "compute/buffers.h"
 #include "compute/cl_try.h"
 #include "compute/pack.h"
 
@@ -57,31 +58,6 @@ static const char *field_name(OzPieceFieldId field)
     return names[field];
 }
 
-/* One field's buffer, zeroed. */
-static OzStatus make_buffer(cl_mem *buffer, const OzDevice *device, OzPieceFieldId field,
-                            size_t bytes)
-{
-    OzStatus status = OZ_OK;
-    cl_int code = CL_SUCCESS;
-    cl_uint zero = 0;
-    size_t rounded = (bytes + 63) / 64 * 64;
-    *buffer = NULL;
-    if (bytes == 0) {
-        return OZ_OK;
-    }
-    if (rounded > device->largest_buffer) {
-        return oz_status_fail(OZ_ERR_DEVICE, "%s needs %zu bytes, %s gives at most %llu at once",
-                              field_name(field), bytes, device->name,
-                              (unsigned long long)device->largest_buffer);
-    }
-    *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, rounded, NULL, &code);
-    CL_TRY(code);
-    CL_TRY(
-        clEnqueueFillBuffer(device->queue, *buffer, &zero, sizeof zero, 0, rounded, 0, NULL, NULL));
-done:
-    return status;
-}
-
 static size_t all_bytes(const OzPieceArrays *arrays, OzPieceFieldId field,
                         const OzPieceSizes *sizes)
 {
@@ -98,7 +74,8 @@ OzStatus oz_piece_arrays_create(OzPieceArrays *arrays, const OzDevice *device,
     arrays->sizes = *sizes;
     for (int f = 0; f < OZ_PIECE_FIELD_COUNT; f++) {
         OzPieceFieldId field = (OzPieceFieldId)f;
-        OZ_TRY(make_buffer(&arrays->buffer[f], device, field, all_bytes(arrays, field, sizes)));
+        OZ_TRY(oz_buffers_make(&arrays->buffer[f], device, field_name(field),
+                               all_bytes(arrays, field, sizes)));
     }
 done:
     if (status != OZ_OK) {
@@ -109,11 +86,7 @@ done:
 
 void oz_piece_arrays_free(OzPieceArrays *arrays)
 {
-    for (int f = 0; f < OZ_PIECE_FIELD_COUNT; f++) {
-        if (arrays->buffer[f]) {
-            clReleaseMemObject(arrays->buffer[f]);
-        }
-    }
+    oz_buffers_free(arrays->buffer, OZ_PIECE_FIELD_COUNT);
     memset(arrays, 0, sizeof *arrays);
 }
 
@@ -126,7 +99,7 @@ OzStatus oz_piece_arrays_resize(OzPieceArrays *arrays, const OzPieceSizes *sizes
         if (bytes != all_bytes(arrays, field, &arrays->sizes)) {
             CL_TRY(clReleaseMemObject(arrays->buffer[f]));
             arrays->buffer[f] = NULL;
-            OZ_TRY(make_buffer(&arrays->buffer[f], arrays->device, field, bytes));
+            OZ_TRY(oz_buffers_make(&arrays->buffer[f], arrays->device, field_name(field), bytes));
         }
     }
     arrays->sizes = *sizes;
@@ -137,27 +110,17 @@ done:
 OzStatus oz_piece_arrays_write(OzPieceArrays *arrays, OzPieceFieldId field, int member,
                                const void *data, size_t bytes)
 {
-    OzStatus status = OZ_OK;
     size_t stride = oz_piece_arrays_bytes(field, &arrays->switches, &arrays->sizes);
-    if (arrays->buffer[field] && bytes > 0) {
-        CL_TRY(clEnqueueWriteBuffer(arrays->device->queue, arrays->buffer[field], CL_TRUE,
-                                    stride * (size_t)member, bytes, data, 0, NULL, NULL));
-    }
-done:
-    return status;
+    return oz_buffers_write(arrays->device, arrays->buffer[field], stride * (size_t)member, data,
+                            bytes);
 }
 
 OzStatus oz_piece_arrays_read(const OzPieceArrays *arrays, OzPieceFieldId field, int member,
                               void *data, size_t bytes)
 {
-    OzStatus status = OZ_OK;
     size_t stride = oz_piece_arrays_bytes(field, &arrays->switches, &arrays->sizes);
-    if (arrays->buffer[field] && bytes > 0) {
-        CL_TRY(clEnqueueReadBuffer(arrays->device->queue, arrays->buffer[field], CL_TRUE,
-                                   stride * (size_t)member, bytes, data, 0, NULL, NULL));
-    }
-done:
-    return status;
+    return oz_buffers_read(arrays->device, arrays->buffer[field], stride * (size_t)member, data,
+                           bytes);
 }
 
 OzStatus oz_piece_arrays_write_scalars(OzPieceArrays *arrays, OzPieceFieldId field, int member,
@@ -197,10 +160,7 @@ done:
 OzStatus oz_piece_arrays_bind(const OzPieceArrays *arrays, cl_kernel kernel, cl_uint *next)
 {
     OzStatus status = OZ_OK;
-    for (cl_uint f = 0; f < OZ_PIECE_FIELD_COUNT; f++) {
-        CL_TRY(clSetKernelArg(kernel, f, sizeof(cl_mem),
-                              arrays->buffer[f] ? &arrays->buffer[f] : NULL));
-    }
+    OZ_TRY(oz_buffers_bind(arrays->buffer, OZ_PIECE_FIELD_COUNT, kernel));
     CL_TRY(clSetKernelArg(kernel, OZ_PIECE_FIELD_COUNT, sizeof(OzPieceSizes), &arrays->sizes));
     *next = OZ_PIECE_FIELD_COUNT + 1;
 done:

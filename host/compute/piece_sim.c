@@ -26,34 +26,12 @@ enum { FIRST_LAUNCH = 16 };
 /* The device's idea of the shared structs against ours. */
 static OzStatus check_layout(const OzPieceSim *sim, const OzPieceSwitches *switches)
 {
-    OzStatus status = OZ_OK;
-    cl_int code = CL_SUCCESS, sizes[5] = {0};
-    cl_mem buffer = NULL;
-    size_t one = 1, scalar_size = switches->is_double ? 8 : 4;
-    cl_kernel kernel = clCreateKernel(sim->program, "oz_layout", &code);
-    CL_TRY(code);
-    buffer = clCreateBuffer(sim->device->context, CL_MEM_READ_WRITE, sizeof sizes, NULL, &code);
-    CL_TRY(code);
-    CL_TRY(clSetKernelArg(kernel, 0, sizeof buffer, &buffer));
-    CL_TRY(clEnqueueNDRangeKernel(sim->device->queue, kernel, 1, NULL, &one, &one, 0, NULL, NULL));
-    CL_TRY(clEnqueueReadBuffer(sim->device->queue, buffer, CL_TRUE, 0, sizeof sizes, sizes, 0, NULL,
-                               NULL));
-    if ((size_t)sizes[0] != sizeof(OzPieceParameters) / sizeof(double) * scalar_size ||
-        (size_t)sizes[1] != sizeof(OzPieceControl) || (size_t)sizes[2] != sizeof(OzPieceSizes) ||
-        (size_t)sizes[3] != scalar_size || sizes[4] != switches->lanes) {
-        status = oz_status_fail(OZ_ERR_DEVICE,
-                                "host and %s disagree about struct sizes (parameters %d, control "
-                                "%d, sizes %d bytes): rebuild orzo",
-                                sim->device->name, sizes[0], sizes[1], sizes[2]);
-    }
-done:
-    if (buffer) {
-        clReleaseMemObject(buffer);
-    }
-    if (kernel) {
-        clReleaseKernel(kernel);
-    }
-    return status;
+    OzLayout layout = {.parameters = sizeof(OzPieceParameters) / sizeof(double),
+                       .control = sizeof(OzPieceControl),
+                       .sizes = sizeof(OzPieceSizes),
+                       .lanes = switches->lanes,
+                       .is_double = switches->is_double != 0};
+    return oz_program_check(sim->program, sim->device, &layout);
 }
 
 OzStatus oz_piece_sim_write_parameters(OzPieceSim *sim)

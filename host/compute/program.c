@@ -131,3 +131,45 @@ done:
     free(text);
     return status;
 }
+
+/* What the program itself says of the sizes in `layout`, in their order. */
+static OzStatus ask_layout(cl_program program, const OzDevice *device, cl_int answer[5])
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    cl_mem buffer = NULL;
+    size_t one = 1, bytes = 5 * sizeof answer[0];
+    cl_kernel kernel = clCreateKernel(program, "oz_layout", &code);
+    CL_TRY(code);
+    buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
+    CL_TRY(code);
+    CL_TRY(clSetKernelArg(kernel, 0, sizeof buffer, &buffer));
+    CL_TRY(clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &one, &one, 0, NULL, NULL));
+    CL_TRY(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, 0, bytes, answer, 0, NULL, NULL));
+done:
+    if (buffer) {
+        clReleaseMemObject(buffer);
+    }
+    if (kernel) {
+        clReleaseKernel(kernel);
+    }
+    return status;
+}
+
+OzStatus oz_program_check(cl_program program, const OzDevice *device, const OzLayout *layout)
+{
+    OzStatus status = OZ_OK;
+    cl_int answer[5] = {0};
+    size_t scalar = layout->is_double ? 8 : 4;
+    OZ_TRY(ask_layout(program, device, answer));
+    if ((size_t)answer[0] != layout->parameters * scalar || (size_t)answer[1] != layout->control ||
+        (size_t)answer[2] != layout->sizes || (size_t)answer[3] != scalar ||
+        answer[4] != layout->lanes) {
+        status = oz_status_fail(OZ_ERR_DEVICE,
+                                "host and %s disagree about struct sizes (parameters %d, control "
+                                "%d, sizes %d bytes): rebuild orzo",
+                                device->name, answer[0], answer[1], answer[2]);
+    }
+done:
+    return status;
+}

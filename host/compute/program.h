@@ -1,17 +1,28 @@
-/* Kernel programs: one flat text (includes expanded, with #line for true file names in build logs), built
- * with a scene's switches. */
+/* Kernel programs: one flat text (includes expanded, with #line for true file names in build logs),
+ * built with a scene's switches. */
 #ifndef OZ_COMPUTE_PROGRAM_H
 #define OZ_COMPUTE_PROGRAM_H
 
 #include "compute/device.h"
 
-/* *text receives the file with every `#include "kernels/..."` replaced by that file's text the first time
- * it is met; the caller frees it. */
+/* *text receives the file with every `#include "kernels/..."` replaced by that file's text the
+ * first time it is met; the caller frees it. */
 OzStatus oz_program_flatten(char **text, const char *source_dir, const char *name);
 
-/* Builds `name` (kernels/rods.cl) with options. A failed build gives the driver's log in the failure text.
- * The caller releases the program. */
+/* Builds `name` (kernels/rods.cl) with options. A failed build gives the driver's log in the
+ * failure text. The caller releases the program. */
 OzStatus oz_program_build(cl_program *program, const OzDevice *device, const char *source_dir,
                           const char *name, const char *options);
+
+/* The structs that host and kernels share, as the host has them. */
+typedef struct OzLayout {
+    size_t parameters;     /* numbers                  */
+    size_t control, sizes; /* bytes                    */
+    int lanes;             /* of a vector              */
+    bool is_double;        /* the device's numbers are */
+} OzLayout;
+
+/* Fails with OZ_ERR_DEVICE if the program's kernel oz_layout knows them otherwise. */
+OzStatus oz_program_check(cl_program program, const OzDevice *device, const OzLayout *layout);
 
 #endif

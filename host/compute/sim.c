@@ -21,34 +21,12 @@ enum { FIRST_LAUNCH = 16 };
 /* The device's idea of the shared structs against ours. */
 static OzStatus check_layout(const OzSim *sim, const OzSwitches *switches)
 {
-    OzStatus status = OZ_OK;
-    cl_int code = CL_SUCCESS, sizes[5] = {0};
-    cl_mem buffer = NULL;
-    size_t one = 1, scalar = switches->is_double ? 8 : 4;
-    cl_kernel kernel = clCreateKernel(sim->program, "oz_layout", &code);
-    CL_TRY(code);
-    buffer = clCreateBuffer(sim->device->context, CL_MEM_READ_WRITE, sizeof sizes, NULL, &code);
-    CL_TRY(code);
-    CL_TRY(clSetKernelArg(kernel, 0, sizeof buffer, &buffer));
-    CL_TRY(clEnqueueNDRangeKernel(sim->device->queue, kernel, 1, NULL, &one, &one, 0, NULL, NULL));
-    CL_TRY(clEnqueueReadBuffer(sim->device->queue, buffer, CL_TRUE, 0, sizeof sizes, sizes, 0, NULL,
-                               NULL));
-    if ((size_t)sizes[0] != sizeof(OzParameters) / sizeof(double) * scalar ||
-        (size_t)sizes[1] != sizeof(OzControl) || (size_t)sizes[2] != sizeof(OzSizes) ||
-        (size_t)sizes[3] != scalar || sizes[4] != switches->lanes) {
-        status = oz_status_fail(OZ_ERR_DEVICE,
-                                "host and %s disagree about struct sizes (parameters %d, control "
-                                "%d, sizes %d bytes): rebuild orzo",
-                                sim->device->name, sizes[0], sizes[1], sizes[2]);
-    }
-done:
-    if (buffer) {
-        clReleaseMemObject(buffer);
-    }
-    if (kernel) {
-        clReleaseKernel(kernel);
-    }
-    return status;
+    OzLayout layout = {.parameters = sizeof(OzParameters) / sizeof(double),
+                       .control = sizeof(OzControl),
+                       .sizes = sizeof(OzSizes),
+                       .lanes = switches->lanes,
+                       .is_double = switches->is_double != 0};
+    return oz_program_check(sim->program, sim->device, &layout);
 }
 
 OzStatus oz_sim_write_parameters(OzSim *sim)
@@ -85,13 +63,14 @@ static OzStatus choose_layout(OzSim *sim, OzSwitches *switches, OzSizes *sizes)
         const OzMember *member = &sim->members[m];
         OzSwitches s = oz_switches_derive(member->scene, member->grains, sim->device);
         OzSizes z;
-        OZ_TRY(oz_constants_fill(&sim->parameters[m], sim->wall_order, member->scene,
-                                 member->grains));
+        OZ_TRY(
+            oz_constants_fill(&sim->parameters[m], sim->wall_order, member->scene, member->grains));
         oz_sizes_choose(&z, &sim->parameters[m], member->scene, member->grains, &s,
                         sim->member_count);
         if (m > 0 && !oz_company_fits(sim->device, &sim->members[0], member)) {
-            status = oz_status_fail(OZ_ERR_INPUT, "%s: members of one launch must have the same "
-                                                  "features, number of grains, step and settling",
+            status = oz_status_fail(OZ_ERR_INPUT,
+                                    "%s: members of one launch must have the same "
+                                    "features, number of grains, step and settling",
                                     member->scene->path);
             goto done;
         }

@@ -1,0 +1,70 @@
+/* Making, filling and reading a device's buffers. */
+#include "compute/buffers.h"
+
+#include "compute/cl_try.h"
+
+OzStatus oz_buffers_make(cl_mem *buffer, const OzDevice *device, const char *name, size_t bytes)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    cl_uint zero = 0;
+    size_t rounded = (bytes + 63) / 64 * 64;
+    *buffer = NULL;
+    if (bytes == 0) {
+        return OZ_OK;
+    }
+    if (rounded > device->largest_buffer) {
+        return oz_status_fail(OZ_ERR_DEVICE, "%s needs %zu bytes, %s gives at most %llu at once",
+                              name, bytes, device->name,
+                              (unsigned long long)device->largest_buffer);
+    }
+    *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, rounded, NULL, &code);
+    CL_TRY(code);
+    CL_TRY(
+        clEnqueueFillBuffer(device->queue, *buffer, &zero, sizeof zero, 0, rounded, 0, NULL, NULL));
+done:
+    return status;
+}
+
+void oz_buffers_free(const cl_mem *buffers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (buffers[i]) {
+            clReleaseMemObject(buffers[i]);
+        }
+    }
+}
+
+OzStatus oz_buffers_write(const OzDevice *device, cl_mem buffer, size_t offset, const void *data,
+                          size_t bytes)
+{
+    OzStatus status = OZ_OK;
+    if (buffer && bytes > 0) {
+        CL_TRY(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, data, 0, NULL,
+                                    NULL));
+    }
+done:
+    return status;
+}
+
+OzStatus oz_buffers_read(const OzDevice *device, cl_mem buffer, size_t offset, void *data,
+                         size_t bytes)
+{
+    OzStatus status = OZ_OK;
+    if (buffer && bytes > 0) {
+        CL_TRY(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, data, 0, NULL,
+                                   NULL));
+    }
+done:
+    return status;
+}
+
+OzStatus oz_buffers_bind(const cl_mem *buffers, int count, cl_kernel kernel)
+{
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < count; i++) {
+        CL_TRY(clSetKernelArg(kernel, (cl_uint)i, sizeof(cl_mem), buffers[i] ? &buffers[i] : NULL));
+    }
+done:
+    return status;
+}
