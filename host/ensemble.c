@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/student.h"
+#include "observe/inclination_fit.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -37,6 +38,7 @@ struct OzEnsemble {
     char *value; /* of the rows in hand */
     Row **rows;
     int64_t row_count, row_capacity;
+    OzInclinationFit inclination; /* of a sweep over a drum's speed */
 };
 
 /* A table is written under another name and renamed last: its presence says that the ensemble has
@@ -255,9 +257,27 @@ static void write_row(const OzEnsemble *e, const Row *row)
     fputc('\n', e->table);
 }
 
-/* Writes the rows in hand: the members of a value are all in. */
-static void end_value(OzEnsemble *e)
+/* A drum's speed and the mean inclination of its members' last row. */
+static OzStatus note_inclination(OzEnsemble *e)
 {
+    OzStatus status = OZ_OK;
+    if (e->row_count == 0 || !oz_inclination_fit_applies(e->key)) {
+        return OZ_OK;
+    }
+    for (int c = 0; c < e->column_count; c++) {
+        const Cell *cell = &e->rows[e->row_count - 1]->cells[c];
+        if (strcmp(e->columns[c], "inclination_mean") == 0 && cell->count > 0) {
+            OZ_TRY(oz_inclination_fit_add(&e->inclination, strtod(e->value, NULL), cell->mean));
+        }
+    }
+done:
+    return status;
+}
+
+/* Writes the rows in hand: the members of a value are all in. */
+static OzStatus end_value(OzEnsemble *e)
+{
+    OzStatus status = note_inclination(e);
     for (int64_t i = 0; i < e->row_count; i++) {
         write_row(e, e->rows[i]);
         free(e->rows[i]->moment);
@@ -267,6 +287,7 @@ static void end_value(OzEnsemble *e)
     e->row_count = 0;
     free(e->value);
     e->value = NULL;
+    return status;
 }
 
 OzStatus oz_ensemble_add(OzEnsemble *e, const OzEnsembleRow *row)
@@ -275,7 +296,7 @@ OzStatus oz_ensemble_add(OzEnsemble *e, const OzEnsembleRow *row)
     char *folder = NULL, *path = NULL;
     FILE *series = NULL;
     if (row->value && (!e->value || strcmp(e->value, row->value) != 0)) {
-        end_value(e);
+        OZ_TRY(end_value(e));
         OZ_TRY(oz_memory_text(&e->value, row->value));
     }
     OZ_TRY(in_folder(e, row->name, &folder));
@@ -330,11 +351,13 @@ OzStatus oz_ensemble_finish(OzEnsemble *e)
     if (!e) {
         return OZ_OK;
     }
-    end_value(e);
-    OzStatus status = close_table(e, e->table, "ensemble.csv.part", "ensemble.csv");
-    OzStatus members = close_table(e, e->members, "members.csv.part", "members.csv");
+    OzStatus status = end_value(e);
+    OZ_AFTER(status, oz_inclination_fit_write(&e->inclination, e->folder));
+    OZ_AFTER(status, close_table(e, e->table, "ensemble.csv.part", "ensemble.csv"));
+    OZ_AFTER(status, close_table(e, e->members, "members.csv.part", "members.csv"));
+    oz_inclination_fit_free(&e->inclination);
     free(e->rows);
     free(e->header);
     free(e);
-    return status == OZ_OK ? members : status;
+    return status;
 }

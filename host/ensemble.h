@@ -1,5 +1,6 @@
 /* The tables of an ensemble: members.csv with one row a member, ensemble.csv with mean, spread and
- * 95 % interval of every column of series.csv over the members of each value of the sweep. */
+ * 95 % interval of every column of series.csv over the members of each value of the sweep; of a
+ * drum swept over its speed also inclination_fit.csv (observe/inclination_fit.h). */
 #ifndef OZ_ENSEMBLE_H
 #define OZ_ENSEMBLE_H
 
@@ -26,7 +27,7 @@ OzStatus oz_ensemble_create(OzEnsemble **ensemble, const char *folder, const cha
  * another. */
 OzStatus oz_ensemble_add(OzEnsemble *ensemble, const OzEnsembleRow *row);
 
-/* Puts members.csv and ensemble.csv in place and frees; NULL is fine. */
+/* Puts members.csv and ensemble.csv in place, says and writes the fit, and frees; NULL is fine. */
 OzStatus oz_ensemble_finish(OzEnsemble *ensemble);
 
 #endif

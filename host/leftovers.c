@@ -50,9 +50,11 @@ done:
 
 OzStatus oz_leftovers_remove(const char *folder)
 {
-    static const char *const names[] = {"final.csv",  "members.csv", "ensemble.csv",
-                                        "series.csv", "frames.bin",  "movie.mp4",
-                                        "scene.yaml", "log.txt",     "inclination_spectrum.csv"};
+    static const char *const names[] = {
+        "final.csv",          "members.csv", "ensemble.csv",
+        "series.csv",         "frames.bin",  "movie.mp4",
+        "scene.yaml",         "log.txt",     "inclination_spectrum.csv",
+        "inclination_fit.csv"};
     OzStatus status = OZ_OK;
     char *snapshots = NULL;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
