@@ -20,7 +20,7 @@ static const struct {
     {"keys", "", "c", "every scene key: type, unit, range, default, meaning", 0, 0},
     {"bench", "[SCENE]...", "oQFzbysdtS", "speed on this machine: an6 and a ladder of beds, or scenes", 0,
      OZ_CLI_PATHS_MAX},
-    {"report", "[SCENE]...", "oQTXMBEefsdtS", "what accuracy costs: error against run time", 0,
+    {"report", "[SCENE]...", "oQTXMBEHefsdtS", "what accuracy costs: error against run time", 0,
      OZ_CLI_PATHS_MAX},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
 };
@@ -52,6 +52,7 @@ static const struct {
     {'M', "--map", NULL, "stability map over steps per contact and restitution instead"},
     {'B', "--stability", NULL, "the largest stable step of each scene's settled bed instead"},
     {'E', "--ensemble", NULL, "a shaken bed at every step and integrator, for many seeds, instead"},
+    {'H', "--hits", NULL, "how often two grains hit and how they spin then, for each value, instead"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -248,6 +249,7 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         options->map |= letter == 'M';
         options->stability |= letter == 'B';
         options->ensemble |= letter == 'E';
+        options->hits |= letter == 'H';
         options->features |= letter == 'F';
         options->overwrite |= letter == 'O';
         options->no_video |= letter == 'n';

@@ -28,7 +28,7 @@ typedef struct OzOptions {
     bool features, quick;                 /* bench                            */
     double budget;                        /* --budget, s; 0: not given        */
     double tolerance;                     /* --tolerance of report; 0: not given */
-    bool extreme, map, stability, ensemble; /* report                         */
+    bool extreme, map, stability, ensemble, hits; /* report                   */
     const char *sizes;                    /* --sizes, as written              */
     const char *yardstick;                /* --yardstick                      */
 } OzOptions;

@@ -4,18 +4,12 @@
  * it. */
 #include "piece_rig.h"
 
+#include "observe/hits.h"
+
 static const double edge = 2e-3;
 
-/* A hit is a span of touching. It counts when it has this share of the impulse of all hits: below
- * lie grazes of hundredths, a third or a sixth of what counts here. */
-static const double count_share = 0.05;
-
-enum { HITS = 32 };
-
 typedef struct Meeting {
-    int hits;             /* that count                                     */
-    double impulse[HITS]; /* kg m/s, of every span of touching              */
-    int spans;
+    OzHits hits;
     double spin;                   /* of the first die at the end, x edge / speed    */
     double energy_change;          /* over the energy at the start                   */
     double residual;               /* the same with what beams took put back         */
@@ -32,57 +26,39 @@ static void open_dice(PieceRig *rig, const char *settings, const double turns[2]
     rig_grains(rig, 2, 4, 4);
     for (int g = 0; g < 2; g++) {
         rig_square(rig, g, edge, centres[g], turns[g] * degree, velocities[g], 4);
+        rig->grains.mass[g] = 4 * edge * edge;
     }
     rig_start(rig);
 }
 
-static int touches_now(const OzSnapshot *s, Meeting *meeting)
+static void note_kinds(const OzSnapshot *s, Meeting *meeting)
 {
-    int touching = 0;
     for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
-        touching += s->pieces.touches[k] > 0;
         meeting->kinds[k] += s->pieces.touches[k] > 0;
     }
-    return touching;
 }
 
-/* Impulses of the first die, span by span, looked at every 4 us, a hundredth of the shortest hit,
- * until the dice could be two edges apart. */
+/* Looked at every 4 us, a hundredth of the shortest hit, until the dice could be two edges apart.
+ */
 static void follow_hits(PieceRig *rig, double speed, Meeting *meeting)
 {
-    double mass = 4 * edge * edge, before[2] = {speed, 0};
     int64_t each = (int64_t)(4e-6 / rig->scene.step + 0.5);
     int64_t last = (int64_t)(2.7 * edge / speed / rig->scene.step);
-    int touched = 0;
     for (int64_t step = each; step <= last; step += each) {
         rig_advance(rig, step);
-        int touching = touches_now(&rig->now, meeting) > 0;
-        if (touched && !touching && meeting->spans < HITS) {
-            meeting->impulse[meeting->spans++] =
-                mass * hypot(rig->now.velocity[0] - before[0], rig->now.velocity[1] - before[1]);
-        }
-        if (!touching) {
-            memcpy(before, rig->now.velocity, sizeof before);
-        }
-        touched = touching;
+        note_kinds(&rig->now, meeting);
+        oz_hits_look(&meeting->hits, &rig->now);
     }
-    assert_false(touched);
+    assert_false(meeting->hits.touching);
 }
 
 static Meeting meet(const char *settings, const double turns[2], double speed)
 {
     PieceRig rig;
     Meeting meeting = {0};
-    double total = 0;
     open_dice(&rig, settings, turns, speed);
     double start = rig_energy(&rig.now);
     follow_hits(&rig, speed, &meeting);
-    for (int i = 0; i < meeting.spans; i++) {
-        total += meeting.impulse[i];
-    }
-    for (int i = 0; i < meeting.spans; i++) {
-        meeting.hits += meeting.impulse[i] > count_share * total;
-    }
     OzPieceLedger ledger = rig.now.piece_ledger;
     meeting.spin = rig.now.spin[2] * edge / speed;
     meeting.energy_change = rig_energy(&rig.now) / start - 1;
@@ -107,8 +83,9 @@ static void test_hits_by_speed(void **state)
         spin[i] = fabs(m.spin);
         print_message("%g m/s: %d hits; spin x edge / speed %.3f; left of the energy %.3f, "
                       "residual %.1e\n",
-                      rows[i].speed, m.hits, m.spin, 1 + m.energy_change, m.residual);
-        assert_int_equal(m.hits, rows[i].hits);
+                      rows[i].speed, oz_hits_count(&m.hits), m.spin, 1 + m.energy_change,
+                      m.residual);
+        assert_int_equal(oz_hits_count(&m.hits), rows[i].hits);
     }
     assert_true(spin[0] < 0.05);
     assert_true(spin[1] < 0.6 * spin[4]);

@@ -9,6 +9,7 @@
 #include "study/report_bed.h"
 #include "study/report_ensemble.h"
 #include "study/report_extreme.h"
+#include "study/report_hits.h"
 #include "study/report_map.h"
 #include "study/report_piece.h"
 #include "study/report_plot.h"
@@ -249,6 +250,8 @@ OzStatus oz_report_run(const OzOptions *options)
                               "orzo report: no scene; expected SCENE..., --extreme or --map"));
     } else if (options->ensemble) {
         OZ_TRY(oz_report_ensemble_run(options, report.folder));
+    } else if (options->hits) {
+        OZ_TRY(oz_report_hits_run(options, report.folder));
     } else if (options->stability) {
         for (int i = 0; i < options->path_count; i++) {
             OZ_TRY(oz_report_bed_say(options->paths[i], options->settings, options->setting_count,

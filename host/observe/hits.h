@@ -1,0 +1,37 @@
+/* Counting the hits of two grains: a hit is a span of looks at which they touch, and it counts when
+ * it has a fair share of the impulse of all of them. Grazes are spans too, and do not count. */
+#ifndef OZ_OBSERVE_HITS_H
+#define OZ_OBSERVE_HITS_H
+
+#include "observe/snapshot.h"
+
+/* Of the impulse of all spans: a hit has at least this much. The second hit of two dice shrinks
+ * with their speed from three tenths to nothing, so this decides at which speed it is lost; grazes
+ * have hundred-thousandths. */
+#define OZ_HITS_SHARE 0.05
+
+/* No more than 1 / OZ_HITS_SHARE spans can count, so keeping the greatest 32 loses none. */
+enum { OZ_HITS_SPANS = 32 };
+
+/* Zeroed is valid: nothing seen yet. */
+typedef struct OzHits {
+    int64_t looks;
+    bool touching;                 /* at the last look: its span has not ended   */
+    double before[2];              /* m/s, relative velocity before the span     */
+    int span_count;                /* that are kept, in order of time            */
+    double impulse[OZ_HITS_SPANS]; /* kg m/s, of each                            */
+    double total;                  /* kg m/s, of all spans that ended            */
+} OzHits;
+
+/* Looks at the first two grains of a snapshot with contacts, in order of time. The impulse is the
+ * reduced mass times the change of their relative velocity, which gravity leaves alone; other
+ * grains and walls must not be there. */
+void oz_hits_look(OzHits *hits, const OzSnapshot *snapshot);
+
+/* Impulse of a kept span over that of all. */
+double oz_hits_share(const OzHits *hits, int span);
+
+/* How many spans have at least OZ_HITS_SHARE. */
+int oz_hits_count(const OzHits *hits);
+
+#endif
