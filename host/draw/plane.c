@@ -102,16 +102,31 @@ static Room find_room(const OzScene *scene, const OzSnapshot *snapshot)
     return room;
 }
 
-/* Grains that flow fall a few of their own sizes at a time before they hit others. */
+/* The speed of a drum's rim, m/s; negative without a drum. */
+static double rim_speed(const OzScene *scene)
+{
+    double speed = -1;
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        if (wall->kind == OZ_WALL_DRUM) {
+            double turn = wall->motion.present ? fabs(wall->motion.angular_velocity) : 0;
+            speed = fmax(speed, 0.5 * turn * wall->diameter);
+        }
+    }
+    return speed;
+}
+
+/* Grains that flow freely fall a few of their own sizes at a time before they hit others; those of
+ * an avalanche in a drum roll over each other and hardly fall. */
 static double flow_speed(const OzScene *scene, const OzSnapshot *snapshot)
 {
-    const double sizes_fallen = 3;
+    double rim = rim_speed(scene), sizes_fallen = rim < 0 ? 3 : 0.1;
     double sum = 0, gravity = hypot(scene->gravity[0], scene->gravity[1]);
     for (int64_t g = 0; g < snapshot->count; g++) {
         sum += snapshot->grains->diameter[g];
     }
     double size = snapshot->count > 0 ? sum / (double)snapshot->count : 0;
-    return sqrt(2 * gravity * sizes_fallen * size);
+    return fmax(sqrt(2 * gravity * sizes_fallen * size), 2 * rim);
 }
 
 static double fastest(const OzSnapshot *snapshot)
