@@ -15,14 +15,14 @@ device_tests() {
 
 install_packages
 build_orzo build Release
-ctest --test-dir build --output-on-failure --output-log build/ctest.log ||
+ctest --test-dir build --parallel "$(nproc)" --output-on-failure --output-log build/ctest.log ||
     stop "tests failed (Release)"
 
 build_orzo build-sanitize Sanitize
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1
 export LSAN_OPTIONS="suppressions=$PWD/tests/sanitize.supp:print_suppressions=0"
 export UBSAN_OPTIONS=print_stacktrace=1
-ctest --test-dir build-sanitize --output-on-failure -E "$(device_tests)" ||
+ctest --test-dir build-sanitize --parallel "$(nproc)" --output-on-failure -E "$(device_tests)" ||
     stop "tests failed (Sanitize)"
 say "one short run on a device (Sanitize)"
 build-sanitize/orzo run scenes/two_rods.yaml -o build-sanitize/smoke --overwrite --device cpu ||
