@@ -43,14 +43,17 @@ static OzStatus draw_all(Redraw *r)
 {
     OzStatus status = OZ_OK;
     int purpose = 0, count = 0;
+    int left_out = r->scene.movie.present ? 0 : OZ_FRAME_MOVIE; /* by --set movie=false */
     bool more = true;
     for (;;) {
         OZ_TRY(oz_frames_next(r->frames, &r->snapshot, &purpose, &more));
         if (!more) {
             break;
         }
-        OZ_TRY(oz_gallery_add(r->gallery, &r->snapshot, purpose));
-        oz_log_progress("frame %d", ++count);
+        if (purpose & ~left_out) {
+            OZ_TRY(oz_gallery_add(r->gallery, &r->snapshot, purpose & ~left_out));
+            oz_log_progress("frame %d", ++count);
+        }
     }
     oz_log_progress(" ");
     oz_log_line("%d frames drawn into %s", count, r->out);
