@@ -152,19 +152,19 @@ static OzStatus refuse(const OzScene *scene, const OzPopulation *population, con
     const OzBeamValues *limits = &scene->beams;
     char draws[64] = "";
     if (is_open(population)) {
-        snprintf(draws, sizeof draws, ", the last of %d drawn", DRAW_LIMIT);
+        snprintf(draws, sizeof draws, ", the last of %d drawn,", DRAW_LIMIT);
     }
     if (least->length < limits->length_min) {
         return oz_status_fail(
             OZ_ERR_INPUT,
-            "%s:%d: a grain%s, has a beam of %.3g m, below beams.length_min %g m: its bending "
+            "%s:%d: a grain%s has a beam of %.3g m, below beams.length_min %g m: its bending "
             "stiffness 12 E I / L^3 and damping gamma I / L would need tiny steps; expected larger "
             "grains, fewer corners, or a lower beams.length_min with a smaller second_moment",
             scene->path, population->line, draws, least->length, limits->length_min);
     }
     return oz_status_fail(
         OZ_ERR_INPUT,
-        "%s:%d: a grain%s, has a triangle of %.3g m^2, below beams.area_min %g m^2: so light a "
+        "%s:%d: a grain%s has a triangle of %.3g m^2, below beams.area_min %g m^2: so light a "
         "piece would need tiny steps; expected larger grains, fewer corners, or a lower "
         "beams.area_min",
         scene->path, population->line, draws, least->area, limits->area_min);
