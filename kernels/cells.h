@@ -12,10 +12,18 @@ OZ_INLINE int oz_cells_of(const OzWork *w, spot_kind spot)
     return (int)floor((scalar)spot * p->length_unit * p->inverse_cell);
 }
 
-OZ_INLINE int oz_cells_index(const OzWork *w, int x, int y, int z)
+/* Cells of the grid's second axis that are gone through before the next of the third: grains are sorted in the order
+ * of cells, and those that meet should stand so near each other that a cache holds all between. */
+#define OZ_CELLS_STRIP 16
+
+/* The cell at coordinates along the grid's axes. Neighbours along the first follow each other. */
+OZ_INLINE int oz_cells_index(const OzWork *w, int first, int second, int third)
 {
-    int row = (z & (w->z.cells_z - 1)) * w->z.cells_y + (y & (w->z.cells_y - 1));
-    return row * w->z.cells_x + (x & (w->z.cells_x - 1));
+    int strip = min(OZ_CELLS_STRIP, w->z.cells_along[1]);
+    int across = second & (w->z.cells_along[1] - 1);
+    int slab = (across / strip) * w->z.cells_along[2] + (third & (w->z.cells_along[2] - 1));
+    int row = slab * strip + (across & (strip - 1));
+    return row * w->z.cells_along[0] + (first & (w->z.cells_along[0] - 1));
 }
 
 OZ_INLINE void oz_cells_spot(const OzWork *w, int slot, spot_kind spot[3])
@@ -53,8 +61,9 @@ OZ_INLINE void oz_cells_bin(OzWork *w, int region)
     for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
         spot_kind spot[3];
         oz_cells_spot(w, i, spot);
-        int cell = oz_cells_index(w, oz_cells_of(w, spot[0]), oz_cells_of(w, spot[1]),
-                                       oz_cells_of(w, spot[2]));
+        int cell = oz_cells_index(w, oz_cells_of(w, spot[w->z.axis[0]]),
+                                  oz_cells_of(w, spot[w->z.axis[1]]),
+                                  oz_cells_of(w, spot[w->z.axis[2]]));
         w->cell_of[i] = cell;
         OZ_WORK_COUNT(&w->cell_first[cell + 2]);
     }

@@ -20,7 +20,9 @@ typedef struct OzSide {
     real sign;   /* of the half-shaft that leads to the end: 1 or -1 */
     int index;   /* among all ends at all walls                      */
     int first;   /* the first end: a sphere has no other             */
-    scalar offset, speed; /* m, m/s along z, of the wall                */
+    spot_kind point[3]; /* of a plane                                */
+    scalar normal[3], radius, unit;
+    scalar offset, speed; /* m, m/s along z, of the wall             */
 } OzSide;
 
 OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
@@ -31,6 +33,13 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
     side.wall = index / ends;
     side.first = index % ends == 0;
     side.sign = REAL(side.first ? 1.0 : -1.0);
+    global const OzWallParameters *wall = &w->parameters->wall[side.wall];
+    for (int c = 0; c < 3; c++) {
+        side.point[c] = (spot_kind)wall->point[c];
+        side.normal[c] = wall->normal[c];
+    }
+    side.radius = wall->radius;
+    side.unit = w->parameters->length_unit;
     side.offset = side.speed = 0;
     if (OZ_MOVING) {
         size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * (OZ_PLANES + OZ_CYLINDERS) + side.wall;
@@ -40,20 +49,18 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
     return side;
 }
 
-OZ_INLINE OzWallDistance oz_enclosure_distance(const OzWork *w, OzPlace place_, OzVec3 end, OzSide side)
+OZ_INLINE OzWallDistance oz_enclosure_distance(OzPlace place_, OzVec3 end, const OzSide *side)
 {
-    global const OzWallParameters *wall = &w->parameters->wall[side.wall];
-    scalar unit = w->parameters->length_unit;
-    if (side.wall < OZ_PLANES) {
-        OzVec3 from = oz_vec3(
-            oz_place_to_real(place_.x - (spot_kind)wall->point[0]) * unit + end.x,
-            oz_place_to_real(place_.y - (spot_kind)wall->point[1]) * unit + end.y,
-            oz_place_to_real(place_.z - (spot_kind)wall->point[2]) * unit + end.z - side.offset);
-        return oz_walls_plane(from, wall->normal[0], wall->normal[1], wall->normal[2]);
+    scalar unit = side->unit;
+    if (side->wall < OZ_PLANES) {
+        OzVec3 from = oz_vec3(oz_place_to_real(place_.x - side->point[0]) * unit + end.x,
+                              oz_place_to_real(place_.y - side->point[1]) * unit + end.y,
+                              oz_place_to_real(place_.z - side->point[2]) * unit + end.z - side->offset);
+        return oz_walls_plane(from, side->normal[0], side->normal[1], side->normal[2]);
     }
     OzVec3 from = oz_vec3(oz_place_to_real(place_.x) * unit + end.x,
                           oz_place_to_real(place_.y) * unit + end.y, REAL(0.0));
-    return oz_walls_cylinder(from, wall->radius);
+    return oz_walls_cylinder(from, side->radius);
 }
 
 /* Overlaps that no run may go on with. */
@@ -68,82 +75,105 @@ OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact
 }
 
 /* The picked ends that fill the lanes; of the last ones the first `count`, the others repeat one of them. */
-OZ_INLINE void oz_enclosure_touch(OzWork *w, OzSide side, const int *slots, int count, int step)
+OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slots, int count, int step)
 {
     OzGrain grain = oz_work_grains(w, slots);
-    OzVec3 end = oz_scale(grain.half_shaft, side.sign);
-    OzWallDistance at = oz_enclosure_distance(w, grain.place, end, side);
+    OzVec3 end = oz_scale(grain.half_shaft, side->sign);
+    OzWallDistance at = oz_enclosure_distance(grain.place, end, side);
     /* a sphere in a population of rods touches once, not with two coincident ends */
-    mask present = OZ_EQUAL || side.first ? at.distance < grain.radius
+    mask present = OZ_EQUAL || side->first ? at.distance < grain.radius
                                           : oz_dot(end, end) > REAL(0.0);
     OzContact contact;
     OzVec3 arm, history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
     if (OZ_HISTORY) {
-        history = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side.index);
+        history = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index);
     }
     OzContactForce parts =
-        oz_rods_wall(grain, end, at, oz_vec3(REAL(0.0), REAL(0.0), REAL(side.speed)), present,
-                     w->parameters->wall[side.wall].law, &history, w->parameters->dt,
+        oz_rods_wall(grain, end, at, oz_vec3(REAL(0.0), REAL(0.0), REAL(side->speed)), present,
+                     w->parameters->wall[side->wall].law, &history, w->parameters->dt,
                      OZ_HISTORY_SHARE, &contact, &arm);
     if (OZ_HISTORY) {
-        oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side.index, history);
+        oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index, history);
     }
     OzVec3 force = oz_where(OZ_PICKED_BEFORE(count), parts.force);
     oz_loads_add(w, slots, force, oz_cross(arm, force));
     oz_enclosure_guard(w, slots, contact, grain.radius, step);
 #if OZ_LEDGER
     oz_pairs_note(w->wall_ledger, slots, OZ_WALL_ENDS * OZ_CONTACT_LEDGER,
-                  side.index * OZ_CONTACT_LEDGER, contact, parts, parts.force, arm);
+                  side->index * OZ_CONTACT_LEDGER, contact, parts, parts.force, arm);
 #endif
 }
 
-/* Which ends of a block of grains to pick; the springs of the others end. */
-OZ_INLINE int oz_enclosure_sieve(OzWork *w, OzSide side, int block)
+/* Ends the springs of a block's ends that are no longer picked, and keeps which are. */
+OZ_INLINE void oz_enclosure_part(OzWork *w, size_t index, int bits)
+{
+#if OZ_HISTORY
+    int gone = w->wall_picked[index] & ~bits;
+    global scalar *kept = (global scalar *)(w->wall_history + 3 * index);
+    for (int l = 0; gone != 0 && l < OZ_LANES; l++) {
+        if ((gone >> l) & 1) {
+            kept[l] = kept[OZ_LANES + l] = kept[2 * OZ_LANES + l] = 0;
+        }
+    }
+#endif
+    w->wall_picked[index] = bits;
+}
+
+/* Picks the ends of a block of grains that touch a wall, or nearly so. */
+OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
 {
     OzBody body = oz_grains_load(w, block);
     OzShape shape = oz_grains_shape(w, block);
-    OzVec3 end = oz_scale(oz_quaternion_axis(body.turn), shape.half_length * side.sign);
-    OzWallDistance at = oz_enclosure_distance(w, body.place, end, side);
-    mask near = at.distance < shape.radius * REAL(1 + OZ_PAIRS_MARGIN);
-    size_t index = (size_t)block * OZ_WALL_ENDS + side.index;
-    if (OZ_HISTORY) {
-        global real *kept = w->wall_history + 3 * index;
-        oz_work_store3(kept, oz_where(near, oz_work_load3(kept)));
+    OzVec3 half_shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
+    real near = shape.radius * REAL(1 + OZ_PAIRS_MARGIN);
+    for (int k = 0; k < OZ_WALL_ENDS; k++) {
+        OzVec3 end = oz_scale(half_shaft, sides[k].sign);
+        OzWallDistance at = oz_enclosure_distance(body.place, end, &sides[k]);
+        oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + k, oz_lanes_bits(at.distance < near));
     }
 #if OZ_LEDGER
-    for (int k = 0; k < OZ_CONTACT_LEDGER; k++) {
-        w->wall_ledger[index * OZ_CONTACT_LEDGER + k] = REAL(0.0);
+    global real *words = w->wall_ledger + (size_t)block * OZ_WALL_ENDS * OZ_CONTACT_LEDGER;
+    for (int k = 0; k < OZ_WALL_ENDS * OZ_CONTACT_LEDGER; k++) {
+        words[k] = REAL(0.0);
     }
 #endif
-    return oz_lanes_bits(near);
 }
 
-/* Every end at one wall is through before the next is begun: a grain's sum must not depend on how ends share
- * blocks. */
-OZ_INLINE void oz_enclosure_side_region(OzWork *w, OzSide side, int region, int step)
+/* The region's picked ends at one side. Every end at one wall is through before the next is begun: a grain's sum
+ * must not depend on how ends share blocks. */
+OZ_INLINE void oz_enclosure_side_region(OzWork *w, const OzSide *side, int region, int step)
 {
-    int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
+    int end = oz_work_block_end(w, region);
     OzPicked picked;
     picked.count = 0;
-    for (int first = begin; first < end; first += OZ_PICKED_BLOCKS) {
-        int stop = min(first + OZ_PICKED_BLOCKS, end);
-        for (int block = first; block < stop; block++) {
-            oz_picked_add(&picked, OZ_LANES_IOTA + block * OZ_LANES,
-                          oz_enclosure_sieve(w, side, block));
+    for (int block = oz_work_block_begin(w, region); block < end; block++) {
+        int bits = w->wall_picked[(size_t)block * OZ_WALL_ENDS + side->index];
+        int last = block + 1 == end;
+        if (bits != 0) {
+            oz_picked_add(&picked, OZ_LANES_IOTA + block * OZ_LANES, bits);
         }
-        int due = oz_picked_due(&picked, stop == end);
-        oz_picked_fill(&picked, due);
-        for (int at = 0; at < due; at += OZ_LANES) {
-            oz_enclosure_touch(w, side, picked.item + at, picked.count - at, step);
+        if (last || picked.count >= OZ_PICKED_BLOCKS * OZ_LANES) {
+            int due = oz_picked_due(&picked, last);
+            oz_picked_fill(&picked, due);
+            for (int at = 0; at < due; at += OZ_LANES) {
+                oz_enclosure_touch(w, side, picked.item + at, picked.count - at, step);
+            }
+            oz_picked_drop(&picked, due);
         }
-        oz_picked_drop(&picked, due);
     }
 }
 
 OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
 {
-    for (int index = 0; index < OZ_WALL_ENDS; index++) {
-        oz_enclosure_side_region(w, oz_enclosure_side(w, index, step), region, step);
+    OzSide sides[OZ_WALL_ENDS];
+    for (int k = 0; k < OZ_WALL_ENDS; k++) {
+        sides[k] = oz_enclosure_side(w, k, step);
+    }
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+        oz_enclosure_sieve(w, sides, block);
+    }
+    for (int k = 0; k < OZ_WALL_ENDS; k++) {
+        oz_enclosure_side_region(w, &sides[k], region, step);
     }
 }
 

@@ -25,6 +25,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(real, state, z.blocks *OZ_STATE)                                                             \
     X(real, shape, OZ_EQUAL ? 0 : z.blocks * OZ_SHAPE)                                             \
     X(real, wall_history, OZ_HISTORY ? z.blocks * OZ_WALL_ENDS * 3 : 0)                            \
+    X(integer, wall_picked, z.blocks *OZ_WALL_ENDS)                                                \
     X(scalar, record, (z.slots + 1) * OZ_RECORD)                                                   \
     X(real, reference_inner, z.blocks *OZ_REFERENCE)                                               \
     X(real, reference_outer, z.blocks *OZ_REFERENCE)                                               \
@@ -50,9 +51,10 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(integer, pair_outer, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                          \
     X(scalar, pair_history, OZ_HISTORY ? z.regions * z.inner_capacity * OZ_SPRING : 0)             \
     X(scalar, load, z.slots *OZ_LOAD)                                                              \
-    X(scalar, pair_force, OZ_SCATTER ? 0 : z.regions * z.inner_capacity * OZ_PAIR_FORCE)           \
-    X(scalar, pair_torque, OZ_SCATTER ? 0 : z.regions * z.inner_capacity * OZ_PAIR_TORQUE)         \
+    X(scalar, pair_force, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_FORCE)           \
+    X(scalar, pair_torque, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_TORQUE)         \
     X(integer, pair_picked, z.regions *z.inner_capacity / OZ_LANES)                                \
+    X(integer, pair_kept, OZ_SCATTER ? 0 : z.regions * z.inner_capacity / OZ_LANES)                \
     X(integer, pair_count, z.regions)                                                              \
     X(integer, pair_first, OZ_SCATTER ? 0 : z.slots)                                               \
     X(integer, pair_number, OZ_SCATTER ? 0 : z.slots)                                              \

@@ -46,7 +46,8 @@ typedef struct OzSizes {
     int outer_capacity;   /* pairs of a region's outer list, whole blocks                       */
     int inner_capacity;   /* pairs of a region's inner list, whole blocks                       */
     int back_capacity;    /* pairs of the inner list in which a grain is the second             */
-    int cells_x, cells_y, cells_z; /* powers of two; cell coordinates wrap around                */
+    int axis[3];          /* of space, in the grid's order: cells along the first follow each other */
+    int cells_along[3];   /* those axes; powers of two: cell coordinates wrap around            */
     int cells;
     int motion_steps;     /* steps of one launch for which walls' motion is given                */
     int members;          /* scenes side by side in this launch                                 */

@@ -112,14 +112,15 @@ OZ_INLINE scalar oz_lists_off(int offset, scalar frac, scalar cell)
     return off * cell;
 }
 
-/* One row of cells along x, `off2` (m^2) away across it: only as long as the sphere of reach is wide there. */
-OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar x, scalar off2)
+/* One row of cells along the grid's first axis, `off2` (m^2) away across it: only as long as the sphere of reach
+ * about `at` (m) is wide there. */
+OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar at, scalar off2)
 {
     scalar inverse = w->parameters->inverse_cell;
     scalar width = sqrt(s->far * s->far - off2);
-    int low = (int)floor((x - width) * inverse), high = (int)floor((x + width) * inverse);
-    int start = low & (w->z.cells_x - 1), cells = min(high - low + 1, w->z.cells_x);
-    int stop = min(start + cells, w->z.cells_x), wrapped = start + cells - stop;
+    int low = (int)floor((at - width) * inverse), high = (int)floor((at + width) * inverse);
+    int start = low & (w->z.cells_along[0] - 1), cells = min(high - low + 1, w->z.cells_along[0]);
+    int stop = min(start + cells, w->z.cells_along[0]), wrapped = start + cells - stop;
     oz_lists_sweep(w, s, w->cell_first[row + start], w->cell_first[row + stop]);
     if (wrapped > 0) {
         oz_lists_sweep(w, s, w->cell_first[row], w->cell_first[row + wrapped]);
@@ -132,16 +133,19 @@ OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
     oz_lists_sweep(w, s, 0, w->z.count);
 #else
     global const OzParameters *p = w->parameters;
-    scalar unit = p->length_unit, cell = 1 / p->inverse_cell;
-    scalar x = (scalar)s->spot[0] * unit, y = (scalar)s->spot[1] * unit * p->inverse_cell;
-    scalar z = (scalar)s->spot[2] * unit * p->inverse_cell;
-    int at_y = (int)floor(y), at_z = (int)floor(z);
-    for (int dz = -1; dz <= 1; dz++) {
-        scalar off_z = oz_lists_off(dz, z - at_z, cell);
-        for (int dy = -1; dy <= 1; dy++) {
-            scalar off_y = oz_lists_off(dy, y - at_y, cell), off2 = off_z * off_z + off_y * off_y;
+    scalar cell = 1 / p->inverse_cell, place[3];
+    for (int k = 0; k < 3; k++) {
+        place[k] = (scalar)s->spot[w->z.axis[k]] * p->length_unit;
+    }
+    scalar second = place[1] * p->inverse_cell, third = place[2] * p->inverse_cell;
+    int at_second = (int)floor(second), at_third = (int)floor(third);
+    for (int d3 = -1; d3 <= 1; d3++) {
+        scalar off3 = oz_lists_off(d3, third - at_third, cell);
+        for (int d2 = -1; d2 <= 1; d2++) {
+            scalar off = oz_lists_off(d2, second - at_second, cell), off2 = off3 * off3 + off * off;
             if (off2 < s->far * s->far) {
-                oz_lists_row(w, s, oz_cells_index(w, 0, at_y + dy, at_z + dz), x, off2);
+                int row = oz_cells_index(w, 0, at_second + d2, at_third + d3);
+                oz_lists_row(w, s, row, place[0], off2);
             }
         }
     }

@@ -7,40 +7,52 @@
 
 #if !OZ_SCATTER
 
-/* Whether a pair's force has been kept. */
-OZ_INLINE int oz_loads_picked(const OzWork *w, int pair)
-{
-    return (w->pair_picked[pair / OZ_LANES] >> (pair % OZ_LANES)) & 1;
-}
-
 typedef struct OzSum {
     scalar4 force, torque;
 } OzSum;
+
+/* Where the force of a pair is kept, or the next one's that was picked after it. */
+OZ_INLINE uint oz_loads_from(const OzWork *w, uint pair)
+{
+    uint before = (1u << (pair % OZ_LANES)) - 1;
+    return (uint)w->pair_kept[pair / OZ_LANES] +
+           popcount((uint)w->pair_picked[pair / OZ_LANES] & before);
+}
+
+/* Where the force of a pair is kept: of one that was not picked, the zero behind all of them. By arithmetic:
+ * which ones are picked cannot be foreseen, and a branch guessed wrong costs more than adding nothing. */
+OZ_INLINE uint oz_loads_at(const OzWork *w, uint pair)
+{
+    uint none = (uint)(w->z.regions * w->z.inner_capacity);
+    int picked = (w->pair_picked[pair / OZ_LANES] >> (pair % OZ_LANES)) & 1;
+    return picked ? oz_loads_from(w, pair) : none;
+}
 
 /* Pairs first ... last of a grain's list of those in which it is the second. */
 OZ_INLINE void oz_loads_sum_backs(OzSum *sum, const OzWork *w, int slot, int first, int last)
 {
     global const int *back = w->back + (size_t)slot * w->z.back_capacity;
     for (int k = first; k < last; k++) {
-        global const scalar4 *pair =
-            (global const scalar4 *)(w->pair_force + (size_t)back[k] * OZ_PAIR_FORCE);
-        if (oz_loads_picked(w, back[k])) {
-            sum->force += pair[OZ_F_FORCE / 4];
-            sum->torque += pair[OZ_F_TORQUE / 4];
-        }
+        size_t at = oz_loads_at(w, (uint)back[k]);
+        global const scalar4 *pair = (global const scalar4 *)(w->pair_force + at * OZ_PAIR_FORCE);
+        sum->force += pair[OZ_F_FORCE / 4];
+        sum->torque += pair[OZ_F_TORQUE / 4];
     }
 }
 
-/* Pairs in which a grain is the first. */
+/* Pairs in which a grain is the first: those picked follow each other. */
 OZ_INLINE void oz_loads_sum_own(OzSum *sum, const OzWork *w, int slot)
 {
-    int first = w->pair_first[slot], last = first + w->pair_number[slot];
-    for (int p = first; p < last; p++) {
-        global const scalar *force = w->pair_force + (size_t)p * OZ_PAIR_FORCE + OZ_F_FORCE;
-        if (oz_loads_picked(w, p)) {
-            sum->force -= *(global const scalar4 *)force;
-            sum->torque += *(global const scalar4 *)(w->pair_torque + (size_t)p * OZ_PAIR_TORQUE);
-        }
+    int first = w->pair_first[slot], last = first + w->pair_number[slot] - 1;
+    if (last < first) {
+        return;
+    }
+    uint end = oz_loads_from(w, (uint)last) +
+               (((uint)w->pair_picked[last / OZ_LANES] >> (last % OZ_LANES)) & 1);
+    for (uint at = oz_loads_from(w, (uint)first); at < end; at++) {
+        global const scalar *pair = w->pair_force + (size_t)at * OZ_PAIR_FORCE;
+        sum->force -= *(global const scalar4 *)(pair + OZ_F_FORCE);
+        sum->torque += *(global const scalar4 *)(w->pair_torque + (size_t)at * OZ_PAIR_TORQUE);
     }
 }
 

@@ -1,7 +1,7 @@
 /* Forces between grains. Most listed pairs do not touch: a sieve picks those that do, or nearly so, from the
  * list, and the contact law gets full blocks of them, one pair a lane, each pair once. OpenCL C only.
  * Where one work-item does a whole member it adds a pair's force to both grains' loads at once; otherwise it
- * keeps it beside the list, marked as picked, and the grains gather theirs (loads.h). */
+ * keeps the forces of a region's picked pairs closed up, and the grains gather theirs (loads.h). */
 #ifndef OZ_KERNELS_PAIRS_H
 #define OZ_KERNELS_PAIRS_H
 
@@ -39,6 +39,7 @@ enum {
 /* Picked pairs, their grains' slots and what is known of them. */
 typedef struct OzPairs {
     OzPicked picked;
+    int kept; /* where the first one's force will be kept */
     int a[OZ_PICKED_MOST], b[OZ_PICKED_MOST];
     scalar word[15][OZ_PICKED_MOST];
 } OzPairs;
@@ -150,24 +151,25 @@ OZ_INLINE void oz_pairs_deliver(OzWork *w, const int *a, const int *b, const sca
 
 #else
 
-/* Keeps the pairs' forces beside the list. */
-OZ_INLINE void oz_pairs_keep(OzWork *w, const int *items, const scalar4 *forces,
-                             const scalar4 *torques_a, const scalar4 *torques_b)
+/* Keeps the pairs' forces from `kept` on. */
+OZ_INLINE void oz_pairs_keep(OzWork *w, int kept, const scalar4 *forces, const scalar4 *torques_a,
+                             const scalar4 *torques_b)
 {
+    global scalar4 *to = (global scalar4 *)(w->pair_force + (size_t)kept * OZ_PAIR_FORCE);
+    global scalar4 *torque = (global scalar4 *)(w->pair_torque + (size_t)kept * OZ_PAIR_TORQUE);
 #pragma unroll
     for (int l = 0; l < OZ_LANES; l++) {
-        global scalar4 *to = (global scalar4 *)(w->pair_force + (size_t)items[l] * OZ_PAIR_FORCE);
-        to[OZ_F_FORCE / 4] = forces[l];
-        to[OZ_F_TORQUE / 4] = torques_b[l];
-        *(global scalar4 *)(w->pair_torque + (size_t)items[l] * OZ_PAIR_TORQUE) = torques_a[l];
+        to[2 * l + OZ_F_FORCE / 4] = forces[l];
+        to[2 * l + OZ_F_TORQUE / 4] = torques_b[l];
+        torque[l] = torques_a[l];
     }
 }
 
 #endif
 
-/* Brings the pairs' forces to where the grains find them; `counts` tells lanes that only fill up. */
-OZ_INLINE void oz_pairs_finish(OzWork *w, const int *items, const int *a, const int *b, mask counts,
-                               OzPairForce pair)
+/* Brings the forces of picked pairs from `at` on to where the grains find them; `counts` tells lanes that only fill
+ * up. */
+OZ_INLINE void oz_pairs_finish(OzWork *w, const OzPairs *pairs, int at, mask counts, OzPairForce pair)
 {
     scalar4 forces[OZ_LANES], torques_a[OZ_LANES], torques_b[OZ_LANES];
     if (OZ_SCATTER) {
@@ -179,9 +181,9 @@ OZ_INLINE void oz_pairs_finish(OzWork *w, const int *items, const int *a, const 
     oz_lanes_rows3(pair.torque_a, torques_a);
     oz_lanes_rows3(pair.torque_b, torques_b);
 #if OZ_SCATTER
-    oz_pairs_deliver(w, a, b, forces, torques_a, torques_b);
+    oz_pairs_deliver(w, pairs->a + at, pairs->b + at, forces, torques_a, torques_b);
 #else
-    oz_pairs_keep(w, items, forces, torques_a, torques_b);
+    oz_pairs_keep(w, pairs->kept + at, forces, torques_a, torques_b);
 #endif
 }
 
@@ -209,7 +211,7 @@ OZ_INLINE void oz_pairs_store_springs(OzWork *w, const int *items, OzVec3 spring
 OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count, OzLawConstants law,
                               int step)
 {
-    const int *items = pairs->picked.item + at, *a = pairs->a + at, *b = pairs->b + at;
+    const int *items = pairs->picked.item + at;
     OzGrain one = oz_pairs_grains(w, pairs, 0, at), other = oz_pairs_grains(w, pairs, 1, at);
     OzVec3 apart = oz_pairs_vector(pairs, OZ_P_APART, at);
     OzVec3 springs = oz_pairs_load_springs(w, items);
@@ -220,9 +222,9 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
     if (OZ_HISTORY) {
         oz_pairs_store_springs(w, items, springs);
     }
-    oz_pairs_finish(w, items, a, b, OZ_PICKED_BEFORE(count), pair);
+    oz_pairs_finish(w, pairs, at, OZ_PICKED_BEFORE(count), pair);
     if (OZ_ANY(pair.deep)) {
-        oz_work_stop_lanes(w, pair.deep, OZ_STOP_DEEP, step, a);
+        oz_work_stop_lanes(w, pair.deep, OZ_STOP_DEEP, step, pairs->a + at);
     }
     if (OZ_ANY(pair.crossed)) {
         atomic_inc(&w->control->crossed);
@@ -262,6 +264,9 @@ OZ_INLINE void oz_pairs_sieve(OzWork *w, OzPairs *pairs, int first)
     real words[15] = {apart.x, apart.y, apart.z, one.half_shaft.x, one.half_shaft.y,
                       one.half_shaft.z, other.half_shaft.x, other.half_shaft.y, other.half_shaft.z,
                       at.s, at.t, one.radius, other.radius, one.mass, other.mass};
+#if !OZ_SCATTER
+    w->pair_kept[first / OZ_LANES] = pairs->kept + pairs->picked.count;
+#endif
     oz_pairs_add(pairs, first, a, b, words, bits);
     oz_pairs_part(w, first, bits);
 #if OZ_LEDGER
@@ -275,6 +280,7 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region];
     OzPairs pairs;
     pairs.picked.count = 0;
+    pairs.kept = begin;
 #if OZ_SCATTER
     oz_work_clear_loads(w, region);
 #endif
@@ -289,6 +295,7 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
             oz_pairs_touch(w, &pairs, at, pairs.picked.count - at, law, step);
         }
         oz_pairs_drop(&pairs, due);
+        pairs.kept += due;
     }
 }
 

@@ -68,6 +68,10 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
         oz_resort_in_words((global scalar *)w->wall_history, from + 1 + OZ_STATE + OZ_SHAPE, slot,
                            OZ_RESORT_SPRINGS);
     }
+    for (int k = oz_work_block_begin(w, region) * OZ_WALL_ENDS;
+         k < oz_work_block_end(w, region) * OZ_WALL_ENDS; k++) {
+        w->wall_picked[k] = -1; /* any may have a spring */
+    }
     oz_resort_records(w, region);
 }
 
