@@ -236,3 +236,16 @@ OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControl *control, in
 done:
     return status;
 }
+
+OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool outer)
+{
+    OzStatus status = OZ_OK;
+    bool waits = false;
+    OZ_TRY(bind_all(large, arrays));
+    OZ_TRY(read_control(arrays, control));
+    control->outer_stale = outer;
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+    OZ_TRY(renew(large, arrays, control, &waits));
+done:
+    return status;
+}

@@ -19,4 +19,8 @@ void oz_large_free(OzLarge *large); /* NULL is fine */
  * speaks, a list is full or the host must make one. *control is the state before and after. */
 OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControl *control, int steps);
 
+/* The inner lists anew, and first the outer ones and the order of grains if asked, whether they hold or not: for
+ * timing. The lists must have been made once. */
+OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool outer);
+
 #endif

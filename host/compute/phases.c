@@ -45,6 +45,12 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static double middle(double times[LAUNCHES])
+{
+    qsort(times, LAUNCHES, sizeof times[0], compare);
+    return times[LAUNCHES / 2];
+}
+
 /* Seconds of one repeat of a kernel. */
 static OzStatus time_kernel(OzSim *sim, cl_program program, const char *name, double *seconds)
 {
@@ -65,8 +71,7 @@ static OzStatus time_kernel(OzSim *sim, cl_program program, const char *name, do
     for (int k = 0; k < LAUNCHES; k++) {
         OZ_TRY(time_launch(sim, kernel, index, repeats, &times[k]));
     }
-    qsort(times, LAUNCHES, sizeof times[0], compare);
-    *seconds = times[LAUNCHES / 2] / repeats;
+    *seconds = middle(times) / repeats;
 done:
     if (kernel) {
         clReleaseKernel(kernel);
@@ -88,19 +93,46 @@ static OzStatus set_step(OzSim *sim, double step)
     return oz_sim_write_parameters(sim);
 }
 
+/* Seconds of making the lists of a large scene anew. */
+static OzStatus time_renewal(OzSim *sim, bool outer, double *seconds)
+{
+    OzStatus status = OZ_OK;
+    double times[LAUNCHES];
+    for (int k = 0; k < LAUNCHES; k++) {
+        double start = clock_of(sim->device);
+        OZ_TRY(oz_large_renew(sim->large, &sim->arrays, &sim->control[0], outer));
+        times[k] = clock_of(sim->device) - start;
+    }
+    *seconds = middle(times);
+done:
+    return status;
+}
+
+static OzStatus time_lists(OzPhases *phases, OzSim *sim, cl_program program)
+{
+    OzStatus status = OZ_OK;
+    double rebuilt = NAN;
+    if (sim->large) {
+        OZ_TRY(time_renewal(sim, false, &phases->refresh));
+        OZ_TRY(time_renewal(sim, true, &rebuilt));
+    } else {
+        OZ_TRY(time_kernel(sim, program, "oz_repeat_refresh", &phases->refresh));
+        OZ_TRY(time_kernel(sim, program, "oz_repeat_rebuild", &rebuilt));
+    }
+    phases->rebuild = rebuilt - phases->refresh;
+done:
+    return status;
+}
+
 static OzStatus time_all(OzPhases *phases, OzSim *sim, cl_program whole, cl_program free_of_walls)
 {
     OzStatus status = OZ_OK;
-    double walled = NAN, rebuilt = NAN;
+    double walled = NAN;
     OZ_TRY(time_kernel(sim, whole, "oz_repeat_pairs", &phases->pairs));
     OZ_TRY(time_kernel(sim, whole, "oz_repeat_grains", &walled));
     OZ_TRY(time_kernel(sim, free_of_walls, "oz_repeat_grains", &phases->grains));
     phases->walls = walled - phases->grains;
-    if (!sim->arrays.switches.resort) {
-        OZ_TRY(time_kernel(sim, whole, "oz_repeat_refresh", &phases->refresh));
-        OZ_TRY(time_kernel(sim, whole, "oz_repeat_rebuild", &rebuilt));
-        phases->rebuild = rebuilt - phases->refresh;
-    }
+    OZ_TRY(time_lists(phases, sim, whole));
 done:
     return status;
 }

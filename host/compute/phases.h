@@ -10,8 +10,8 @@ typedef struct OzPhases {
     double pairs;   /* forces between grains                                             */
     double grains;  /* gather, integration, record, guards; walls left out               */
     double walls;   /* what that takes longer with the walls                             */
-    double refresh; /* the inner list anew; small scenes only                            */
-    double rebuild; /* what that takes longer with the outer list anew; small scenes only */
+    double refresh; /* the inner list anew                                               */
+    double rebuild; /* what that takes longer with the outer list anew, and a re-sort     */
 } OzPhases;
 
 /* Repeats each part many times at the state as it is, with a step of no length: the state is the

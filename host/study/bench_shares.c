@@ -36,8 +36,8 @@ static const double piece_seconds = 1.5;
     X(PAIRS, "pairs", "kernel, repeated on a standing bed")                                        \
     X(GRAINS, "gather and integrate", "kernel, repeated on a standing bed, without walls")         \
     X(WALLS, "walls", "kernel, the same with walls, difference")                                   \
-    X(REFRESH, "inner list", "kernel, repeated on a standing bed")                                 \
-    X(REBUILD, "outer list", "kernel, the same with the outer list, difference")                   \
+    X(REFRESH, "inner list", "made anew on a standing bed")                                        \
+    X(REBUILD, "outer list", "the same with the outer list (large beds: and re-sort), difference") \
     X(REST, "the rest", "a whole step less the above: launches, colder caches, what is -")         \
     X(STEP, "whole step", "in launches: median of taps; of a large bed, mean of less")             \
     X(SAMPLE, "samples", "host, beside the step")                                                  \
@@ -183,8 +183,7 @@ static OzStatus time_phases(Shares *s)
     }
     double rest = s->part[PART_STEP].seconds;
     for (int p = 0; p < PART_REST; p++) {
-        double spent = s->part[p].seconds * s->part[p].calls_per_step;
-        rest -= isfinite(spent) ? spent : 0; /* lists of large scenes are part of the rest */
+        rest -= s->part[p].seconds * s->part[p].calls_per_step;
     }
     s->part[PART_REST].seconds = rest;
 done:
