@@ -11,6 +11,24 @@
 /* Where an error of nothing is drawn: below any rounding. */
 #define LEAST_ERROR 1e-17
 
+/* Pixels, and the most lines that the list of settings without a point may take. */
+enum { TITLE_HEIGHT = 44, PANEL_HEIGHT = 656, LIST_LINE = 15, LIST_MOST = 12 };
+
+static int count_bad(const OzReportPoint *points, int count)
+{
+    int bad = 0;
+    for (int i = 0; i < count; i++) {
+        bad += points[i].good ? 0 : 1;
+    }
+    return bad;
+}
+
+static int list_lines(const OzReportPoint *points, int count)
+{
+    int bad = count_bad(points, count);
+    return bad < LIST_MOST ? bad : LIST_MOST;
+}
+
 static bool begins_curve(const OzReportPoint *points, int i)
 {
     for (int before = 0; before < i; before++) {
@@ -100,53 +118,78 @@ static void send_panel(FILE *gnuplot, const OzReportPoint *points, int count, in
     }
 }
 
+/* A text between single quotes, in which gnuplot wants a quote twice. */
+static void send_quoted(FILE *gnuplot, const char *text)
+{
+    fputc('\'', gnuplot);
+    for (; *text; text++) {
+        fputs(*text == '\'' ? "''" : (char[]){*text, '\0'}, gnuplot);
+    }
+    fputc('\'', gnuplot);
+}
+
+/* Line `line` of the list, counted from the picture's lower edge. */
+static void send_left_out(FILE *gnuplot, const char *text, int line, int height)
+{
+    fprintf(gnuplot, "set label %d ", line + 1);
+    send_quoted(gnuplot, text);
+    fprintf(gnuplot, " at screen 0.01,%.4f font ',8'\n", (line + 0.8) * LIST_LINE / height);
+}
+
+/* The settings without a point, below the panels: nothing of theirs is covered. */
+static void send_list(FILE *gnuplot, const OzReportPoint *points, int count, int height)
+{
+    char text[320], method[64];
+    int lines = list_lines(points, count), line = lines, rest = count_bad(points, count);
+    for (int i = 0; i < count && line > 0; i++) {
+        if (!points[i].good) {
+            oz_report_table_method(&points[i], method, sizeof method);
+            snprintf(text, sizeof text, "left out: %s%s%s, %d: %.160s", method,
+                     points[i].label[0] ? ", " : "", points[i].label, points[i].steps,
+                     points[i].reason);
+            if (--line == 0 && rest > 1) {
+                snprintf(text, sizeof text, "left out: %d more, see report.csv", rest);
+            }
+            send_left_out(gnuplot, text, line, height);
+            rest--;
+        }
+    }
+}
+
+/* The two panels side by side, between the title and the list. */
+static void send_panels(FILE *gnuplot, const OzReportPoint *points, int count, int height)
+{
+    double low = (double)(list_lines(points, count) * LIST_LINE) / height;
+    double share = (double)PANEL_HEIGHT / height;
+    fprintf(gnuplot, "set size 0.5,%.4f\nset origin 0,%.4f\n", share, low);
+    fprintf(gnuplot, "set xlabel 'wall seconds per simulated second'\n");
+    send_panel(gnuplot, points, count, 1);
+    fprintf(gnuplot, "unset label\nset origin 0.5,%.4f\n", low);
+    fprintf(gnuplot, "set xlabel 'force evaluations per simulated second'\n");
+    send_panel(gnuplot, points, count, 2);
+}
+
 static void send_picture(FILE *gnuplot, const char *terminal, const char *path, const char *device,
                          const OzReportPoint *points, int count)
 {
     const OzReportCase *row = points[0].row;
-    int bottom = 3; /* lines below the axis: its title, and the key's */
+    int bottom = 4; /* lines below the axis: its title, and the key's */
+    int height = TITLE_HEIGHT + PANEL_HEIGHT + LIST_LINE * list_lines(points, count);
     for (int i = 0; i < count; i++) {
         bottom += begins_curve(points, i) ? 1 : 0;
     }
     fprintf(gnuplot,
-            "set terminal %s size 1500,700 noenhanced font 'DejaVu Sans,11'\nset output '%s'\n"
-            "set multiplot layout 1,2 title \"%s: error in %s; labels: steps per %s; bars: up "
+            "set terminal %s size 1500,%d noenhanced font 'DejaVu Sans,11'\nset output '%s'\n"
+            "set multiplot title \"%s: error in %s; labels: steps per %s; bars: up "
             "to the greatest error of any phase\\n%s\"\n"
             "set logscale xy\nset grid xtics ytics lc rgb '#dddddd'\nset format '%%g'\n"
-            "set ylabel 'RMS error, %s'\nset xlabel 'wall seconds per simulated second'\n"
+            "set ylabel 'RMS error, %s'\n"
             "set key below font ',9' maxcols 2\nset bmargin %d\n",
-            terminal, path, points[0].scene, row->quantity, points[0].cycle, device,
+            terminal, height, path, points[0].scene, row->quantity, points[0].cycle, device,
             row->unit[0] ? row->unit : "as a share", bottom);
-    send_panel(gnuplot, points, count, 1);
-    fprintf(gnuplot, "set xlabel 'force evaluations per simulated second'\n");
-    send_panel(gnuplot, points, count, 2);
+    send_list(gnuplot, points, count, height);
+    send_panels(gnuplot, points, count, height);
     fprintf(gnuplot, "unset multiplot\nset output\n");
-}
-
-static void list_failures(const OzReportPoint *points, int count, FILE *gnuplot)
-{
-    int line = 0;
-    for (int i = 0; i < count && line < 12; i++) {
-        if (!points[i].good) {
-            char method[64];
-            oz_report_table_method(&points[i], method, sizeof method);
-            fprintf(gnuplot,
-                    "set label %d 'left out: %s, %d: %.80s' at graph 0.01,%.3f font ',7' "
-                    "front\n",
-                    line + 1, method, points[i].steps, points[i].reason, 0.02 + 0.025 * line);
-            line++;
-        }
-    }
-}
-
-static bool any_good(const OzReportPoint *points, int count)
-{
-    for (int i = 0; i < count; i++) {
-        if (points[i].good) {
-            return true;
-        }
-    }
-    return false;
 }
 
 OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzReportPoint *points,
@@ -157,7 +200,7 @@ OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzRep
         oz_log_line("no pictures in %s: gnuplot is not installed", folder);
         return OZ_OK;
     }
-    if (!any_good(points, count)) {
+    if (count_bad(points, count) == count) {
         return OZ_OK;
     }
     FILE *gnuplot = popen("gnuplot", "w");
@@ -165,7 +208,6 @@ OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzRep
         return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
     }
     send_data(gnuplot, points, count);
-    list_failures(points, count, gnuplot);
     snprintf(path, sizeof path, "%s/%s.png", folder, points[0].scene);
     send_picture(gnuplot, "pngcairo", path, device, points, count);
     snprintf(path, sizeof path, "%s/%s.svg", folder, points[0].scene);
