@@ -1,9 +1,10 @@
-/* Trigrains on the device: against the host reference, the same bits however the work is cut up,
- * guards. */
+/* Trigrains on the device: against the host reference, in float too, the same bits however the work
+ * is cut up, guards. */
 #include "device_rig.h"
 
 #include "compute/drive.h"
 #include "compute/piece_reference.h"
+#include "model/beam_limits.h"
 
 /* Two dice that meet at once. */
 static const char *const two_dice =
@@ -50,6 +51,25 @@ static const char *const drum =
     "  - {kind: drum, point: [0, 0], diameter: 1.2e-2, teeth: 20, tooth_depth: 5e-4, "
     "motion: {angular_velocity: 20}}\n"
     "observe: {ledger: true, interval: 1e-3}\n";
+
+/* Two dice that meet, one of them over the end of a floor that moves; the switches are those of the
+ * extreme cases, whose kernels serve this too. */
+static const char *const float_dice =
+    "model: trigrains\n"
+    "gravity: [0, 0]\n"
+    "time: {step: 4e-6, duration: 1}\n"
+    "integrator: gear4\n"
+    "grains:\n"
+    "  - {kind: single, shape: square, edge: 2e-3, position: [0, 0], velocity: [0.5, 0], angle: "
+    "30}\n"
+    "  - {kind: single, shape: square, edge: 2e-3, position: [2.2e-3, 0.3e-3], velocity: [0, "
+    "-0.5], "
+    "angle: 30}\n"
+    "walls:\n"
+    "  - {kind: floor, width: 2e-2, point: [1.15e-2, -1.1e-3], motion: {frequency: 100, amplitude: "
+    "1e-4}}\n"
+    "observe: {ledger: true, interval: 1e-3}\n"
+    "precision: %s\n";
 
 typedef struct Scene {
     OzScene scene;
@@ -192,6 +212,39 @@ static void test_walls(void **state)
     compare_with_reference(&s, 7000);
     compare_with_reference(&s, 30000);
     close_scene(&s);
+}
+
+/* In float each of 125 steps rounds a coordinate below 2^-8 m by 2^-33 m at most: pieces go astray
+ * by 1.5e-8 m, and turn by that over 0.3 mm, the least distance of a triangle's edge from its
+ * centre, besides 2^-25 rad a step, the rounding of angles below 1. A piece that is astray swings
+ * at the fastest rate of its grain. A hundredth more of a contact's force, of a beam's or of its
+ * damping takes pieces 4e-8 m astray or more. */
+static void test_float(void **state)
+{
+    enum { STEPS = 125 };
+    (void)state;
+    Scene coarse, fine;
+    OzSimCounts counts;
+    OzBeamLimit limit;
+    open_scene(&coarse, float_dice, "float");
+    open_scene(&fine, float_dice, "double");
+    must(oz_beam_limits_find(&limit, &coarse.scene, &coarse.grains));
+    double way = STEPS * ldexp(1, -33), turn = way / 3e-4 + STEPS * ldexp(1, -25);
+    OzSnapshot a = run_device(&coarse, &rig_device, STEPS, &counts),
+               b = run_reference(&fine, STEPS);
+    int64_t count = a.piece_count;
+    double gap = largest_gap(a.piece_position, b.piece_position, 2 * count);
+    assert_true(gap > 1e-12); /* ten times what double may differ by: it was float */
+    assert_close("positions", gap, way);
+    assert_close("angles", largest_gap(a.piece_angle, b.piece_angle, count), turn);
+    assert_close("velocities", largest_gap(a.piece_velocity, b.piece_velocity, 2 * count),
+                 limit.rate * way);
+    assert_close("spins", largest_gap(a.piece_spin, b.piece_spin, count), limit.rate * turn);
+    assert_memory_equal(a.pieces.touches, b.pieces.touches, sizeof a.pieces.touches);
+    oz_snapshot_free(&a);
+    oz_snapshot_free(&b);
+    close_scene(&coarse);
+    close_scene(&fine);
 }
 
 static void assert_same_piece_bits(const OzSnapshot *a, const OzSnapshot *b)
@@ -347,10 +400,10 @@ static void test_guards(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two_dice),  cmocka_unit_test(test_substeps),
-        cmocka_unit_test(test_heap),      cmocka_unit_test(test_walls),
-        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_members),
-        cmocka_unit_test(test_guards),
+        cmocka_unit_test(test_two_dice), cmocka_unit_test(test_substeps),
+        cmocka_unit_test(test_heap),     cmocka_unit_test(test_walls),
+        cmocka_unit_test(test_float),    cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_members),  cmocka_unit_test(test_guards),
     };
     return cmocka_run_group_tests(tests, open_rig_device, close_rig_device);
 }
