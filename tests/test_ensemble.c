@@ -255,7 +255,7 @@ static void shrink_lists(OzSim *sim)
     tiny.inner_capacity = sim->arrays.switches.lanes;
     tiny.back_capacity = 1;
     must(oz_arrays_resize(&sim->arrays, &tiny));
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         sim->control[m].truth = OZ_TRUTH_NONE;
     }
 }

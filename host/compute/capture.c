@@ -133,8 +133,8 @@ done:
 OzStatus oz_capture_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts)
 {
     OzStatus status = OZ_OK;
-    snapshot->step = sim->reached[member];
-    snapshot->time = (double)snapshot->step * sim->members[member].scene->step;
+    snapshot->step = sim->crew.reached[member];
+    snapshot->time = (double)snapshot->step * sim->crew.members[member].scene->step;
     snapshot->has_contacts = false;
     snapshot->has_ledger = false;
     oz_snapshot_move_walls(snapshot);
@@ -149,13 +149,13 @@ done:
 OzStatus oz_capture_start(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OzSnapshot now;
         OzTouch touch = {0};
         if (sim->control[m].truth != OZ_TRUTH_INNER) {
             continue;
         }
-        OZ_TRY(oz_snapshot_create(&now, sim->members[m].scene, sim->members[m].grains));
+        OZ_TRY(oz_snapshot_create(&now, sim->crew.members[m].scene, sim->crew.members[m].grains));
         status = oz_capture_snapshot(sim, m, &now, false);
         status = status == OZ_OK ? touch_all(sim, m, &now, &touch) : status;
         oz_snapshot_free(&now);

@@ -112,7 +112,7 @@ done:
 /* Half-length + radius in the device's precision, which decides a pair's order. */
 static double reach(const Work *w, int id)
 {
-    const OzGrains *grains = w->sim->members[w->member].grains;
+    const OzGrains *grains = w->sim->crew.members[w->member].grains;
     double radius = grains->diameter[id] / 2, half_length = grains->length[id] / 2;
     return switches_of(w)->is_double ? radius + half_length
                                      : (double)((float)radius + (float)half_length);
@@ -167,7 +167,7 @@ static OzStatus make_room(Work *w)
         return OZ_OK;
     }
     oz_sizes_grow(&sizes, &needed, switches_of(w));
-    w->sim->counts.growths++;
+    w->sim->crew.counts.growths++;
     return oz_arrays_resize(&w->sim->arrays, &sizes);
 }
 
@@ -265,7 +265,7 @@ static OzStatus make_list(Work *w)
 {
     OzStatus status = OZ_OK;
     OzControl *control = &w->sim->control[w->member];
-    const OzMember *member = &w->sim->members[w->member];
+    const OzMember *member = &w->sim->crew.members[w->member];
     OZ_TRY(oz_snapshot_create(&w->now, member->scene, member->grains));
     OZ_TRY(oz_pack_state(&w->sim->arrays, w->member, &w->sim->parameters[w->member], &w->now));
     OZ_TRY(download(w, OZ_FIELD_id, &w->id));
@@ -303,7 +303,7 @@ OzStatus oz_host_lists_make(OzSim *sim)
 {
     OzStatus status = OZ_OK;
     bool made = false;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         if (sim->arrays.switches.host_lists && waits(&sim->control[m])) {
             Work work = {.sim = sim, .member = m};
             status = make_list(&work);
@@ -314,7 +314,7 @@ OzStatus oz_host_lists_make(OzSim *sim)
     }
     if (!made) {
         status = oz_status_fail(OZ_ERR_DEVICE, "%s: the device stopped without a reason",
-                                sim->members[0].scene->path);
+                                sim->crew.members[0].scene->path);
     }
 done:
     return status;

@@ -16,7 +16,7 @@
 static OzStatus write_control(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_control, m, &sim->control[m],
                                sizeof(OzControl)));
     }
@@ -27,7 +27,7 @@ done:
 static OzStatus read_control(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(
             oz_arrays_read(&sim->arrays, OZ_FIELD_control, m, &sim->control[m], sizeof(OzControl)));
     }
@@ -39,14 +39,14 @@ done:
 static OzStatus write_motion(OzSim *sim, int member, int64_t first, int steps)
 {
     OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[member].scene;
+    const OzScene *scene = sim->crew.members[member].scene;
     int walls = sim->arrays.switches.planes + sim->arrays.switches.cylinders;
     size_t count = 2 * (size_t)(steps + 1) * (size_t)walls;
     double *motion = NULL;
     void *narrow = NULL;
     OZ_TRY(OZ_NEW(&motion, count));
     OZ_TRY(oz_memory_new(&narrow, count, sizeof(double), "wall motion"));
-    for (int k = 0; k < (sim->walls_still ? 0 : steps + 1); k++) {
+    for (int k = 0; k < (sim->crew.walls_still ? 0 : steps + 1); k++) {
         double time = (double)(sim->parameters[member].dt > 0 ? first + k : first) * scene->step;
         for (int w = 0; w < walls; w++) {
             double *words = motion + 2 * ((size_t)k * (size_t)walls + (size_t)w);
@@ -71,7 +71,7 @@ static OzStatus enqueue(OzSim *sim, cl_kernel kernel, int last)
     OzStatus status = OZ_OK;
     cl_uint next = 0;
     size_t group = (size_t)sim->arrays.switches.group;
-    size_t all = group * (size_t)sim->member_count;
+    size_t all = group * (size_t)sim->crew.member_count;
     OZ_TRY(oz_arrays_bind(&sim->arrays, kernel, &next));
     if (last >= 0) {
         CL_TRY(clSetKernelArg(kernel, next, sizeof last, &last));
@@ -105,16 +105,17 @@ static OzStatus grow_lists(OzSim *sim)
 {
     OzStatus status = OZ_OK;
     OzSizes sizes = sim->arrays.sizes;
-    if (sim->member_count > 1) {
+    if (sim->crew.member_count > 1) {
         OZ_TRY(shelve(sim));
     }
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         oz_sizes_grow(&sizes, &sim->control[m], &sim->arrays.switches);
         sim->control[m].full = 0;
     }
-    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d", (long long)sim->step,
-                  sizes.outer_capacity, sizes.inner_capacity, sizes.back_capacity);
-    sim->counts.growths++;
+    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d",
+                  (long long)sim->crew.step, sizes.outer_capacity, sizes.inner_capacity,
+                  sizes.back_capacity);
+    sim->crew.counts.growths++;
     OZ_TRY(oz_arrays_resize(&sim->arrays, &sizes));
 done:
     return status;
@@ -139,10 +140,10 @@ static OzStatus finish_launch(OzSim *sim, int steps)
             OZ_TRY(enqueue(sim, sim->advance, steps));
             OZ_TRY(read_control(sim));
         }
-        sim->counts.launches++;
+        sim->crew.counts.launches++;
         bool full = false;
         more = false;
-        for (int m = 0; m < sim->member_count; m++) {
+        for (int m = 0; m < sim->crew.member_count; m++) {
             full |= sim->control[m].full != 0;
             more |= !is_through(&sim->control[m], steps);
         }
@@ -156,77 +157,51 @@ done:
     return status;
 }
 
-static bool goes_on(const OzSim *sim, int member)
-{
-    return !sim->waits[member] && !sim->stopped[member];
-}
-
 /* A member that does not go on is at the launch's end already. */
 static OzStatus begin_launch(OzSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
-        sim->control[m].step = goes_on(sim, m) ? 0 : steps;
-        if (goes_on(sim, m)) {
-            OZ_TRY(write_motion(sim, m, sim->step, steps));
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        sim->control[m].step = oz_crew_goes_on(&sim->crew, m) ? 0 : steps;
+        if (oz_crew_goes_on(&sim->crew, m)) {
+            OZ_TRY(write_motion(sim, m, sim->crew.step, steps));
         }
     }
 done:
     return status;
 }
 
-/* Counts each member's steps and notes which ones a guard stopped; *made receives the most that any
- * made. */
-static OzStatus end_launch(OzSim *sim, int steps, int *made)
+/* Counts each member's steps and notes which ones a guard stopped. Fails with
+ * OZ_ERR_BLOWUP when none is left. */
+static OzStatus end_launch(OzSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
-    *made = 0;
-    for (int m = 0; m < sim->member_count; m++) {
+    int most = 0;
+    for (int m = 0; m < sim->crew.member_count; m++) {
         const OzControl *control = &sim->control[m];
-        if (!goes_on(sim, m)) {
+        if (!oz_crew_goes_on(&sim->crew, m)) {
             continue;
         }
         int own = control->stop_bits ? control->stop_step + 1 : steps;
-        sim->reached[m] += own;
-        *made = own > *made ? own : *made;
+        oz_crew_count(&sim->crew, m, own, &most);
         if (control->stop_bits) {
-            oz_guard_fail(control, sim->members[m].scene, sim->reached[m], sim->walls_still);
-            OZ_TRY(oz_memory_text(&sim->stopped[m], oz_status_text()));
+            oz_guard_fail(control, sim->crew.members[m].scene, sim->crew.reached[m],
+                          sim->crew.walls_still);
+            OZ_TRY(oz_crew_stop(&sim->crew, m));
         }
     }
+    status = oz_crew_end_launch(&sim->crew, steps, most);
 done:
     return status;
-}
-
-static bool all_stopped(const OzSim *sim)
-{
-    for (int m = 0; m < sim->member_count; m++) {
-        if (!sim->stopped[m]) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static OzStatus none_is_left(const OzSim *sim)
-{
-    return oz_status_fail(OZ_ERR_BLOWUP, "%s", sim->stopped[sim->member_count - 1]);
 }
 
 OzStatus oz_launch_steps(OzSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
-    int made = 0;
-    if (all_stopped(sim)) {
-        return none_is_left(sim);
-    }
+    OZ_TRY(oz_crew_check(&sim->crew));
     OZ_TRY(begin_launch(sim, steps));
     OZ_TRY(finish_launch(sim, steps));
-    OZ_TRY(end_launch(sim, steps, &made));
-    made = all_stopped(sim) ? made : steps;
-    sim->step += made;
-    sim->counts.steps += made;
-    status = all_stopped(sim) ? none_is_left(sim) : OZ_OK;
+    OZ_TRY(end_launch(sim, steps));
 done:
     return status;
 }

@@ -33,21 +33,21 @@ done:
 OzStatus oz_piece_capture_snapshot(OzPieceSim *sim, int member, OzSnapshot *snapshot, bool contacts)
 {
     OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[member].scene;
-    snapshot->step = sim->reached[member];
+    const OzScene *scene = sim->crew.members[member].scene;
+    snapshot->step = sim->crew.reached[member];
     snapshot->time = (double)snapshot->step * scene->step;
     snapshot->has_contacts = false;
     snapshot->has_ledger = false;
     oz_snapshot_move_walls(snapshot);
     OZ_TRY(oz_piece_pack_state(&sim->arrays, member, scene, snapshot));
-    oz_wall_motion_place(snapshot->grains->pieces, scene, snapshot->time, sim->walls_still,
+    oz_wall_motion_place(snapshot->grains->pieces, scene, snapshot->time, sim->crew.walls_still,
                          snapshot->piece_position, snapshot->piece_angle, snapshot->piece_velocity,
                          snapshot->piece_spin);
     oz_snapshot_join_pieces(snapshot);
-    if (contacts && !sim->stopped[member]) {
+    if (contacts && !sim->crew.stopped[member]) {
         OZ_TRY(oz_piece_forces_sums(snapshot));
     }
-    if (contacts && !sim->stopped[member] && sim->arrays.switches.ledger) {
+    if (contacts && !sim->crew.stopped[member] && sim->arrays.switches.ledger) {
         OZ_TRY(read_ledger(sim, member, &snapshot->piece_ledger));
         snapshot->has_ledger = true;
     }

@@ -17,7 +17,7 @@
 static OzStatus write_control(OzPieceSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_piece_arrays_write(&sim->arrays, OZ_PIECE_FIELD_control, m, &sim->control[m],
                                      sizeof(OzPieceControl)));
     }
@@ -28,7 +28,7 @@ done:
 static OzStatus read_control(OzPieceSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_piece_arrays_read(&sim->arrays, OZ_PIECE_FIELD_control, m, &sim->control[m],
                                     sizeof(OzPieceControl)));
     }
@@ -38,22 +38,23 @@ done:
 
 static OzWallPose pose_at(const OzPieceSim *sim, int member, int wall, int64_t step)
 {
-    const OzScene *scene = sim->members[member].scene;
-    return oz_wall_motion_pose(&scene->walls[wall], (double)step * scene->step, sim->walls_still);
+    const OzScene *scene = sim->crew.members[member].scene;
+    return oz_wall_motion_pose(&scene->walls[wall], (double)step * scene->step,
+                               sim->crew.walls_still);
 }
 
 static bool is_there(const OzPieceSim *sim, int member, int wall, int64_t step)
 {
-    const OzScene *scene = sim->members[member].scene;
+    const OzScene *scene = sim->crew.members[member].scene;
     return oz_wall_motion_present(&scene->walls[wall], (double)step * scene->step,
-                                  sim->walls_still);
+                                  sim->crew.walls_still);
 }
 
 /* The walls whose pieces are there at a step. */
 static unsigned present_at(const OzPieceSim *sim, int member, int64_t step)
 {
     unsigned present = 0;
-    for (int w = 0; w < sim->members[member].scene->wall_count; w++) {
+    for (int w = 0; w < sim->crew.members[member].scene->wall_count; w++) {
         present |= is_there(sim, member, w, step) ? 1U << w : 0;
     }
     return present;
@@ -64,13 +65,13 @@ static unsigned present_at(const OzPieceSim *sim, int member, int64_t step)
 static int64_t steps_alike(const OzPieceSim *sim, int member, int64_t steps)
 {
     int64_t low = 1, high = steps;
-    unsigned first = present_at(sim, member, sim->step + 1);
-    if (present_at(sim, member, sim->step + steps) == first) {
+    unsigned first = present_at(sim, member, sim->crew.step + 1);
+    if (present_at(sim, member, sim->crew.step + steps) == first) {
         return steps; /* a wall that has gone never comes back */
     }
     while (high - low > 1) {
         int64_t middle = (low + high) / 2;
-        *(present_at(sim, member, sim->step + middle) == first ? &low : &high) = middle;
+        *(present_at(sim, member, sim->crew.step + middle) == first ? &low : &high) = middle;
     }
     return low;
 }
@@ -79,7 +80,7 @@ static int64_t steps_alike(const OzPieceSim *sim, int member, int64_t steps)
 static OzStatus write_motion(OzPieceSim *sim, int member, int steps)
 {
     OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[member].scene;
+    const OzScene *scene = sim->crew.members[member].scene;
     int walls = sim->arrays.sizes.walls;
     size_t count = (size_t)(steps + 1) * (size_t)walls * OZ_PIECE_MOTION;
     double *motion = NULL;
@@ -90,7 +91,7 @@ static OzStatus write_motion(OzPieceSim *sim, int member, int steps)
     for (int k = 0; k <= steps; k++) {
         for (int w = 0; w < scene->wall_count; w++) {
             double *words = motion + ((size_t)k * (size_t)walls + (size_t)w) * OZ_PIECE_MOTION;
-            OzWallPose pose = pose_at(sim, member, w, sim->step + k);
+            OzWallPose pose = pose_at(sim, member, w, sim->crew.step + k);
             words[OZ_PM_OFFSET] = pose.rise;
             words[OZ_PM_COS] = cos(pose.turn);
             words[OZ_PM_SIN] = sin(pose.turn);
@@ -115,7 +116,7 @@ static OzStatus enqueue(OzPieceSim *sim, cl_kernel kernel, int last)
     OzStatus status = OZ_OK;
     cl_uint next = 0;
     size_t group = (size_t)sim->arrays.switches.group;
-    size_t all = group * (size_t)sim->member_count;
+    size_t all = group * (size_t)sim->crew.member_count;
     OZ_TRY(oz_piece_arrays_bind(&sim->arrays, kernel, &next));
     if (last >= 0) {
         CL_TRY(clSetKernelArg(kernel, next, sizeof last, &last));
@@ -132,14 +133,15 @@ static OzStatus grow_lists(OzPieceSim *sim)
 {
     OzStatus status = OZ_OK;
     OzPieceSizes sizes = sim->arrays.sizes;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         oz_piece_sizes_grow(&sizes, &sim->control[m], &sim->arrays.switches);
         sim->control[m].full = 0;
         sim->control[m].outer_holds = sim->control[m].inner_holds = 0;
     }
-    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d", (long long)sim->step,
-                  sizes.outer_capacity, sizes.inner_capacity, sizes.back_capacity);
-    sim->counts.growths++;
+    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d",
+                  (long long)sim->crew.step, sizes.outer_capacity, sizes.inner_capacity,
+                  sizes.back_capacity);
+    sim->crew.counts.growths++;
     OZ_TRY(oz_piece_arrays_resize(&sim->arrays, &sizes));
 done:
     return status;
@@ -159,9 +161,9 @@ static OzStatus finish_launch(OzPieceSim *sim, int steps)
         OZ_TRY(write_control(sim));
         OZ_TRY(enqueue(sim, sim->advance, steps));
         OZ_TRY(read_control(sim));
-        sim->counts.launches++;
+        sim->crew.counts.launches++;
         more = false;
-        for (int m = 0; m < sim->member_count; m++) {
+        for (int m = 0; m < sim->crew.member_count; m++) {
             full |= sim->control[m].full != 0;
             more |= !is_through(&sim->control[m], steps);
         }
@@ -173,23 +175,18 @@ done:
     return status;
 }
 
-static bool goes_on(const OzPieceSim *sim, int member)
-{
-    return !sim->waits[member] && !sim->stopped[member];
-}
-
 /* A member that does not go on is at the launch's end already. */
 static OzStatus begin_launch(OzPieceSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
-        sim->control[m].step = goes_on(sim, m) ? 0 : steps;
-        if (!goes_on(sim, m)) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        sim->control[m].step = oz_crew_goes_on(&sim->crew, m) ? 0 : steps;
+        if (!oz_crew_goes_on(&sim->crew, m)) {
             continue;
         }
-        unsigned present = present_at(sim, m, sim->step + 1);
+        unsigned present = present_at(sim, m, sim->crew.step + 1);
         if (present != sim->present[m]) {
-            OZ_TRY(oz_piece_pack_bodies(&sim->arrays, m, sim->members[m].grains, present));
+            OZ_TRY(oz_piece_pack_bodies(&sim->arrays, m, sim->crew.members[m].grains, present));
             sim->control[m].outer_holds = sim->control[m].inner_holds = 0;
             sim->present[m] = present;
         }
@@ -199,71 +196,52 @@ done:
     return status;
 }
 
-/* Counts each member's steps and notes which ones a guard stopped; *made receives the most that any
- * made. */
-static OzStatus end_launch(OzPieceSim *sim, int steps, int *made)
+/* Counts each member's steps and notes which ones a guard stopped. Fails with
+ * OZ_ERR_BLOWUP when none is left. */
+static OzStatus end_launch(OzPieceSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
-    *made = 0;
-    for (int m = 0; m < sim->member_count; m++) {
+    int most = 0;
+    for (int m = 0; m < sim->crew.member_count; m++) {
         const OzPieceControl *control = &sim->control[m];
-        if (!goes_on(sim, m)) {
+        if (!oz_crew_goes_on(&sim->crew, m)) {
             continue;
         }
         int own = control->stop_bits ? control->stop_step + 1 : steps;
-        sim->reached[m] += own;
-        *made = own > *made ? own : *made;
+        oz_crew_count(&sim->crew, m, own, &most);
         if (control->stop_bits) {
-            oz_piece_guard_fail(control, &sim->members[m], sim->reached[m], sim->walls_still);
-            OZ_TRY(oz_memory_text(&sim->stopped[m], oz_status_text()));
+            oz_piece_guard_fail(control, &sim->crew.members[m], sim->crew.reached[m],
+                                sim->crew.walls_still);
+            OZ_TRY(oz_crew_stop(&sim->crew, m));
         }
     }
+    status = oz_crew_end_launch(&sim->crew, steps, most);
 done:
     return status;
-}
-
-static bool all_stopped(const OzPieceSim *sim)
-{
-    for (int m = 0; m < sim->member_count; m++) {
-        if (!sim->stopped[m]) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static OzStatus none_is_left(const OzPieceSim *sim)
-{
-    return oz_status_fail(OZ_ERR_BLOWUP, "%s", sim->stopped[sim->member_count - 1]);
 }
 
 OzStatus oz_piece_launch_steps(OzPieceSim *sim, int64_t wanted, int *made)
 {
     OzStatus status = OZ_OK;
-    *made = 0;
-    if (all_stopped(sim)) {
-        return none_is_left(sim);
-    }
+    int64_t first = sim->crew.step;
+    OZ_TRY(oz_crew_check(&sim->crew));
     int64_t steps =
         wanted < sim->arrays.sizes.motion_steps ? wanted : sim->arrays.sizes.motion_steps;
-    for (int m = 0; m < sim->member_count; m++) {
-        steps = goes_on(sim, m) ? steps_alike(sim, m, steps) : steps;
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        steps = oz_crew_goes_on(&sim->crew, m) ? steps_alike(sim, m, steps) : steps;
     }
     OZ_TRY(begin_launch(sim, (int)steps));
     OZ_TRY(finish_launch(sim, (int)steps));
-    OZ_TRY(end_launch(sim, (int)steps, made));
-    *made = all_stopped(sim) ? *made : (int)steps;
-    sim->step += *made;
-    sim->counts.steps += *made;
-    status = all_stopped(sim) ? none_is_left(sim) : OZ_OK;
+    OZ_TRY(end_launch(sim, (int)steps));
 done:
+    *made = (int)(sim->crew.step - first);
     return status;
 }
 
 OzStatus oz_piece_launch_begin(OzPieceSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(write_motion(sim, m, 0));
     }
     OZ_TRY(write_control(sim));

@@ -25,10 +25,10 @@ static OzStatus energy_ratio(OzPieceSim *sim, int member, double *ratio)
 {
     OzStatus status = OZ_OK;
     OzSnapshot now = {0};
-    const OzGrains *grains = sim->members[member].grains;
+    const OzGrains *grains = sim->crew.members[member].grains;
     const OzPieces *pieces = grains->pieces;
-    double energy = 0, scale = 0, gravity = gravity_of(sim->members[member].scene);
-    OZ_TRY(oz_snapshot_create(&now, sim->members[member].scene, grains));
+    double energy = 0, scale = 0, gravity = gravity_of(sim->crew.members[member].scene);
+    OZ_TRY(oz_snapshot_create(&now, sim->crew.members[member].scene, grains));
     OZ_TRY(oz_piece_capture_snapshot(sim, member, &now, false));
     for (int64_t i = 0; i < pieces->free_count; i++) {
         const double *v = &now.piece_velocity[2 * i], w = now.piece_spin[i];
@@ -46,7 +46,7 @@ done:
 
 static OzStatus set_drag(OzPieceSim *sim, double drag)
 {
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         sim->parameters[m].drag = drag;
     }
     return oz_piece_sim_write_parameters(sim);
@@ -68,17 +68,17 @@ static OzStatus judge(OzPieceSim *sim, double *worst, int *going)
     OzStatus status = OZ_OK;
     *worst = 0;
     *going = 0;
-    for (int m = 0; m < sim->member_count; m++) {
-        const OzMember *member = &sim->members[m];
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        const OzMember *member = &sim->crew.members[m];
         double ratio = 0;
-        if (sim->waits[m] || sim->stopped[m]) {
+        if (sim->crew.waits[m] || sim->crew.stopped[m]) {
             continue;
         }
         OZ_TRY(energy_ratio(sim, m, &ratio));
-        bool old_enough = sim->step >= first_judgement(member->scene, member->grains);
-        sim->waits[m] = old_enough && ratio < member->scene->settle.threshold;
+        bool old_enough = sim->crew.step >= first_judgement(member->scene, member->grains);
+        sim->crew.waits[m] = old_enough && ratio < member->scene->settle.threshold;
         *worst = ratio > *worst ? ratio : *worst;
-        *going += !sim->waits[m];
+        *going += !sim->crew.waits[m];
     }
 done:
     return status;
@@ -87,7 +87,7 @@ done:
 static OzStatus advance(OzPieceSim *sim, int64_t step)
 {
     OzStatus status = OZ_OK;
-    while (status == OZ_OK && sim->step < step) {
+    while (status == OZ_OK && sim->crew.step < step) {
         status = oz_piece_sim_launch(sim, step);
     }
     return status;
@@ -98,17 +98,17 @@ static OzStatus run_for(OzPieceSim *sim, int64_t steps, bool judging, OzSettleWa
                         void *context)
 {
     OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[0].scene;
+    const OzScene *scene = sim->crew.members[0].scene;
     double worst = 0;
-    int going = sim->member_count;
-    int64_t last = sim->step + steps;
-    while (sim->step < last && going > 0) {
-        int64_t next = sim->step + JUDGE_STEPS;
+    int going = sim->crew.member_count;
+    int64_t last = sim->crew.step + steps;
+    while (sim->crew.step < last && going > 0) {
+        int64_t next = sim->crew.step + JUDGE_STEPS;
         OZ_TRY(advance(sim, next < last ? next : last));
         if (judging) {
             OZ_TRY(judge(sim, &worst, &going));
         }
-        if (watch && !watch(context, (double)sim->step * scene->step, worst)) {
+        if (watch && !watch(context, (double)sim->crew.step * scene->step, worst)) {
             status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while settling");
             goto done;
         }
@@ -127,14 +127,14 @@ static OzStatus start_clock(OzPieceSim *sim)
 {
     OzStatus status = OZ_OK;
     static const OzPieceLedger none;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_piece_pack_ledger(&sim->arrays, m, &none));
         sim->control[m].refreshes = sim->control[m].rebuilds = 0;
-        sim->reached[m] = 0;
+        sim->crew.reached[m] = 0;
     }
-    sim->step = 0;
-    sim->walls_still = false;
-    sim->counts = (OzSimCounts){0};
+    sim->crew.step = 0;
+    sim->crew.walls_still = false;
+    sim->crew.counts = (OzSimCounts){0};
 done:
     return status;
 }
@@ -147,7 +147,7 @@ static int64_t steps_of(const OzScene *scene, double time)
 OzStatus oz_piece_settle_run(OzPieceSim *sim, double *seconds, OzSettleWatch watch, void *context)
 {
     OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[0].scene;
+    const OzScene *scene = sim->crew.members[0].scene;
     *seconds = 0;
     if (!scene->settle.present || sim->arrays.sizes.free_slots == 0) {
         return OZ_OK;
@@ -155,9 +155,9 @@ OzStatus oz_piece_settle_run(OzPieceSim *sim, double *seconds, OzSettleWatch wat
     OZ_TRY(set_drag(sim, scene->settle.drag));
     OZ_TRY(run_for(sim, steps_of(scene, scene->settle.time_max), true, watch, context));
     OZ_TRY(set_drag(sim, 0));
-    memset(sim->waits, 0, (size_t)sim->member_count * sizeof *sim->waits);
+    memset(sim->crew.waits, 0, (size_t)sim->crew.member_count * sizeof *sim->crew.waits);
     OZ_TRY(run_for(sim, steps_of(scene, scene->settle.rest_time), false, watch, context));
-    *seconds = (double)sim->step * scene->step;
+    *seconds = (double)sim->crew.step * scene->step;
     OZ_TRY(start_clock(sim));
 done:
     return status;

@@ -18,11 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A launch is kept below this so that Ctrl-C and watchdogs are served, s. */
-static const double launch_seconds = 0.04;
-
-enum { FIRST_LAUNCH = 16 };
-
 /* The device's idea of the shared structs against ours. */
 static OzStatus check_layout(const OzPieceSim *sim, const OzPieceSwitches *switches)
 {
@@ -37,7 +32,7 @@ static OzStatus check_layout(const OzPieceSim *sim, const OzPieceSwitches *switc
 OzStatus oz_piece_sim_write_parameters(OzPieceSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_piece_pack_parameters(&sim->arrays, m, &sim->parameters[m]));
     }
 done:
@@ -111,7 +106,7 @@ static OzStatus upload_member(OzPieceSim *sim, int m)
 {
     OzStatus status = OZ_OK;
     OzPieceStart start = {0};
-    const OzMember *member = &sim->members[m];
+    const OzMember *member = &sim->crew.members[m];
     const OzPieces *pieces = member->grains->pieces;
     OZ_TRY(derive_start(&start, member, sim->arrays.switches.substeps > 1));
     OZ_TRY(oz_piece_pack_start(&sim->arrays, m, member->scene, member->grains, &start));
@@ -132,7 +127,7 @@ done:
 static OzStatus upload_start(OzPieceSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(upload_member(sim, m));
     }
     OZ_TRY(oz_piece_sim_write_parameters(sim));
@@ -145,13 +140,13 @@ done:
 static OzStatus choose_layout(OzPieceSim *sim, OzPieceSwitches *switches, OzPieceSizes *sizes)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
-        const OzMember *member = &sim->members[m];
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        const OzMember *member = &sim->crew.members[m];
         OzPieceSizes own;
         *switches = oz_piece_switches_derive(member->scene, member->grains, sim->device);
         OZ_TRY(oz_piece_sizes_parameters(&sim->parameters[m], member->scene, member->grains));
         oz_piece_sizes_choose(&own, &sim->parameters[m], member->scene, member->grains, switches);
-        if (m > 0 && !oz_piece_company_fits(sim->device, &sim->members[0], member)) {
+        if (m > 0 && !oz_piece_company_fits(sim->device, &sim->crew.members[0], member)) {
             status = oz_status_fail(OZ_ERR_INPUT,
                                     "%s: members of one launch must have the same features, walls, "
                                     "step and settling",
@@ -201,17 +196,11 @@ OzStatus oz_piece_sim_create(OzPieceSim **out, const OzDevice *device, const OzM
     *out = NULL;
     OZ_TRY(OZ_NEW(&sim, 1));
     sim->device = device;
-    sim->member_count = member_count;
-    sim->launch_steps = FIRST_LAUNCH;
-    sim->walls_still = members[0].scene->settle.present;
-    OZ_TRY(OZ_NEW(&sim->members, member_count));
+    OZ_TRY(oz_crew_create(&sim->crew, members, member_count));
+    sim->crew.walls_still = members[0].scene->settle.present;
     OZ_TRY(OZ_NEW(&sim->parameters, member_count));
     OZ_TRY(OZ_NEW(&sim->control, member_count));
     OZ_TRY(OZ_NEW(&sim->present, member_count));
-    OZ_TRY(OZ_NEW(&sim->reached, member_count));
-    OZ_TRY(OZ_NEW(&sim->waits, member_count));
-    OZ_TRY(OZ_NEW(&sim->stopped, member_count));
-    memcpy(sim->members, members, (size_t)member_count * sizeof *members);
     OZ_TRY(choose_layout(sim, &switches, &sizes));
     OZ_TRY(build(sim, &switches, source_dir));
     OZ_TRY(oz_piece_arrays_create(&sim->arrays, device, &switches, &sizes));
@@ -238,74 +227,49 @@ void oz_piece_sim_free(OzPieceSim *sim)
     if (sim->program) {
         clReleaseProgram(sim->program);
     }
-    for (int m = 0; sim->stopped && m < sim->member_count; m++) {
-        free(sim->stopped[m]);
-    }
-    free(sim->members);
+    oz_crew_free(&sim->crew);
     free(sim->parameters);
     free(sim->control);
     free(sim->present);
-    free(sim->reached);
-    free(sim->waits);
-    free(sim->stopped);
     free(sim);
-}
-
-static bool has_pieces(const OzPieceSim *sim)
-{
-    return sim->arrays.sizes.free_slots > 0;
-}
-
-/* Nothing to move: the clock alone goes on. */
-static void skip_to(OzPieceSim *sim, int64_t step)
-{
-    sim->step = step > sim->step ? step : sim->step;
-    for (int m = 0; m < sim->member_count; m++) {
-        sim->reached[m] = sim->step;
-    }
 }
 
 OzStatus oz_piece_sim_launch(OzPieceSim *sim, int64_t step)
 {
     OzStatus status = OZ_OK;
     int made = 0;
-    if (sim->step >= step || !has_pieces(sim)) {
-        skip_to(sim, step);
+    if (sim->crew.step >= step || sim->arrays.sizes.free_slots == 0) {
+        oz_crew_skip(&sim->crew, step);
         goto done;
     }
-    int64_t left = step - sim->step;
-    int steps = left < sim->launch_steps ? (int)left : sim->launch_steps;
+    int steps = oz_crew_launch_steps(&sim->crew, step);
     double start = oz_clock_now();
     OZ_TRY(oz_piece_launch_steps(sim, steps, &made));
-    double wanted = launch_seconds / ((oz_clock_now() - start) / fmax(made, 1));
-    double most = fmin(4.0 * sim->launch_steps, sim->arrays.sizes.motion_steps);
-    if (made == sim->launch_steps || wanted < sim->launch_steps) {
-        sim->launch_steps = (int)fmax(1, fmin(wanted, most));
-    }
+    oz_crew_note_launch(&sim->crew, made, oz_clock_now() - start, sim->arrays.sizes.motion_steps);
 done:
     return status;
 }
 
 int64_t oz_piece_sim_step(const OzPieceSim *sim)
 {
-    return sim->step;
+    return sim->crew.step;
 }
 
 const char *oz_piece_sim_stopped(const OzPieceSim *sim, int member)
 {
-    return sim->stopped[member];
+    return sim->crew.stopped[member];
 }
 
 OzSimCounts oz_piece_sim_counts(const OzPieceSim *sim)
 {
-    OzSimCounts counts = sim->counts;
+    OzSimCounts counts = sim->crew.counts;
     counts.refreshes = counts.rebuilds = counts.crossed = 0;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         counts.refreshes += sim->control[m].refreshes;
         counts.rebuilds += sim->control[m].rebuilds;
     }
-    counts.refreshes /= sim->member_count;
-    counts.rebuilds /= sim->member_count;
+    counts.refreshes /= sim->crew.member_count;
+    counts.rebuilds /= sim->crew.member_count;
     return counts;
 }
 

@@ -50,7 +50,7 @@ OzStatus oz_probe_read(OzProbe *probe, const OzSim *sim)
 {
     OzStatus status = OZ_OK;
     const OzSwitches *s = &sim->arrays.switches;
-    *probe = (OzProbe){.grains = (int64_t)sim->arrays.sizes.count * sim->member_count,
+    *probe = (OzProbe){.grains = (int64_t)sim->arrays.sizes.count * sim->crew.member_count,
                        .walls = s->planes + s->cylinders,
                        .is_double = s->is_double,
                        .history = s->history,
@@ -58,9 +58,9 @@ OzStatus oz_probe_read(OzProbe *probe, const OzSim *sim)
                        .round = s->round};
     for (int f = 0; f < OZ_FIELD_COUNT; f++) {
         probe->bytes +=
-            sim->member_count * (int64_t)oz_arrays_bytes((OzFieldId)f, s, &sim->arrays.sizes);
+            sim->crew.member_count * (int64_t)oz_arrays_bytes((OzFieldId)f, s, &sim->arrays.sizes);
     }
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(count_pairs(probe, sim, m));
     }
 done:

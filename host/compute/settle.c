@@ -9,18 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { JUDGE_STEPS = 128 }; /* between looks at the energy: often enough to stop in time, rarely enough to cost
-                             * nothing */
+enum {
+    JUDGE_STEPS = 128
+}; /* between looks at the energy: often enough to stop in time, rarely enough to cost
+    * nothing */
 
 /* Kinetic energy, translational and rotational, over N m g d of the member's grains. */
 static OzStatus energy_ratio(OzSim *sim, int member, double *ratio)
 {
     OzStatus status = OZ_OK;
     OzSnapshot now = {0};
-    const OzGrains *grains = sim->members[member].grains;
-    const double *g = sim->members[member].scene->gravity;
+    const OzGrains *grains = sim->crew.members[member].grains;
+    const double *g = sim->crew.members[member].scene->gravity;
     double energy = 0, scale = 0, gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    OZ_TRY(oz_snapshot_create(&now, sim->members[member].scene, grains));
+    OZ_TRY(oz_snapshot_create(&now, sim->crew.members[member].scene, grains));
     OZ_TRY(oz_capture_snapshot(sim, member, &now, false));
     for (int64_t i = 0; i < grains->count; i++) {
         const double *v = &now.velocity[3 * i], *w = &now.spin[3 * i], *u = &now.axis[3 * i];
@@ -39,40 +41,42 @@ done:
 
 static OzStatus set_drag(OzSim *sim, double drag)
 {
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         sim->parameters[m].drag = drag;
     }
     return oz_sim_write_parameters(sim);
 }
 
-/* Grains start at rest: their energy says nothing before they have had time to fall. This is ten times what a
- * free fall takes to the threshold's speed, as a step. */
+/* Grains start at rest: their energy says nothing before they have had time to fall. This is ten
+ * times what a free fall takes to the threshold's speed, as a step. */
 static int64_t first_judgement(const OzScene *scene, const OzGrains *grains)
 {
     const double *g = scene->gravity;
     double gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    double time = gravity > 0 ? sqrt(2 * scene->settle.threshold * grains->diameter[0] / gravity) : 0;
+    double time =
+        gravity > 0 ? sqrt(2 * scene->settle.threshold * grains->diameter[0] / gravity) : 0;
     return (int64_t)ceil(10 * time / scene->step);
 }
 
-/* Lets members that have come to rest wait for the others, so that what a member does depends on itself alone;
- * *worst receives the largest energy ratio of those that go on, *going how many there are. */
+/* Lets members that have come to rest wait for the others, so that what a member does depends on
+ * itself alone; *worst receives the largest energy ratio of those that go on, *going how many there
+ * are. */
 static OzStatus judge(OzSim *sim, double *worst, int *going)
 {
     OzStatus status = OZ_OK;
     *worst = 0;
     *going = 0;
-    for (int m = 0; m < sim->member_count; m++) {
-        const OzMember *member = &sim->members[m];
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        const OzMember *member = &sim->crew.members[m];
         double ratio = 0;
-        if (sim->waits[m] || sim->stopped[m]) {
+        if (sim->crew.waits[m] || sim->crew.stopped[m]) {
             continue;
         }
         OZ_TRY(energy_ratio(sim, m, &ratio));
-        bool old_enough = sim->step >= first_judgement(member->scene, member->grains);
-        sim->waits[m] = old_enough && ratio < member->scene->settle.threshold;
+        bool old_enough = sim->crew.step >= first_judgement(member->scene, member->grains);
+        sim->crew.waits[m] = old_enough && ratio < member->scene->settle.threshold;
         *worst = ratio > *worst ? ratio : *worst;
-        *going += !sim->waits[m];
+        *going += !sim->crew.waits[m];
     }
 done:
     return status;
@@ -83,22 +87,23 @@ static int64_t steps_of(const OzScene *scene, double time)
     return (int64_t)ceil(time / scene->step - 1e-9);
 }
 
-/* Advances by so many steps, or with judging until every member waits. The energy is looked at after fixed
- * numbers of steps, not of launches, whose length depends on the machine: the same bits on any. */
+/* Advances by so many steps, or with judging until every member waits. The energy is looked at
+ * after fixed numbers of steps, not of launches, whose length depends on the machine: the same bits
+ * on any. */
 static OzStatus run_for(OzSim *sim, int64_t steps, bool judging, OzSettleWatch watch, void *context)
 {
     OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[0].scene;
+    const OzScene *scene = sim->crew.members[0].scene;
     double worst = 0;
-    int going = sim->member_count;
-    int64_t last = sim->step + steps;
-    while (sim->step < last && going > 0) {
-        int64_t next = sim->step + JUDGE_STEPS;
+    int going = sim->crew.member_count;
+    int64_t last = sim->crew.step + steps;
+    while (sim->crew.step < last && going > 0) {
+        int64_t next = sim->crew.step + JUDGE_STEPS;
         OZ_TRY(oz_sim_advance(sim, next < last ? next : last));
         if (judging) {
             OZ_TRY(judge(sim, &worst, &going));
         }
-        if (watch && !watch(context, (double)sim->step * scene->step, worst)) {
+        if (watch && !watch(context, (double)sim->crew.step * scene->step, worst)) {
             status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while settling");
             goto done;
         }
@@ -121,7 +126,7 @@ static OzStatus start_ledger(OzSim *sim)
         return OZ_OK;
     }
     OZ_TRY(oz_memory_new(&zero, bytes, 1, "ledger"));
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_ledger, m, zero, bytes));
     }
     OZ_TRY(oz_capture_start(sim));
@@ -133,11 +138,11 @@ done:
 /* Time 0: no steps made, nothing added up. */
 static OzStatus start_clock(OzSim *sim)
 {
-    sim->step = 0;
-    memset(sim->reached, 0, (size_t)sim->member_count * sizeof *sim->reached);
-    sim->walls_still = false;
-    sim->counts = (OzSimCounts){0};
-    for (int m = 0; m < sim->member_count; m++) {
+    sim->crew.step = 0;
+    memset(sim->crew.reached, 0, (size_t)sim->crew.member_count * sizeof *sim->crew.reached);
+    sim->crew.walls_still = false;
+    sim->crew.counts = (OzSimCounts){0};
+    for (int m = 0; m < sim->crew.member_count; m++) {
         sim->control[m].refreshes = 0;
         sim->control[m].rebuilds = 0;
     }
@@ -147,18 +152,18 @@ static OzStatus start_clock(OzSim *sim)
 OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context)
 {
     OzStatus status = OZ_OK;
-    const OzScene *scene = sim->members[0].scene;
+    const OzScene *scene = sim->crew.members[0].scene;
     *seconds = 0;
     if (!scene->settle.present || sim->arrays.sizes.count == 0) {
         return OZ_OK;
     }
-    sim->walls_still = true;
+    sim->crew.walls_still = true;
     OZ_TRY(set_drag(sim, scene->settle.drag));
     OZ_TRY(run_for(sim, steps_of(scene, scene->settle.time_max), true, watch, context));
     OZ_TRY(set_drag(sim, 0));
-    memset(sim->waits, 0, (size_t)sim->member_count * sizeof *sim->waits);
+    memset(sim->crew.waits, 0, (size_t)sim->crew.member_count * sizeof *sim->crew.waits);
     OZ_TRY(run_for(sim, steps_of(scene, scene->settle.rest_time), false, watch, context));
-    *seconds = (double)sim->step * scene->step;
+    *seconds = (double)sim->crew.step * scene->step;
     OZ_TRY(start_clock(sim));
 done:
     return status;

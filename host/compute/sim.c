@@ -11,12 +11,6 @@
 #include "compute/sizes.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-/* A launch is kept below this so that Ctrl-C and watchdogs are served, s. */
-static const double launch_seconds = 0.04;
-
-enum { FIRST_LAUNCH = 16 };
 
 /* The device's idea of the shared structs against ours. */
 static OzStatus check_layout(const OzSim *sim, const OzSwitches *switches)
@@ -32,7 +26,7 @@ static OzStatus check_layout(const OzSim *sim, const OzSwitches *switches)
 OzStatus oz_sim_write_parameters(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_pack_parameters(&sim->arrays, m, &sim->parameters[m]));
     }
 done:
@@ -43,8 +37,8 @@ done:
 static OzStatus upload_start(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
-        OZ_TRY(oz_pack_start(&sim->arrays, m, &sim->parameters[m], sim->members[m].grains));
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        OZ_TRY(oz_pack_start(&sim->arrays, m, &sim->parameters[m], sim->crew.members[m].grains));
         sim->control[m] = (OzControl){.stale_step = OZ_NEVER,
                                       .stop_step = OZ_NEVER,
                                       .stop_grain = OZ_NEVER,
@@ -59,15 +53,15 @@ done:
 static OzStatus choose_layout(OzSim *sim, OzSwitches *switches, OzSizes *sizes)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->member_count; m++) {
-        const OzMember *member = &sim->members[m];
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        const OzMember *member = &sim->crew.members[m];
         OzSwitches s = oz_switches_derive(member->scene, member->grains, sim->device);
         OzSizes z;
         OZ_TRY(
             oz_constants_fill(&sim->parameters[m], sim->wall_order, member->scene, member->grains));
         oz_sizes_choose(&z, &sim->parameters[m], member->scene, member->grains, &s,
-                        sim->member_count);
-        if (m > 0 && !oz_company_fits(sim->device, &sim->members[0], member)) {
+                        sim->crew.member_count);
+        if (m > 0 && !oz_company_fits(sim->device, &sim->crew.members[0], member)) {
             status = oz_status_fail(OZ_ERR_INPUT,
                                     "%s: members of one launch must have the same "
                                     "features, number of grains, step and settling",
@@ -116,16 +110,10 @@ OzStatus oz_sim_create(OzSim **out, const OzDevice *device, const OzMember *memb
     *out = NULL;
     OZ_TRY(OZ_NEW(&sim, 1));
     sim->device = device;
-    sim->member_count = member_count;
-    sim->launch_steps = FIRST_LAUNCH;
-    OZ_TRY(OZ_NEW(&sim->members, member_count));
+    OZ_TRY(oz_crew_create(&sim->crew, members, member_count));
     OZ_TRY(OZ_NEW(&sim->parameters, member_count));
     OZ_TRY(OZ_NEW(&sim->control, member_count));
     OZ_TRY(OZ_NEW(&sim->spring_start, member_count));
-    OZ_TRY(OZ_NEW(&sim->reached, member_count));
-    OZ_TRY(OZ_NEW(&sim->waits, member_count));
-    OZ_TRY(OZ_NEW(&sim->stopped, member_count));
-    memcpy(sim->members, members, (size_t)member_count * sizeof *members);
     OZ_TRY(choose_layout(sim, &switches, &sizes));
     OZ_TRY(build(sim, &switches, source_dir));
     OZ_TRY(oz_arrays_create(&sim->arrays, device, &switches, &sizes));
@@ -151,16 +139,10 @@ void oz_sim_free(OzSim *sim)
     if (sim->program) {
         clReleaseProgram(sim->program);
     }
-    for (int m = 0; sim->stopped && m < sim->member_count; m++) {
-        free(sim->stopped[m]);
-    }
-    free(sim->members);
+    oz_crew_free(&sim->crew);
     free(sim->parameters);
     free(sim->control);
     free(sim->spring_start);
-    free(sim->reached);
-    free(sim->waits);
-    free(sim->stopped);
     free(sim);
 }
 
@@ -172,16 +154,16 @@ OzStatus oz_sim_prime(OzSim *sim)
         return OZ_OK;
     }
     double step = sim->parameters[0].dt;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         sim->parameters[m].dt = 0;
     }
     OZ_TRY(oz_sim_write_parameters(sim));
     OZ_TRY(oz_launch_steps(sim, 1));
-    sim->step -= 1;
-    sim->counts.steps -= 1;
+    sim->crew.step -= 1;
+    sim->crew.counts.steps -= 1;
     sim->primed = true;
-    for (int m = 0; m < sim->member_count; m++) {
-        sim->reached[m] -= 1;
+    for (int m = 0; m < sim->crew.member_count; m++) {
+        sim->crew.reached[m] -= 1;
         sim->parameters[m].dt = step;
     }
     OZ_TRY(oz_sim_write_parameters(sim));
@@ -193,22 +175,14 @@ OzStatus oz_sim_launch(OzSim *sim, int64_t step)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(oz_sim_prime(sim));
-    if (sim->step >= step || sim->arrays.sizes.count == 0) {
-        sim->step = step > sim->step ? step : sim->step;
-        for (int m = 0; m < sim->member_count; m++) {
-            sim->reached[m] = sim->step;
-        }
+    if (sim->crew.step >= step || sim->arrays.sizes.count == 0) {
+        oz_crew_skip(&sim->crew, step);
         goto done;
     }
-    int64_t left = step - sim->step;
-    int steps = left < sim->launch_steps ? (int)left : sim->launch_steps;
+    int steps = oz_crew_launch_steps(&sim->crew, step);
     double start = oz_clock_now();
     OZ_TRY(oz_launch_steps(sim, steps));
-    double wanted = launch_seconds / ((oz_clock_now() - start) / steps);
-    double most = fmin(4.0 * sim->launch_steps, sim->arrays.sizes.motion_steps);
-    if (steps == sim->launch_steps || wanted < sim->launch_steps) {
-        sim->launch_steps = (int)fmax(1, fmin(wanted, most));
-    }
+    oz_crew_note_launch(&sim->crew, steps, oz_clock_now() - start, sim->arrays.sizes.motion_steps);
 done:
     return status;
 }
@@ -216,7 +190,7 @@ done:
 OzStatus oz_sim_advance(OzSim *sim, int64_t step)
 {
     OzStatus status = OZ_OK;
-    while (status == OZ_OK && sim->step < step) {
+    while (status == OZ_OK && sim->crew.step < step) {
         status = oz_sim_launch(sim, step);
     }
     return status;
@@ -224,25 +198,25 @@ OzStatus oz_sim_advance(OzSim *sim, int64_t step)
 
 int64_t oz_sim_step(const OzSim *sim)
 {
-    return sim->step;
+    return sim->crew.step;
 }
 
 const char *oz_sim_stopped(const OzSim *sim, int member)
 {
-    return sim->stopped[member];
+    return sim->crew.stopped[member];
 }
 
 OzSimCounts oz_sim_counts(const OzSim *sim)
 {
-    OzSimCounts counts = sim->counts;
+    OzSimCounts counts = sim->crew.counts;
     counts.refreshes = counts.rebuilds = counts.crossed = 0;
-    for (int m = 0; m < sim->member_count; m++) {
+    for (int m = 0; m < sim->crew.member_count; m++) {
         counts.refreshes += sim->control[m].refreshes;
         counts.rebuilds += sim->control[m].rebuilds;
         counts.crossed += sim->control[m].crossed;
     }
-    counts.refreshes /= sim->member_count;
-    counts.rebuilds /= sim->member_count;
+    counts.refreshes /= sim->crew.member_count;
+    counts.rebuilds /= sim->crew.member_count;
     return counts;
 }
 

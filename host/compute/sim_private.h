@@ -3,29 +3,22 @@
 #define OZ_COMPUTE_SIM_PRIVATE_H
 
 #include "compute/arrays.h"
+#include "compute/crew.h"
 #include "compute/large.h"
 #include "compute/sim.h"
 
 struct OzSim {
     const OzDevice *device; /* borrowed */
-    OzMember *members;
-    int member_count;
-    OzParameters *parameters; /* one a member, in double                          */
-    OzControl *control;       /* one a member, as last read or to be written next */
-    double *spring_start;     /* one a member: J in tangential springs at time 0  */
+    OzCrew crew;
+    OzParameters *parameters;     /* one a member, in double                          */
+    OzControl *control;           /* one a member, as last read or to be written next */
+    double *spring_start;         /* one a member: J in tangential springs at time 0  */
     int wall_order[OZ_WALLS_MAX]; /* scene's wall of each kernel wall             */
     cl_program program;
-    cl_kernel advance;        /* small scenes */
-    OzLarge *large;           /* large scenes */
+    cl_kernel advance; /* small scenes */
+    OzLarge *large;    /* large scenes */
     OzArrays arrays;
-    int64_t step;         /* made since time 0 (or since settling began) by those that go on */
-    int64_t *reached;     /* one a member: steps that it has made itself */
-    bool *waits;          /* one a member: makes no steps for now (settled before others)    */
-    char **stopped;       /* one a member: what a guard said; NULL while it goes on          */
-    int launch_steps;     /* of the next launch                          */
-    bool walls_still;     /* while settling                              */
-    bool primed;          /* velocity-verlet knows its first acceleration */
-    OzSimCounts counts;
+    bool primed; /* velocity-verlet knows its first acceleration */
 };
 
 /* Uploads sim->parameters. */

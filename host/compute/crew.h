@@ -1,0 +1,54 @@
+/* The members of a simulation and how far they have come: what both models' simulations keep of
+ * steps, of members that wait or that a guard stopped, and of how long launches are. */
+#ifndef OZ_COMPUTE_CREW_H
+#define OZ_COMPUTE_CREW_H
+
+#include "compute/sim.h"
+
+#include <stdbool.h>
+
+typedef struct OzCrew {
+    OzMember *members;
+    int member_count;
+    int64_t step;     /* made since time 0 (or since settling began) by those that go on */
+    int64_t *reached; /* one a member: steps that it has made itself                     */
+    bool *waits;      /* one a member: makes no steps for now (settled before others)    */
+    char **stopped;   /* one a member: what a guard said; NULL while it goes on          */
+    int launch_steps; /* of the next launch */
+    bool walls_still; /* while settling     */
+    OzSimCounts counts;
+} OzCrew;
+
+/* Copies the members, all at step 0. The caller frees with oz_crew_free (zeroed is fine), also
+ * after a failure. */
+OzStatus oz_crew_create(OzCrew *crew, const OzMember *members, int member_count);
+void oz_crew_free(OzCrew *crew);
+
+/* Whether the member makes steps: it neither waits nor was stopped. */
+bool oz_crew_goes_on(const OzCrew *crew, int member);
+
+/* Fails with OZ_ERR_BLOWUP, saying what the last member's guard said, once all are stopped. */
+OzStatus oz_crew_check(const OzCrew *crew);
+
+/* Nothing to move: every member's clock alone goes on to the step, never back. */
+void oz_crew_skip(OzCrew *crew, int64_t step);
+
+/* How many steps the next launch towards the given step shall make; takes note of how many one
+ * made, in so many seconds, so that the next is of a length that suits, at most most_steps. */
+int oz_crew_launch_steps(const OzCrew *crew, int64_t step);
+void oz_crew_note_launch(OzCrew *crew, int made, double seconds, int most_steps);
+
+/* The end of a launch, first for each member that goes on: counts its own steps and raises *most to
+ * them; notes that a guard stopped it, whose words are the present failure text. */
+void oz_crew_count(OzCrew *crew, int member, int own, int *most);
+OzStatus oz_crew_stop(OzCrew *crew, int member);
+
+/* Then for all together: counts a launch of so many steps, or of the most that any member made if
+ * all are stopped now, upon which it fails as oz_crew_check does. */
+OzStatus oz_crew_end_launch(OzCrew *crew, int steps, int most);
+
+/* Time 0: no steps made, nothing counted, walls free to move. Members that wait or are stopped stay
+ * so. */
+void oz_crew_start_clock(OzCrew *crew);
+
+#endif
