@@ -246,31 +246,49 @@ OZ_INLINE void oz_pairs_part(OzWork *w, int first, int bits)
     }
 }
 
-/* Picks pairs of a block of the list. */
-OZ_INLINE void oz_pairs_sieve(OzWork *w, OzPairs *pairs, int first)
+/* A block of the list in the sieve. */
+typedef struct OzSieved {
+    int first, a[OZ_LANES], b[OZ_LANES];
+    OzGrain one, other;
+    OzVec3 apart;
+    OzClosest at;
+    int bits;
+} OzSieved;
+
+OZ_INLINE void oz_pairs_fetch(const OzWork *w, OzSieved *s, int first)
 {
-    int a[OZ_LANES], b[OZ_LANES];
+    s->first = first;
 #pragma unroll
     for (int l = 0; l < OZ_LANES; l++) {
-        a[l] = w->pair_a[first + l];
-        b[l] = w->pair_b[first + l];
+        s->a[l] = w->pair_a[first + l];
+        s->b[l] = w->pair_b[first + l];
     }
-    OzGrain one = oz_work_geometry(w, a), other = oz_work_geometry(w, b);
-    OzVec3 apart = oz_place_minus(one.place, other.place, w->parameters->length_unit);
-    OzClosest at = oz_rods_closest(apart, one.half_shaft, other.half_shaft);
-    OzVec3 gap = oz_along(oz_along(apart, at.s, one.half_shaft), -at.t, other.half_shaft);
-    real far = (one.radius + other.radius) * REAL(1 + OZ_PAIRS_MARGIN);
-    int bits = oz_lanes_bits(oz_dot(gap, gap) < far * far);
-    real words[15] = {apart.x, apart.y, apart.z, one.half_shaft.x, one.half_shaft.y,
-                      one.half_shaft.z, other.half_shaft.x, other.half_shaft.y, other.half_shaft.z,
-                      at.s, at.t, one.radius, other.radius, one.mass, other.mass};
+    s->one = oz_work_geometry(w, s->a);
+    s->other = oz_work_geometry(w, s->b);
+    s->apart = oz_place_minus(s->one.place, s->other.place, w->parameters->length_unit);
+}
+
+OZ_INLINE void oz_pairs_judge(OzSieved *s)
+{
+    s->at = oz_rods_closest(s->apart, s->one.half_shaft, s->other.half_shaft);
+    OzVec3 gap = oz_along(oz_along(s->apart, s->at.s, s->one.half_shaft), -s->at.t, s->other.half_shaft);
+    real far = (s->one.radius + s->other.radius) * REAL(1 + OZ_PAIRS_MARGIN);
+    s->bits = oz_lanes_bits(oz_dot(gap, gap) < far * far);
+}
+
+/* Picks pairs of a block of the list. */
+OZ_INLINE void oz_pairs_pick(OzWork *w, OzPairs *pairs, const OzSieved *s)
+{
+    OzVec3 one = s->one.half_shaft, other = s->other.half_shaft;
+    real words[15] = {s->apart.x, s->apart.y, s->apart.z, one.x, one.y, one.z, other.x, other.y, other.z,
+                      s->at.s, s->at.t, s->one.radius, s->other.radius, s->one.mass, s->other.mass};
 #if !OZ_SCATTER
-    w->pair_kept[first / OZ_LANES] = pairs->kept + pairs->picked.count;
+    w->pair_kept[s->first / OZ_LANES] = pairs->kept + pairs->picked.count;
 #endif
-    oz_pairs_add(pairs, first, a, b, words, bits);
-    oz_pairs_part(w, first, bits);
+    oz_pairs_add(pairs, s->first, s->a, s->b, words, s->bits);
+    oz_pairs_part(w, s->first, s->bits);
 #if OZ_LEDGER
-    oz_pairs_note_none(w, (size_t)(first / OZ_LANES));
+    oz_pairs_note_none(w, (size_t)(s->first / OZ_LANES));
 #endif
 }
 
@@ -286,8 +304,17 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
 #endif
     for (int first = begin; first < end; first += OZ_PICKED_BLOCKS * OZ_LANES) {
         int stop = min(first + OZ_PICKED_BLOCKS * OZ_LANES, end);
-        for (int block = first; block < stop; block += OZ_LANES) {
-            oz_pairs_sieve(w, &pairs, block);
+        for (int block = first; block < stop; block += 2 * OZ_LANES) {
+            OzSieved one, other;
+            int two = block + OZ_LANES < stop;
+            oz_pairs_fetch(w, &one, block);
+            oz_pairs_fetch(w, &other, two ? block + OZ_LANES : block);
+            oz_pairs_judge(&one);
+            oz_pairs_judge(&other);
+            oz_pairs_pick(w, &pairs, &one);
+            if (two) {
+                oz_pairs_pick(w, &pairs, &other);
+            }
         }
         int due = oz_picked_due(&pairs.picked, stop == end);
         oz_pairs_fill(&pairs, due);
