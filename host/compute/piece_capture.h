@@ -3,6 +3,7 @@
 #define OZ_COMPUTE_PIECE_CAPTURE_H
 
 #include "compute/piece_sim.h"
+#include "observe/snapshot.h"
 
 /* The state of a member now, into a snapshot made for its scene and grains. contacts: the sums over
  * contacts and beams and, with the ledger on, the energies too (dearer: the host looks for all

@@ -4,9 +4,7 @@
 #ifndef OZ_COMPUTE_PIECE_SIM_H
 #define OZ_COMPUTE_PIECE_SIM_H
 
-#include "compute/settle.h"
 #include "compute/sim.h"
-#include "observe/snapshot.h"
 
 typedef struct OzPieceSim OzPieceSim;
 
