@@ -198,6 +198,17 @@ void oz_device_close(OzDevice *device)
     memset(device, 0, sizeof *device);
 }
 
+OzStatus oz_device_check_double(const OzDevice *device, bool is_needed)
+{
+    if (is_needed && !device->has_double) {
+        return oz_status_fail(OZ_ERR_DEVICE,
+                              "%s computes in float only: use precision: float without "
+                              "observe.ledger",
+                              device->name);
+    }
+    return OZ_OK;
+}
+
 OzStatus oz_device_list(FILE *file)
 {
     Candidate candidates[DEVICES_MAX];

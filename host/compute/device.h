@@ -43,6 +43,9 @@ OzStatus oz_device_branch(OzDevice *branch, const OzDevice *device);
 /* Closes; a zeroed device is fine. */
 void oz_device_close(OzDevice *device);
 
+/* Fails with OZ_ERR_DEVICE if a scene needs double and the device computes in float only. */
+OzStatus oz_device_check_double(const OzDevice *device, bool is_needed);
+
 /* Every device, numbered, and why it would be refused. */
 OzStatus oz_device_list(FILE *file);
 

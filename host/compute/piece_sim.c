@@ -168,12 +168,7 @@ static OzStatus build(OzPieceSim *sim, const OzPieceSwitches *switches, const ch
     OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     char options[1024];
-    if ((switches->is_double || switches->ledger) && !sim->device->has_double) {
-        return oz_status_fail(OZ_ERR_DEVICE,
-                              "%s computes in float only: use precision: float without "
-                              "observe.ledger",
-                              sim->device->name);
-    }
+    OZ_TRY(oz_device_check_double(sim->device, switches->is_double || switches->ledger));
     oz_piece_switches_options(switches, options, sizeof options);
     OZ_TRY(
         oz_program_build(&sim->program, sim->device, source_dir, "kernels/trigrains.cl", options));
