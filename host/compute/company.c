@@ -2,6 +2,7 @@
 #include "compute/company.h"
 
 #include "compute/arrays.h"
+#include "compute/rest.h"
 #include "compute/sizes.h"
 #include "compute/switches.h"
 
@@ -19,19 +20,13 @@ static bool same_walls(const OzScene *a, const OzScene *b)
     return a->wall_count == b->wall_count;
 }
 
-static bool same_settling(const OzSettle *a, const OzSettle *b)
-{
-    return a->present == b->present && a->drag == b->drag && a->threshold == b->threshold &&
-           a->rest_time == b->rest_time && a->time_max == b->time_max;
-}
-
 bool oz_company_fits(const OzDevice *device, const OzMember *a, const OzMember *b)
 {
     OzSwitches s = oz_switches_derive(a->scene, a->grains, device);
     OzSwitches other = oz_switches_derive(b->scene, b->grains, device);
     return memcmp(&s, &other, sizeof s) == 0 && !s.resort && !s.host_lists &&
            a->grains->count == b->grains->count && a->scene->step == b->scene->step &&
-           same_walls(a->scene, b->scene) && same_settling(&a->scene->settle, &b->scene->settle);
+           same_walls(a->scene, b->scene) && oz_rest_is_same(&a->scene->settle, &b->scene->settle);
 }
 
 OzStatus oz_company_most(const OzDevice *device, const OzMember *member, int64_t *most,

@@ -3,15 +3,10 @@
 
 #include "compute/piece_arrays.h"
 #include "compute/piece_sizes.h"
+#include "compute/rest.h"
 
 #include <math.h>
 #include <string.h>
-
-static bool same_settling(const OzSettle *a, const OzSettle *b)
-{
-    return a->present == b->present && a->drag == b->drag && a->threshold == b->threshold &&
-           a->rest_time == b->rest_time && a->time_max == b->time_max;
-}
 
 bool oz_piece_company_fits(const OzDevice *device, const OzMember *a, const OzMember *b)
 {
@@ -22,7 +17,7 @@ bool oz_piece_company_fits(const OzDevice *device, const OzMember *a, const OzMe
     OzPieceSwitches other = oz_piece_switches_derive(b->scene, b->grains, device);
     return memcmp(&s, &other, sizeof s) == 0 && a->scene->step == b->scene->step &&
            a->scene->wall_count == b->scene->wall_count &&
-           same_settling(&a->scene->settle, &b->scene->settle);
+           oz_rest_is_same(&a->scene->settle, &b->scene->settle);
 }
 
 OzStatus oz_piece_company_most(const OzDevice *device, const OzMember *member, int64_t *most,

@@ -6,6 +6,12 @@
 #include <math.h>
 #include <string.h>
 
+bool oz_rest_is_same(const OzSettle *a, const OzSettle *b)
+{
+    return a->present == b->present && a->drag == b->drag && a->threshold == b->threshold &&
+           a->rest_time == b->rest_time && a->time_max == b->time_max;
+}
+
 static double gravity_of(const OzScene *scene)
 {
     const double *g = scene->gravity;

@@ -29,6 +29,9 @@ typedef struct OzRest {
     OzStatus (*start_ledger)(void *sim);
 } OzRest;
 
+/* Whether members that settle so may do it side by side. */
+bool oz_rest_is_same(const OzSettle *a, const OzSettle *b);
+
 /* Lets the grains come to rest as scene.settle says: walls still, with drag until a member's
  * kinetic energy is below threshold x N m g d (it then waits for the others) or time_max is reached
  * (logged), then rest_time without drag. The step count is 0 again afterwards. Does nothing without
