@@ -33,7 +33,7 @@ OzPieceSwitches oz_piece_switches_derive(const OzScene *scene, const OzGrains *g
     s.order = gear ? 5 : 3;
     s.moving = any_motion(scene);
     s.discs = any_disc(grains->pieces);
-    s.beams = grains->pieces->beam_count > 0;
+    s.beams = grains->pieces->beam_count > 0 || grains->count == 0; /* none: as those of others */
     s.substeps = gear || !s.beams ? 1 : (int)scene->beams.substeps;
     s.force_point = (int)scene->triangles.force_point;
     s.damping_shear = (int)scene->beams.damping_shear;

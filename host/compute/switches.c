@@ -14,6 +14,7 @@ static bool all_equal(const OzGrains *grains)
     return true;
 }
 
+/* Without any grain there is nothing to leave out kernels for. */
 static bool all_round(const OzGrains *grains)
 {
     for (int64_t i = 0; i < grains->count; i++) {
@@ -21,7 +22,7 @@ static bool all_round(const OzGrains *grains)
             return false;
         }
     }
-    return true;
+    return grains->count > 0;
 }
 
 static int count_walls(const OzScene *scene, OzWallKind kind)

@@ -1,5 +1,7 @@
-/* Stiff and extreme scenes, and what must come out of them. Most share their switches, so that few
- * kernel programs serve the suite: a plane, friction, rods of unlike length. */
+/* Stiff and extreme scenes, and what must come out of them. They share their switches, so that four
+ * kernel programs serve the suite, in float and double: one for rods of unlike length, and one for
+ * scenes whose rods cannot be unlike, with line contacts, which few of them have. All have
+ * friction, a plane that may move and a cylinder, which is far away unless a row has its own. */
 #include "study/report_extreme_cases.h"
 
 #include "study/report_cases.h"
@@ -25,13 +27,22 @@
     ROD("5", "0, 0, 0.1" distance, "0, 1, 0", "0, 0, 0")
 
 #define GRAVITY "gravity=[0, 0, -9.81]"
-#define COLUMN                                                                                     \
-    "  - {kind: lattice, diameter: 5e-3, aspect: 4, axis: [0, 1, 0], cells: [1, 1, 100], "         \
+#define LINE    "contact.parallel=line"
+#define COLUMN(height)                                                                             \
+    "  - {kind: lattice, diameter: 5e-3, aspect: 4, axis: [0, 1, 0], cells: [1, 1, " height "], "  \
     "spacing: [0, 0, 5e-3], position: [0, 0, 2.5e-3]}\n"
-#define LYING ROD("4", "0, 0, 2.5e-3", "0, 1, 0", "0, 0, 0")
+#define LYING ROD("4", "0, 0, 2.5e-3", "0, 1, 0", "0, 0, 0") COMPANION
 
 /* A light rod that lies far away, so that grains are not all alike. */
-#define COMPANION GRAIN("5e-3", "1", "0, 1, 2.5e-3", "1, 0, 0", "0, 0, 0", ", density: 1")
+#define COMPANION GRAIN("5e-3", "1", "0, 0.5, 2.5e-3", "1, 0, 0", "0, 0, 0", ", density: 1")
+
+/* A floor at rest that could move, in a cylinder that nothing reaches: up to 170 diameters from the
+ * origin it does not make places coarser in float. The wide one is for what is longer or farther.
+ */
+#define STILL          "motion: {frequency: 30, acceleration_ratio: 0}"
+#define BORE           "  - {kind: cylinder, diameter: 1.6}\n"
+#define FLOOR(contact) "  - {kind: plane, contact: {" contact "}, " STILL "}\n" BORE
+#define WIDE           "  - {kind: plane, " STILL "}\n  - {kind: cylinder, diameter: 10.5}\n"
 
 /* A floor that moves, in a cylinder of 20 mm. */
 #define SHAKEN(motion)                                                                             \
@@ -55,7 +66,7 @@ const char *oz_report_extreme_cases_common(void)
 
 const char *oz_report_extreme_cases_walls(void)
 {
-    return "  - {kind: plane}\n";
+    return "  - {kind: plane, " STILL "}\n" BORE;
 }
 
 /* Of the first two grains along z. */
@@ -157,10 +168,10 @@ static double count(const OzSnapshot *end)
         "parallel within " angle " rad", HIT("4", "1, 0, 0", "5", "1, " angle ", 0"), NULL,        \
             {NULL}, NULL, RESTITUTION, RODS                                                        \
     }
-#define ASPECT(aspect)                                                                             \
+#define ASPECT(aspect, walls)                                                                      \
     {                                                                                              \
-        "aspect " aspect, HIT(aspect, "1, 0, 0", "5", "0, 1, 0"), NULL, {NULL}, NULL, RESTITUTION, \
-            RODS                                                                                   \
+        "aspect " aspect, HIT(aspect, "1, 0, 0", "5", "0, 1, 0"), walls, {NULL}, NULL,             \
+            RESTITUTION, RODS                                                                      \
     }
 
 /* clang-format off */
@@ -171,9 +182,10 @@ static const OzExtremeCase rows[] = {
     {"stiffness x 1e6, step as before", CROSSED, NULL, {"contact.contact_time=1e-6"}, NULL, NULL,
      NULL, 0, 0, 0, RODS},
     {"wall 1000 times stiffer", ROD("4", "0, 0, 12.511e-3", "0, 0, 1", "0, 0, -0.1"),
-     "  - {kind: plane, contact: {contact_time: 3.1622777e-5}}\n", {"time.step=6e-7"}, NULL,
+     FLOOR("contact_time: 3.1622777e-5"), {LINE, "time.step=6e-7"}, NULL,
      "rebound", rebound, 0.485, 0.515, 0, RODS},
-    ASPECT("0"), ASPECT("1e-6"), ASPECT("1"), ASPECT("100"), ASPECT("1000"),
+    ASPECT("0", NULL), ASPECT("1e-6", NULL), ASPECT("1", NULL), ASPECT("100", NULL),
+    ASPECT("1000", WIDE),
     {"size ratio 100",
      GRAIN("0.5", "1", "0, 0, 1", "1, 0, 0", "0, 0, 0", "") ROD("5", "0, 0, 1.252511", "0, 1, 0",
      "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION, RODS},
@@ -192,7 +204,7 @@ static const OzExtremeCase rows[] = {
      NULL, {NULL}, NULL, "energy left, as a share", energy_share, 0.1, 1.0, 0, RODS},
     {"shafts that intersect", OVERLAPPING(""), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0, RODS},
     {"identical positions", ROD("4", "0, 0, 0.1", "1, 0, 0", "0, 0, 0") ROD("4", "0, 0, 0.1",
-     "1, 0, 0", "0, 0, 0"), NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0, RODS},
+     "1, 0, 0", "0, 0, 0") COMPANION, NULL, {NULL}, NULL, NULL, NULL, 0, 0, 0, RODS},
     /* a spring let go: at most sqrt(kappa) x overlap = 3217 1/s x 0.5 mm */
     {"overlap of 10 % at the start", OVERLAPPING("045"), NULL, {NULL}, NULL, "parting speed, m/s",
      parting_speed, 0.5, 1.61, 0, RODS},
@@ -203,9 +215,10 @@ static const OzExtremeCase rows[] = {
     /* one contact in the middle carries no rod straight: rounding makes it jump to an end and
      * back; two contacts do. In float a hundred shafts may each turn by a rounding, 1.2e-7
      * diameters at its ends */
-    {"column of 100 rods lying flat: single", COLUMN, NULL, {GRAVITY, "time.duration=0.5"}, NULL,
+    {"column of 100 rods lying flat: single", COLUMN("99")
+     ROD("5", "0, 0, 0.4975", "0, 1, 0", "0, 0, 0"), NULL, {GRAVITY, "time.duration=0.5"}, NULL,
      "lean, diameters", lean, 0, 0.3, 0, RODS},
-    {"column of 100 rods lying flat: line", COLUMN, NULL, {GRAVITY, "contact.parallel=line",
+    {"column of 100 rods lying flat: line", COLUMN("100"), NULL, {GRAVITY, LINE,
      "time.duration=0.5"}, NULL, "lean, diameters", lean, 0, 1e-6, 1.2e-5, RODS},
     /* in float the shaft's direction jumps by a rounding, 6e-8 rad: its ends by 1.2e-7 diameters,
      * and at 5.7e3 1/s, the swing of a rod on its ends, that is 3.4e-4 rad/s */
@@ -220,23 +233,23 @@ static const OzExtremeCase rows[] = {
     {"restitution 1", CROSSED, NULL, {"contact.restitution=1"}, NULL, "restitution", restitution,
      0.999, 1.001, 0, RODS},
     {"friction 0", ROD("4", "0, 0, 2.5e-3", "0, 1, 0", "0.1, 0, 0"),
-     "  - {kind: plane, contact: {friction: 0}}\n", {GRAVITY, "time.duration=0.1"}, NULL,
+     FLOOR("friction: 0"), {GRAVITY, LINE, "time.duration=0.1"}, NULL,
      "speed kept", speed_kept, 0.9999, 1.0001,
      0, RODS},
     /* 5/7 of the speed when it rolls */
     {"friction 1000", ROD("0", "0, 0, 2.5e-3", "0, 1, 0", "0.1, 0, 0") COMPANION, NULL, {GRAVITY,
      "contact.friction=1000", "time.duration=0.1"}, NULL, "speed kept", speed_kept, 0.70, 0.73, 0,
      RODS},
-    {"zero grains", "  - {kind: random, diameter: 5e-3, count: 0}\n", NULL, {NULL}, NULL, "grains",
+    {"zero grains", "  - {kind: random, diameter: 5e-3, count: 0}\n", NULL, {LINE}, NULL, "grains",
      count, 0, 0, 0, RODS},
-    {"one grain", ROD("4", "0, 0, 0.1", "1, 0, 0", "0, 0, 0"), NULL, {GRAVITY,
+    {"one grain", ROD("4", "0, 0, 0.1", "1, 0, 0", "0, 0, 0"), NULL, {GRAVITY, LINE,
      "time.duration=0.1"}, NULL, "fall over g t^2 / 2", fall, 0.9995, 1.0005, 0, RODS},
     {"17 grains: in no group's size",
      "  - {kind: random, diameter: 5e-3, aspect: [1, 3], count: 17}\n",
      SHAKEN("frequency: 30, acceleration_ratio: 2"), {GRAVITY, "time.duration=0.5"},
      "time.duration=0.2", "clearance, diameters", clearance, -0.1, 3, 0, RODS},
     {"1000 diameters from the origin", ROD("4", "5, 0, 0.1", "1, 0, 0", "0, 0, 0") ROD("5",
-     "5, 0, 0.105011", "0, 1, 0", "0, 0, -0.1"), NULL, {NULL}, NULL, RESTITUTION, RODS},
+     "5, 0, 0.105011", "0, 1, 0", "0, 0, -0.1"), WIDE, {NULL}, NULL, RESTITUTION, RODS},
     {"slanted rod wedged in a cylinder", ROD("4", "0, 0, 15e-3", "1, 0, 1", "0, 0, 0")
      GRAIN("1e-3", "0", "0, 9e-3, 0.5e-3", "0, 0, 1", "0, 0, 0", ""),
      SHAKEN("frequency: 30, acceleration_ratio: 0"), {GRAVITY, "time.duration=1"},
@@ -251,7 +264,7 @@ static const OzExtremeCase rows[] = {
      "time.duration=1"}, "time.duration=0.2", "clearance, diameters", clearance, -0.1, 10, 0, RODS},
     /* roundings of 1e7 steps as a random walk: 3e3 of 6e-8 */
     {"free rotation for 1e7 steps", GRAIN("5e-3", "4", "0, 0, 0.1", "0, 0, 1", "0, 0, 0",
-     ", spin: [200, 0, 300]"), NULL, {"time.duration=200"}, "time.duration=0.5",
+     ", spin: [200, 0, 300]"), NULL, {LINE, "time.duration=200"}, "time.duration=0.5",
      "energy drift, as a share", energy_drift, -2e-4, 2e-4, 0, RODS},
     {"undamped bouncing for 1e7 steps: energy",
      ROD("0", "0, 0, 6e-3", "0, 0, 1", "0, 0, 0") COMPANION, NULL,

@@ -29,7 +29,7 @@ const OzExtremeCase *oz_report_extreme_cases_all(void);
  * contact time 1 ms, 50 steps per contact, restitution 0.5, friction 0.3, no gravity. */
 const char *oz_report_extreme_cases_common(void);
 
-/* The walls they share: one plane, z = 0. */
+/* The walls they share: a plane at rest, z = 0, and a cylinder out of reach. */
 const char *oz_report_extreme_cases_walls(void);
 
 #endif

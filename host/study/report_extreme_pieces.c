@@ -1,6 +1,6 @@
 /* Stiff and extreme scenes of trigrains, and what must come out of them. They share their switches,
- * so that two kernel programs, float and double, serve nearly all of the suite: gear4, beams, the
- * ledger, and a wall that could move (by less than an atom where it is not meant to). */
+ * so that two kernel programs, float and double, serve the suite: gear4, beams, the ledger, and a
+ * wall that could move (by less than an atom where it is not meant to). */
 #include "study/report_extreme_pieces.h"
 
 #include "observe/piece_energy.h"
@@ -208,7 +208,7 @@ static const OzExtremeCase rows[] = {
      DIE("1, 0", "0, 0", ""), NULL, {GRAVITY, "time.duration=0.01"}, NULL, "fall over g t^2 / 2",
      fall, 0.9999, 1.0001, 0, PIECES},
     {"zero grains", "  - {kind: random, shape: square, edge: 2e-3, count: 0}\n", NULL, {NULL}, NULL,
-     "grains", count, 0, 0, DOUBLE_ONLY, PIECES},
+     "grains", count, 0, 0, 0, PIECES},
     {"mass ratio 1e6: energy", HEAVY, NULL, {NULL}, NULL, RESIDUAL, 0, 1e-6, 1e-3, PIECES},
     /* in float the heavy die takes roundings of 1e6 masses */
     {"mass ratio 1e6: momentum", HEAVY, NULL, {NULL}, NULL, "momentum's change, as a share",
