@@ -154,14 +154,14 @@ OZ_INLINE real oz_grains_moved2(const OzWork *w, global const real *reference, O
     return oz_dot(dx, dx) + oz_dot(da, da) + REAL(2.0) * oz_magnitude(oz_dot(dx, da));
 }
 
-/* Raises the stale mark when a grain has used up its skin. */
-OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape, int step)
+/* Raises the mark when a grain has used up its skin. */
+OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape, global int *mark, int step)
 {
     OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
     global const real *reference = w->reference_inner + (size_t)block * OZ_REFERENCE;
     real allowed = reference[OZ_REFERENCE_SKIN];
     if (OZ_ANY(oz_grains_moved2(w, reference, body, shaft) > allowed * allowed)) {
-        w->control->stale_step = step;
+        *mark = step;
     }
 }
 
@@ -176,7 +176,8 @@ OZ_INLINE void oz_grains_before(OzWork *w, int block, int step)
     oz_grains_store(w, block, body);
     oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
                      oz_integrate_seen_spin(body, shape, dt));
-    oz_grains_watch(w, block, body, shape, step);
+    oz_grains_watch(w, block, body, shape,
+                    OZ_RESORT ? &w->control->stale_places : &w->control->stale_step, step);
 }
 #endif
 
@@ -208,7 +209,7 @@ OZ_INLINE void oz_grains_block(OzWork *w, int block, int step)
     oz_grains_record(w, block, body, shape, body.velocity, body.spin);
 #endif
 #if !defined(OZ_MOVES_BEFORE)
-    oz_grains_watch(w, block, body, shape, step);
+    oz_grains_watch(w, block, body, shape, &w->control->stale_step, step);
 #endif
 }
 

@@ -72,6 +72,8 @@ typedef struct OzControl {
     int step;         /* next step to make                                                      */
     int moved;        /* its places are moved already (velocity-verlet, after a list was full)   */
     int stale_step;   /* the step after which lists no longer hold; OZ_NEVER                    */
+    int stale_places; /* the step whose places, moved before its forces, the lists do not hold; OZ_NEVER. Large
+                         scenes with an integrator that moves first only: others renew them in time */
     int full;         /* a list was too small: the rebuild is to be repeated with larger ones   */
     int outer_needed, inner_needed, back_needed; /* the largest that were asked for               */
     int stop_bits;    /* OZ_STOP_...                                                            */

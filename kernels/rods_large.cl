@@ -23,11 +23,17 @@ OZ_INLINE int due(const OzWork *w, int step)
            w->control->stop_step >= step && !w->control->full;
 }
 
+/* Whether the lists hold the places at which a step's forces are asked for. */
+OZ_INLINE int due_forces(const OzWork *w, int step)
+{
+    return due(w, step) && w->control->stale_places > step;
+}
+
 #if defined(OZ_MOVES_BEFORE)
 kernel void oz_before(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
-    if (due(&w, step) && !w.control->moved) {
+    if (due(&w, step) && w.control->stale_places >= step && !w.control->moved) {
         oz_motion_before_region(&w, region, step);
     }
 }
@@ -36,7 +42,7 @@ kernel void oz_before(OZ_WORK_ARGUMENTS, int step)
 kernel void oz_pairs(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
-    if (due(&w, step)) {
+    if (due_forces(&w, step)) {
         oz_pairs_region(&w, region, step);
     }
 }
@@ -44,7 +50,7 @@ kernel void oz_pairs(OZ_WORK_ARGUMENTS, int step)
 kernel void oz_grains(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
-    if (!due(&w, step)) {
+    if (!due_forces(&w, step)) {
         return;
     }
     oz_motion_region(&w, region, step);
@@ -88,6 +94,7 @@ kernel void oz_mark(OZ_WORK_ARGUMENTS, int truth)
     }
     if (truth == OZ_TRUTH_INNER) {
         w.control->stale_step = OZ_NEVER;
+        w.control->stale_places = OZ_NEVER;
     }
 }
 

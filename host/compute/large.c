@@ -65,8 +65,9 @@ OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *devi
     large->device = device;
     large->interval = 8;
     for (int p = 0; p < PHASE_COUNT; p++) {
-        bool absent = (p == PHASE_before && switches->integrator != OZ_INTEGRATOR_VELOCITY_VERLET) ||
-                      (p == PHASE_ledger && !switches->ledger);
+        bool absent =
+            (p == PHASE_before && switches->integrator != OZ_INTEGRATOR_VELOCITY_VERLET) ||
+            (p == PHASE_ledger && !switches->ledger);
         if (!absent) {
             large->kernel[p] = clCreateKernel(program, kernel_names[p], &code);
             CL_TRY(code);
@@ -121,9 +122,9 @@ done:
 /* The outer lists anew, with the grains put in the order of cells on the way. */
 static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControl *control)
 {
-    static const Phase sort[] = {PHASE_clear,   PHASE_bin,      PHASE_scan,   PHASE_fill,
-                                 PHASE_arrange, PHASE_move_out, PHASE_move_in, PHASE_search,
-                                 PHASE_restore};
+    static const Phase sort[] = {PHASE_clear,   PHASE_bin,     PHASE_scan,
+                                 PHASE_fill,    PHASE_arrange, PHASE_move_out,
+                                 PHASE_move_in, PHASE_search,  PHASE_restore};
     OzStatus status = OZ_OK;
     if (control->truth == OZ_TRUTH_OUTER) {
         OZ_TRY(queue_phase(large, arrays, PHASE_save, 0));
@@ -145,6 +146,13 @@ static OzStatus queue_refresh(OzLarge *large, OzArrays *arrays)
 static OzStatus read_control(const OzArrays *arrays, OzControl *control)
 {
     return oz_arrays_read(arrays, OZ_FIELD_control, 0, control, sizeof *control);
+}
+
+/* Whether the lists hold, for the next step and for places that it has moved already. */
+static bool hold(const OzControl *control)
+{
+    return control->truth == OZ_TRUTH_INNER && control->stale_step == OZ_NEVER &&
+           control->stale_places == OZ_NEVER;
 }
 
 /* Lists that hold, from whatever there is. *waits: the host has to make one. */
@@ -197,7 +205,11 @@ static OzStatus run_batch(OzLarge *large, OzArrays *arrays, OzControl *control, 
         OZ_TRY(queue_step(large, arrays, step));
     }
     OZ_TRY(read_control(arrays, control));
-    bool used_up = control->stale_step != OZ_NEVER;
+    if (control->stale_places != OZ_NEVER) {
+        control->moved = 1; /* the step goes on with its forces once lists hold */
+        OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+    }
+    bool used_up = !hold(control);
     double lasted = control->step - first;
     large->interval = used_up ? 0.5 * (large->interval + lasted) : large->interval + 1;
 done:
@@ -223,11 +235,11 @@ OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControl *control, in
     bool waits = false;
     OZ_TRY(bind_all(large, arrays));
     for (;;) {
-        bool hold = control->truth == OZ_TRUTH_INNER && control->stale_step == OZ_NEVER;
-        if (control->stop_bits || control->full || waits || (hold && control->step >= steps)) {
+        if (control->stop_bits || control->full || waits ||
+            (hold(control) && control->step >= steps)) {
             break;
         }
-        if (!hold) {
+        if (!hold(control)) {
             OZ_TRY(renew(large, arrays, control, &waits));
         } else {
             OZ_TRY(run_batch(large, arrays, control, steps));

@@ -124,7 +124,8 @@ done:
 /* Whether a member has made its steps and its lists hold, or a guard spoke. */
 static bool is_through(const OzControl *control, int steps)
 {
-    bool lists_hold = control->truth == OZ_TRUTH_INNER && control->stale_step == OZ_NEVER;
+    bool lists_hold = control->truth == OZ_TRUTH_INNER && control->stale_step == OZ_NEVER &&
+                      control->stale_places == OZ_NEVER;
     return control->stop_bits || (control->step >= steps && lists_hold);
 }
 

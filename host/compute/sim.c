@@ -40,6 +40,7 @@ static OzStatus upload_start(OzSim *sim)
     for (int m = 0; m < sim->crew.member_count; m++) {
         OZ_TRY(oz_pack_start(&sim->arrays, m, &sim->parameters[m], sim->crew.members[m].grains));
         sim->control[m] = (OzControl){.stale_step = OZ_NEVER,
+                                      .stale_places = OZ_NEVER,
                                       .stop_step = OZ_NEVER,
                                       .stop_grain = OZ_NEVER,
                                       .truth = OZ_TRUTH_NONE};
