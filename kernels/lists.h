@@ -248,8 +248,19 @@ OZ_INLINE void oz_lists_measure(OzWork *w, int region)
     }
 }
 
-/* One pair of the outer list into the inner one. */
-OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to)
+/* Takes numbers among those that have the grains of these pairs as second. Before anything is written for any of
+ * them: counting in step with other work-items waits for all writing to be over. */
+OZ_INLINE void oz_lists_count(OzWork *w, const int *outer, int count, int *back)
+{
+#if !OZ_SCATTER
+    for (int l = 0; l < count; l++) {
+        back[l] = OZ_WORK_COUNT(&w->back_number[w->outer_b[outer[l]]]);
+    }
+#endif
+}
+
+/* One pair of the outer list into the inner one; its number among those that have its second grain as such. */
+OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to, int back)
 {
     int a = w->outer_a[outer], b = w->outer_b[outer];
     w->pair_a[to] = a;
@@ -258,7 +269,6 @@ OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to)
     if (w->pair_number[a]++ == 0) {
         w->pair_first[a] = to;
     }
-    int back = OZ_WORK_COUNT(&w->back_number[b]);
     if (back < w->z.back_capacity) {
         w->back[(size_t)b * w->z.back_capacity + back] = to;
     }
@@ -317,8 +327,10 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
         real near = radii + oz_lists_skins(w, a) + oz_lists_skins(w, b);
         mask hits = (distance2 < near * near) & oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
         int hit_count = oz_lanes_compact(picked, OZ_LANES_IOTA + first, hits);
-        for (int l = 0; l < hit_count && count + l < w->z.inner_capacity; l++) {
-            oz_lists_take(w, picked[l], begin + count + l);
+        int taken = min(hit_count, max(w->z.inner_capacity - count, 0)), back[OZ_LANES];
+        oz_lists_count(w, picked, taken, back);
+        for (int l = 0; l < taken; l++) {
+            oz_lists_take(w, picked[l], begin + count + l, back[l]);
         }
         count += hit_count;
     }
