@@ -235,7 +235,8 @@ static void test_an_end_is_stiffer_than_a_centre(void **state)
 }
 
 /* A rod lying on its ends tilts 1 + m a^2 / I times as stiffly as it bounces: steps of 2.5e-4 s
- * carry one contact (up to 4.1e-4 s) and not the rod (up to 1.7e-4 s). */
+ * carry one contact (up to 4.1e-4 s) and not the rod (up to 1.7e-4 s). Ledger, cylinder and a floor
+ * that could move are those of the tiny bed below, whose kernels serve here. */
 static void test_check_and_run_warn_of_the_bed(void **state)
 {
     (void)state;
@@ -246,7 +247,9 @@ static void test_check_and_run_warn_of_the_bed(void **state)
     assert_non_null(file);
     fprintf(file, "model: rods\ntime: {step: 2.5e-4, duration: 1e-3}\n"
                   "integrator: velocity-verlet\n"
-                  "contact: {contact_time: 1e-3, restitution: 0.5}\nwalls:\n  - {kind: plane}\n"
+                  "contact: {contact_time: 1e-3, restitution: 0.5}\nobserve: {ledger: true}\n"
+                  "walls:\n  - {kind: plane, motion: {frequency: 30, acceleration_ratio: 0}}\n"
+                  "  - {kind: cylinder, diameter: 0.1}\n"
                   "grains:\n  - {kind: single, diameter: 5e-3, aspect: 4, axis: [1, 0, 0],"
                   " position: [0, 0, 2.4999e-3]}\n");
     fclose(file);

@@ -4,11 +4,14 @@
 
 #include <math.h>
 
-/* Taps of 1000 steps. */
+/* Taps of 1000 steps. One grain is unlike the others: the kernels are those of other tests' beds.
+ */
 static const char bed[] = "model: rods\n"
                           "time: {step: 2e-5, taps: 2}\n"
                           "contact: {contact_time: 6e-4, restitution: 0.5}\n"
-                          "grains: [{kind: random, count: 30, diameter: 1e-3, aspect: 2}]\n"
+                          "grains:\n"
+                          "  - {kind: random, count: 29, diameter: 1e-3, aspect: 2}\n"
+                          "  - {kind: random, count: 1, diameter: 1e-3, aspect: 1}\n"
                           "walls:\n"
                           "  - {kind: plane, motion: {frequency: 50, acceleration_ratio: 2}}\n"
                           "  - {kind: cylinder, diameter: 8e-3}\n"
