@@ -17,7 +17,7 @@ static const struct {
      1, 1},
     {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o", 1,
      1},
-    {"keys", "", "c", "every scene key: type, unit, range, default, meaning", 0, 0},
+    {"keys", "[PART]", "c", "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1},
     {"bench", "[SCENE]...", "oQFzbysdtS", "speed on this machine: an6 and a ladder of beds, or scenes", 0,
      OZ_CLI_PATHS_MAX},
     {"report", "[SCENE]...", "oQTXMBEHefsdtS", "what accuracy costs: error against run time", 0,

@@ -30,13 +30,25 @@ static OzStatus draw_command(const OzOptions *options)
     return oz_redraw_folder(options);
 }
 
+static OzStatus list_keys(const char *part)
+{
+    OzStatus status = OZ_OK;
+    if (!oz_keys_print(part, stdout)) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "no key holds %s; expected a part of one that "
+                                "orzo keys lists",
+                                part);
+        oz_log_line("%s", oz_status_text());
+    }
+    return status;
+}
+
 static OzStatus keys_command(const OzOptions *options)
 {
     static const char *const models[] = {
         [OZ_COLUMN_RODS] = "rods", [OZ_COLUMN_TRIGRAINS] = "trigrains", [OZ_COLUMN_ALL] = "all"};
     if (!options->columns) {
-        oz_keys_print(stdout);
-        return OZ_OK;
+        return list_keys(options->path_count ? options->paths[0] : NULL);
     }
     for (const OzColumn *column = oz_series_columns(); column->name; column++) {
         printf("%-21s %-8s %-10s %s\n", column->name, column->unit, models[column->models],
@@ -72,8 +84,8 @@ static const struct {
     const char *name;
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
-    {"run", run_command},   {"check", check_command},     {"draw", draw_command},
-    {"keys", keys_command}, {"bench", bench_command},     {"report", report_command},
+    {"run", run_command},         {"check", check_command}, {"draw", draw_command},
+    {"keys", keys_command},       {"bench", bench_command}, {"report", report_command},
     {"devices", devices_command},
 };
 

@@ -240,6 +240,8 @@ static void test_other_commands(void **state)
     expect(0, "--overwrite", "run --help");
     expect(0, "orzo ", "--version");
     expect(0, "walls[].motion.acceleration_ratio", "keys");
+    expect(0, "; law hooke", "keys contact.contact_time");
+    expect(2, "no key holds friktion", "keys friktion");
     expect(0, "steps since the settled bed", "keys --columns");
     char *said = read_file("said", NULL), names[1024] = "";
     for (int row = 0; line_of(said, row)[0]; row++) {

@@ -129,16 +129,27 @@ static void print_owners(const OzKey *key, FILE *file)
     print_bits(key->models, "model", "; model ", file);
     print_bits(key->kinds, wall ? "walls[].kind" : "grains[].kind", "; kind ", file);
     print_bits(key->shapes, "grains[].shape", "; shape ", file);
+    print_bits(key->laws, "contact.law", "; law ", file);
+    bool of_pieces = !key->models || (key->models >> OZ_MODEL_TRIGRAINS & 1);
+    if (of_pieces && strncmp(key->path, "contact.", strlen("contact.")) == 0) {
+        fprintf(file, "; trigrains: discs only");
+    }
 }
 
-void oz_keys_print(FILE *file)
+bool oz_keys_print(const char *part, FILE *file)
 {
+    bool any = false;
     for (const OzKey *key = oz_rows_all(); key->path; key++) {
         char expected[256];
+        if (part && !strstr(key->path, part)) {
+            continue;
+        }
+        any = true;
         oz_describe_expected(key, expected, sizeof expected);
         fprintf(file, "%s\n    %s\n    %s; ", key->path, key->help, expected);
         print_default(key, file);
         print_owners(key, file);
         fputc('\n', file);
     }
+    return any;
 }

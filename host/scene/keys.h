@@ -89,7 +89,8 @@ const char *oz_keys_choice_name(const char *path, int value);
 /* The bytes that a row's value takes at its offset, without what it points to. */
 size_t oz_keys_size(const OzKey *key);
 
-/* Every key: meaning, type, range, unit, default and what it belongs to. */
-void oz_keys_print(FILE *file);
+/* Every key whose path holds this part (NULL: every key): meaning, type, range, unit, default and
+ * what it belongs to. False when there is none. */
+bool oz_keys_print(const char *part, FILE *file);
 
 #endif
