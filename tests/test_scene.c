@@ -212,6 +212,54 @@ static void tells_what_is_wrong_with_settings(void **state)
                  SETTINGS("time.step=0"));
 }
 
+/* A sweep is one key and its values; whatever else stands there is named. */
+static void tells_what_is_wrong_with_a_sweep(void **state)
+{
+    (void)state;
+    expect_error(SMALL "sweep: {contact.friction: [0.1], seed: [1, 2]}\n",
+                 "small.yaml:5: sweep has 2 keys, contact.friction and seed; expected one, as in "
+                 "{contact.friction: [0.1, 0.2]}",
+                 NULL, 0);
+    expect_error(SMALL "sweep: {contact.friction: 0.3}\n",
+                 "small.yaml:5: sweep of contact.friction is 0.3; expected a list of 1 to 10000 "
+                 "values, as in {contact.friction: [0.1, 0.2]}",
+                 NULL, 0);
+    expect_error(SMALL "sweep: {contact.friction: []}\n",
+                 "small.yaml:5: sweep of contact.friction is a list of 0; expected a list of 1 to "
+                 "10000 values, as in {contact.friction: [0.1, 0.2]}",
+                 NULL, 0);
+    expect_error(SMALL "sweep: contact.friction\n",
+                 "small.yaml:5: sweep is contact.friction; expected one key and its values, as in "
+                 "{contact.friction: [0.1, 0.2]}",
+                 NULL, 0);
+}
+
+/* The hint says what is missing; where it says another thing, both lines stand. */
+static void names_a_misspelt_key_once(void **state)
+{
+    (void)state;
+    static const char head[] = "model: rods\ntime: {step: 1e-5, duration: 1}\n"
+                               "contact: {contact_time: 1e-3, restitution: 0.5}\n";
+    char text[512];
+    snprintf(text, sizeof text, "%sgrains:\n  - {kind: random, cont: 3, diameter: 1}\n%s", head,
+             "  - {kind: random, diameter: 1}\n");
+    expect_error(text,
+                 "small.yaml:5: unknown key grains.0.cont; did you mean grains[].count?\n"
+                 "small.yaml:6: grains.1.count is missing; expected a whole number from 0 to 1e18",
+                 NULL, 0);
+    expect_error("model: rods\ntime: {step: 1e-5, tap: 1}\ngrains: []\n"
+                 "contact: {contact_time: 1e-3, restitution: 0.5}\n",
+                 "small.yaml:2: unknown key time.tap; did you mean time.taps?", NULL, 0);
+}
+
+static void names_corners_as_written(void **state)
+{
+    (void)state;
+    expect_error("model: trigrains\ntime: {step: 1e-6, duration: 1}\ngrains:\n"
+                 "  - {kind: random, count: 3, shape: polygon, radius: 1e-3, corners: 4.5}\n",
+                 "small.yaml:4: grains.0.corners is 4.5; expected a whole number", NULL, 0);
+}
+
 static char *repeat(const char *head, const char *part, size_t count)
 {
     size_t length = strlen(part);
@@ -292,6 +340,9 @@ int main(void)
         cmocka_unit_test(walls_have_their_own_contact),
         cmocka_unit_test(tells_what_is_wrong),
         cmocka_unit_test(tells_what_is_wrong_with_settings),
+        cmocka_unit_test(tells_what_is_wrong_with_a_sweep),
+        cmocka_unit_test(names_a_misspelt_key_once),
+        cmocka_unit_test(names_corners_as_written),
         cmocka_unit_test(refuses_huge_files),
         cmocka_unit_test(rows_are_complete),
     };

@@ -32,9 +32,16 @@ static void check_corners(const Checker *checker, const OzPopulation *grains)
 {
     const OzRange *corners = &grains->corners;
     bool asked = grains->shape == OZ_SHAPE_POLYGON || grains->shape == OZ_SHAPE_STAR;
-    if (asked && (corners->low != floor(corners->low) || corners->high != floor(corners->high))) {
-        FAULT(checker, "corners", "corners are [%g, %g]; expected whole numbers", corners->low,
-              corners->high);
+    bool whole = corners->low == floor(corners->low) && corners->high == floor(corners->high);
+    if (!asked || whole) {
+        return;
+    }
+    if (corners->low == corners->high) {
+        FAULT(checker, "corners", "grains.%d.corners is %g; expected a whole number",
+              checker->index, corners->low);
+    } else {
+        FAULT(checker, "corners", "grains.%d.corners is [%g, %g]; expected whole numbers",
+              checker->index, corners->low, corners->high);
     }
 }
 
@@ -43,7 +50,8 @@ static void check_vertices(const Checker *checker, const OzPopulation *grains)
     int count = grains->vertex_count;
     if (grains->shape == OZ_SHAPE_VERTICES && grains->vertices && (count < 6 || count % 2)) {
         FAULT(checker, "vertices",
-              "vertices are %d numbers; expected x and y of at least three corners", count);
+              "grains.%d.vertices is a list of %d; expected x and y of at least three corners",
+              checker->index, count);
     }
 }
 

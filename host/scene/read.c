@@ -76,6 +76,26 @@ done:
     return status;
 }
 
+static bool is_known(const char *path)
+{
+    return oz_keys_find(path) || oz_keys_is_group(path);
+}
+
+/* Whether a key that was written below the map but is not known is taken for the one at `wanted`:
+ * who is told what was meant need not be told that it is missing. */
+static bool is_misspelt(const Reader *reader, const OzNode *map, const char *wanted)
+{
+    char path[LONGEST_PATH], near[LONGEST_PATH];
+    bool found = false;
+    for (int i = 0; map->kind == OZ_NODE_MAP && i < map->count && !found; i++) {
+        oz_tree_path(map->items[i], true, path, sizeof path);
+        found = is_known(path) ? is_misspelt(reader, map->items[i], wanted)
+                               : oz_describe_nearest(path, reader->model, near, sizeof near) &&
+                                     strcmp(near, wanted) == 0;
+    }
+    return found;
+}
+
 static void report_unknown(const Reader *reader, const OzNode *node, const char *path)
 {
     char shown[LONGEST_PATH], near[LONGEST_PATH], group[LONGEST_PATH], names[1024];
@@ -284,14 +304,24 @@ static bool is_asked_for(const OzKey *key, const Place *place)
     return true;
 }
 
+static bool is_required(const Reader *reader, const OzKey *key, const Place *place)
+{
+    return key->required && belongs(reader, key, place->prefix) &&
+           (!key->kinds || key->kinds & place->kind) &&
+           (!key->shapes || key->shapes & place->shape) &&
+           (!key->laws || (reader->contacts && key->laws >> reader->scene->contact.law & 1)) &&
+           is_asked_for(key, place);
+}
+
+static bool is_there(const Reader *reader, const OzKey *key, const Place *place)
+{
+    return written(place, key) || is_misspelt(reader, place->node, key->path);
+}
+
 static void check_required(const Reader *reader, const Place *place)
 {
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
-        if (!key->required || !belongs(reader, key, place->prefix) || written(place, key) ||
-            (key->kinds && !(key->kinds & place->kind)) ||
-            (key->shapes && !(key->shapes & place->shape)) ||
-            (key->laws && (!reader->contacts || !(key->laws >> reader->scene->contact.law & 1))) ||
-            !is_asked_for(key, place)) {
+        if (!is_required(reader, key, place) || is_there(reader, key, place)) {
             continue;
         }
         const char *dot = strrchr(key->path, '.');
@@ -299,7 +329,7 @@ static void check_required(const Reader *reader, const Place *place)
         snprintf(rival, sizeof rival, "%.*s%s", dot ? (int)(dot - key->path) + 1 : 0, key->path,
                  key->rival ? key->rival : "");
         const OzKey *other = key->rival ? oz_keys_find(rival) : NULL;
-        if (!other || !written(place, other)) {
+        if (!other || !is_there(reader, other, place)) {
             report_missing(reader, key, place);
         }
     }

@@ -80,6 +80,25 @@ done:
     return status;
 }
 
+/* What is no sweep: anything but one key and a list of values. */
+static void complain(const OzNode *node, OzFaults *faults)
+{
+    char is[128], what[512];
+    const OzNode *entry = node->kind == OZ_NODE_MAP && node->count > 0 ? node->items[0] : NULL;
+    oz_describe_node(entry ? entry : node, is, sizeof is);
+    if (!entry) {
+        snprintf(what, sizeof what, "sweep is %s; expected one key and its values", is);
+    } else if (node->count > 1) {
+        snprintf(what, sizeof what, "sweep has %d keys, %.80s and %.80s%s; expected one",
+                 node->count, entry->key, node->items[1]->key, node->count > 2 ? ", ..." : "");
+    } else {
+        snprintf(what, sizeof what, "sweep of %.80s is %s; expected a list of 1 to %d values",
+                 entry->key, is, MOST_VALUES);
+    }
+    oz_faults_add(faults, node->source, node->line, "%s, as in {contact.friction: [0.1, 0.2]}",
+                  what);
+}
+
 OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, int model, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
@@ -88,12 +107,8 @@ OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, int model, OzFaults *
         return OZ_OK;
     }
     if (!entry || entry->kind != OZ_NODE_LIST || entry->count < 1 || entry->count > MOST_VALUES) {
-        if (!node->refused) {
-            oz_faults_add(
-                faults, node->source, node->line,
-                "sweep is not as it should be; expected one key and 1 to %d values, as in "
-                "{contact.friction: [0.1, 0.2]}",
-                MOST_VALUES);
+        if (!node->refused && !(entry && entry->refused)) {
+            complain(node, faults);
         }
         return OZ_OK;
     }
