@@ -12,14 +12,16 @@ static const struct {
     const char *name, *arguments, *takes, *help;
     int least_paths, most_paths;
 } command_rows[] = {
-    {"run", "SCENE", "oOsedtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1},
-    {"check", "SCENE", "sdtpS", "validate; what follows from the scene, what is stable, what is left out",
-     1, 1},
-    {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o", 1,
+    {"run", "SCENE", "oOsedtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1,
      1},
-    {"keys", "[PART]", "c", "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1},
-    {"bench", "[SCENE]...", "oQFzbysdtS", "speed on this machine: an6 and a ladder of beds, or scenes", 0,
-     OZ_CLI_PATHS_MAX},
+    {"check", "SCENE", "sdtpfS",
+     "validate; what follows from the scene, what is stable, what is left out", 1, 1},
+    {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o",
+     1, 1},
+    {"keys", "[PART]", "c",
+     "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1},
+    {"bench", "[SCENE]...", "oQFzbysdtS",
+     "speed on this machine: an6 and a ladder of beds, or scenes", 0, OZ_CLI_PATHS_MAX},
     {"report", "[SCENE]...", "oQTXMBEHefsdtS", "what accuracy costs: error against run time", 0,
      OZ_CLI_PATHS_MAX},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
@@ -30,7 +32,8 @@ static const struct {
     char letter;
     const char *name, *value, *help;
 } option_rows[] = {
-    {'o', "-o", "DIR", "folder to write (default runs/<scene name>; of bench: bench, of report: report)"},
+    {'o', "-o", "DIR",
+     "folder to write (default runs/<scene name>; of bench: bench, of report: report)"},
     {'O', "--overwrite", NULL, "replace a finished run there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
     {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all"},
@@ -40,7 +43,7 @@ static const struct {
     {'g', "--gl", "egl|osmesa", "how to draw off-screen"},
     {'u', "--until", "T", "stop at time T, s"},
     {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later"},
-    {'f', "--force", NULL, "run even at a step at which a contact is unstable"},
+    {'f', "--force", NULL, "only warn of a step at which a contact is unstable"},
     {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder"},
     {'Q', "--quick", NULL, "a short ladder, in about a minute"},
     {'F', "--features", NULL, "what each feature of an6 costs, too"},
@@ -52,7 +55,8 @@ static const struct {
     {'M', "--map", NULL, "stability map over steps per contact and restitution instead"},
     {'B', "--stability", NULL, "the largest stable step of each scene's settled bed instead"},
     {'E', "--ensemble", NULL, "a shaken bed at every step and integrator, for many seeds, instead"},
-    {'H', "--hits", NULL, "how often two grains hit and how they spin then, for each value, instead"},
+    {'H', "--hits", NULL,
+     "how often two grains hit and how they spin then, for each value, instead"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -83,8 +87,8 @@ static int find_option(const char *name)
 
 static void print_command(int c)
 {
-    printf("orzo %s %s\n    %s\n", command_rows[c].name, command_rows[c].arguments,
-           command_rows[c].help);
+    printf("orzo %s%s%s\n    %s\n", command_rows[c].name, command_rows[c].most_paths ? " " : "",
+           command_rows[c].arguments, command_rows[c].help);
     for (int o = 0; o < OPTIONS; o++) {
         if (strchr(command_rows[c].takes, option_rows[o].letter)) {
             printf("    %-13s %-12s %s\n", option_rows[o].name,
@@ -97,7 +101,8 @@ void oz_cli_help(const char *command)
 {
     int only = command ? find_command(command) : -1;
     if (only < 0) {
-        printf("orzo: granular matter computed with OpenCL, shown as a movie, with its error stated\n\n");
+        printf("orzo: granular matter computed with OpenCL, shown as a movie, with its error "
+               "stated\n\n");
     }
     for (int c = 0; c < COMMANDS; c++) {
         if (only < 0 || c == only) {
@@ -105,7 +110,10 @@ void oz_cli_help(const char *command)
         }
     }
     if (only < 0) {
-        printf("orzo --help | --version\n");
+        printf(
+            "orzo --help | --version\n\n"
+            "exit status: 0 done; 1 something failed or a guard stopped a run; 2 a scene, key or\n"
+            "option refused, of `check` also a step that `run` would refuse; 130 interrupted\n");
     }
 }
 
@@ -281,10 +289,25 @@ static OzStatus take_argument(OzOptions *options, int command, int argc, char **
         return wrong(argument, expected);
     }
     if (option_rows[o].value && *i + 1 >= argc) {
-        return wrong(argument, option_rows[o].value);
+        return oz_status_fail(OZ_ERR_INPUT, "orzo: %s is missing; expected %s %s",
+                              option_rows[o].value, argument, option_rows[o].value);
     }
-    return take_option(options, option_rows[o].letter,
-                       option_rows[o].value ? argv[++*i] : NULL);
+    return take_option(options, option_rows[o].letter, option_rows[o].value ? argv[++*i] : NULL);
+}
+
+static OzStatus check_count(const OzOptions *options, int command)
+{
+    const char *name = command_rows[command].name, *arguments = command_rows[command].arguments;
+    int most = command_rows[command].most_paths;
+    if (options->path_count < command_rows[command].least_paths) {
+        return oz_status_fail(OZ_ERR_INPUT, "orzo: %s is missing; expected orzo %s %s", arguments,
+                              name, arguments);
+    }
+    if (options->path_count > most) {
+        return oz_status_fail(OZ_ERR_INPUT, "orzo: '%s' is one too many; expected orzo %s%s%s",
+                              options->paths[most], name, most ? " " : "", arguments);
+    }
+    return OZ_OK;
 }
 
 OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
@@ -304,14 +327,7 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     for (int i = 2; i < argc; i++) {
         OZ_TRY(take_argument(options, command, argc, argv, &i));
     }
-    if (!options->help && (options->path_count < command_rows[command].least_paths ||
-                           options->path_count > command_rows[command].most_paths)) {
-        char expected[64];
-        snprintf(expected, sizeof expected, "orzo %s %s", argv[1],
-                 command_rows[command].arguments);
-        const char *last = options->path_count ? options->paths[options->path_count - 1] : argv[1];
-        status = wrong(last, expected);
-    }
+    OZ_TRY(options->help ? OZ_OK : check_count(options, command));
 done:
     return status;
 }

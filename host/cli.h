@@ -36,7 +36,7 @@ typedef struct OzOptions {
 /* Reads argv. Fails with OZ_ERR_INPUT, naming the argument and what was expected. */
 OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv);
 
-/* The text of --help: of one command, or of all when it is NULL. */
+/* The text of --help: of one command, or of all, with the exit statuses, when it is NULL. */
 void oz_cli_help(const char *command);
 
 #endif

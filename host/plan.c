@@ -50,7 +50,6 @@ static OzStatus load_scene(const OzPlan *plan, int64_t i, OzScene *scene)
     return status;
 }
 
-/* Refuses a step at which a contact of the scene grows by itself. */
 static OzStatus check_pieces(const OzScene *scene, const OzGrains *grains, bool force)
 {
     OzBeamLimit limit;
@@ -80,7 +79,7 @@ static OzStatus check_pieces(const OzScene *scene, const OzGrains *grains, bool 
     return OZ_OK;
 }
 
-static OzStatus check_stability(const OzScene *scene, const OzGrains *grains, bool force)
+OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force)
 {
     if (scene->model == OZ_MODEL_TRIGRAINS) {
         return check_pieces(scene, grains, force);
@@ -109,7 +108,7 @@ OzStatus oz_plan_load(const OzPlan *plan, int64_t i, OzScene *scene, OzGrains *g
     OzStatus status = OZ_OK;
     OZ_TRY(load_scene(plan, i, scene));
     OZ_TRY(oz_place_grains(grains, scene));
-    OZ_TRY(check_stability(scene, grains, plan->options->force));
+    OZ_TRY(oz_plan_judge(scene, grains, plan->options->force));
 done:
     return status;
 }

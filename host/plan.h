@@ -25,6 +25,9 @@ typedef struct OzPlan {
 OzStatus oz_plan_create(OzPlan *plan, const OzOptions *options);
 void oz_plan_free(OzPlan *plan);
 
+/* Refuses a step at which a contact of the scene grows by itself, or warns in the log with force. */
+OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force);
+
 /* Member i's scene, without a sweep, and its grains at the start. Refuses a step at which a contact
  * grows by itself, unless --force. The caller frees both, also on failure. */
 OzStatus oz_plan_load(const OzPlan *plan, int64_t i, OzScene *scene, OzGrains *grains);

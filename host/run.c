@@ -13,6 +13,7 @@
 #include "plan.h"
 #include "room.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -193,6 +194,7 @@ done:
 static OzStatus open_group(Run *run)
 {
     OzStatus status = OZ_OK;
+    char missed[512];
     OZ_TRY(open_courses(run));
     oz_interrupt_hold();
     for (int64_t m = 0; m < run->member_count; m++) {
@@ -201,6 +203,9 @@ static OzStatus open_group(Run *run)
         OZ_TRY(member->name[0] ? oz_file_join(&member->folder, run->folder, member->name)
                                : oz_file_join(&member->folder, NULL, run->folder));
         OZ_TRY(oz_outputs_open(member, run->options, run->device.name, run->studio));
+    }
+    if (oz_schedule_missed(&run->schedule, missed, sizeof missed)) {
+        oz_log_line("warning: %s", missed);
     }
     if (run->plan.is_ensemble) {
         oz_log_line("%s to %s: %lld side by side, %d launches at a time", run->members[0]->name,
@@ -230,18 +235,24 @@ static OzSimCounts add_counts(const Run *run, double *spent)
     return sum;
 }
 
+/* Where the time went; of pictures only when there were any. */
 static void log_costs(const Run *run)
 {
     double spent = 0;
+    char waiting[96] = "", beside[160] = "";
     OzSimCounts counts = add_counts(run, &spent);
     OzStudioTimes pictures = oz_studio_take_times(run->studio);
     double steps = counts.steps > 0 ? (double)counts.steps : 1;
     double waited = pictures.waited / run->course_count;
-    oz_log_line("%lld steps in %.2f s, %.2f s of them waiting for pictures: %.1f us a step without "
-                "(beside it drawing %.2f s, encoding %.2f s); list refreshed every %.1f, rebuilt "
+    if (pictures.waited > 0) {
+        snprintf(waiting, sizeof waiting, ", of which %.2f s waiting for pictures", waited);
+        snprintf(beside, sizeof beside,
+                 ", that waiting left out; beside it drawing %.2f s and encoding %.2f s",
+                 pictures.drawing, pictures.encoding);
+    }
+    oz_log_line("%lld steps in %.2f s%s; %.1f us a step%s; list refreshed every %.1f, rebuilt "
                 "every %.0f steps",
-                (long long)counts.steps, spent, waited, 1e6 * (spent - waited) / steps,
-                pictures.drawing, pictures.encoding,
+                (long long)counts.steps, spent, waiting, 1e6 * (spent - waited) / steps, beside,
                 steps / (double)(counts.refreshes ? counts.refreshes : 1),
                 steps / (double)(counts.rebuilds ? counts.rebuilds : 1));
     if (counts.crossed > 0) {

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "observe/clip.h"
+#include "observe/schedule.h"
 #include "observe/series.h"
 
 static const double PI = 3.14159265358979323846;
@@ -347,9 +348,35 @@ static int clean_up(void **state)
     return remove_folder((const char *const[]){"one.csv", "e.csv", "t.csv", "s.csv", NULL});
 }
 
+/* A snapshot at the last step is drawn; later ones are named, as they were written. */
+static void test_snapshots_beyond_the_end_are_named(void **state)
+{
+    (void)state;
+    double times[] = {0.01, 0.02, 0.03, 0.05}, taps[] = {0.5, 1, 1.5, 2.5};
+    OzScene scene = {.step = 1e-3, .duration = 0.05, .period = 0.02};
+    scene.snapshots.times = times;
+    scene.snapshots.count = 4;
+    char text[256];
+    OzSchedule schedule = oz_schedule_create(&scene, -1);
+    assert_false(oz_schedule_missed(&schedule, text, sizeof text));
+    schedule = oz_schedule_create(&scene, 0.02);
+    assert_true(oz_schedule_missed(&schedule, text, sizeof text));
+    assert_string_equal(
+        text, "snapshots.times 0.03, 0.05 s beyond the run's end at 0.02 s are not drawn");
+    scene.snapshots.taps = taps;
+    scene.snapshots.tap_count = 4;
+    assert_true(oz_schedule_missed(&schedule, text, sizeof text));
+    assert_string_equal(text,
+                        "snapshots.taps 1.5, 2.5 beyond the run's end at tap 1 are not drawn");
+    char little[12]; /* cut to size */
+    assert_true(oz_schedule_missed(&schedule, little, sizeof little));
+    assert_string_equal(little, "snapshots.t");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_snapshots_beyond_the_end_are_named),
         cmocka_unit_test(test_clip_closed_forms),
         cmocka_unit_test(test_clip_tilted),
         cmocka_unit_test(test_clip_slope),

@@ -2,6 +2,7 @@
 #include "observe/schedule.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Simulated seconds between frames of the movie. A `length` spreads the frames evenly over the run;
@@ -87,6 +88,34 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
         s->snapshots++;
     }
     return true;
+}
+
+bool oz_schedule_missed(const OzSchedule *s, char *text, size_t size)
+{
+    enum { NAMED = 8 };
+    const OzSnapshotSettings *shots = &s->scene->snapshots;
+    bool taps = shots->tap_count > 0;
+    double end = (double)s->last_step * s->scene->step / (taps ? s->scene->period : 1);
+    int first = 0, named = 0;
+    while (first < shots->count && llround(shots->times[first] / s->scene->step) <= s->last_step) {
+        first++;
+    }
+    int missed = shots->count - first;
+    size_t used = (size_t)snprintf(text, size, "snapshots.%s", taps ? "taps" : "times");
+    for (; named < missed && named < NAMED && used < size; named++) {
+        double at = taps ? shots->taps[first + named] : shots->times[first + named];
+        used += (size_t)snprintf(text + used, size - used, "%s %.9g", named ? "," : "", at);
+    }
+    if (missed > named && used < size) {
+        used += (size_t)snprintf(text + used, size - used, " and %d more", missed - named);
+    }
+    if (used < size) {
+        snprintf(text + used, size - used,
+                 taps ? " beyond the run's end at tap %.4g are not drawn"
+                      : " s beyond the run's end at %g s are not drawn",
+                 end);
+    }
+    return missed > 0;
 }
 
 bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)

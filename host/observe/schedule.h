@@ -32,6 +32,9 @@ OzSchedule oz_schedule_create(const OzScene *scene, double until);
  * there is nothing more up to the last step; the last step itself is always an event. */
 bool oz_schedule_next(OzSchedule *schedule, int64_t *step, int *due);
 
+/* The snapshots that lie beyond the last step and are never due, in words; false without any. */
+bool oz_schedule_missed(const OzSchedule *schedule, char *text, size_t size);
+
 /* Whether two schedules have their events at the same times. */
 bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b);
 

@@ -3,11 +3,13 @@
 
 #include "base/log.h"
 #include "compute/drive.h"
-#include "model/calibrate.h"
 #include "model/place.h"
-#include "model/predict.h"
+#include "observe/schedule.h"
+#include "plan.h"
 #include "scene/keys.h"
+#include "study/inspect_contacts.h"
 #include "study/inspect_pieces.h"
+#include "study/inspect_range.h"
 #include "study/report_bed.h"
 
 #include <math.h>
@@ -24,10 +26,8 @@ static void print_range(FILE *file, const char *name, const double *values, int6
         low = fmin(low, values[i]);
         high = fmax(high, values[i]);
     }
-    if (count > 0 && low < high) {
-        fprintf(file, "  %-16s %.6g ... %.6g %s\n", name, low, high, unit);
-    } else if (count > 0) {
-        fprintf(file, "  %-16s %.6g %s\n", name, low, unit);
+    if (count > 0) {
+        oz_inspect_range_print(file, name, low, high, unit);
     }
 }
 
@@ -53,58 +53,68 @@ static void print_motion(FILE *file, const OzScene *scene)
     }
 }
 
-/* In the order of OzCalibrated. */
-static const char *const calibrated[] = {
-    NULL,
-    "discrete: exact at every phase of first touch",
-    "discrete: exact in the mean over the phases of first touch",
-    "discrete: no damping gives what was asked; as if continuous",
-};
-
-static void print_contact(FILE *file, const OzScene *scene, const OzPrediction *row)
+static void print_pictures(FILE *file, const OzScene *scene)
 {
-    const char *calibration = calibrated[oz_calibrate_outcome(scene, &row->values)];
-    const OzContactConstants *c = &row->constants;
-    if (row->wall < 0) {
-        fprintf(file, "contact            of two grains\n");
-    } else {
-        fprintf(file, "contact            at wall %d\n", row->wall);
+    char missed[512];
+    OzSchedule schedule = oz_schedule_create(scene, -1);
+    if (!scene->movie.present && scene->snapshots.count == 0 && !(scene->snapshots.strobe > 0)) {
+        fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
     }
-    if (row->speed > 0) {
-        fprintf(file, "  hit              at %.4g m/s, stiffness at its deepest point\n",
-                row->speed);
-    }
-    fprintf(file, "  k_n              %.6g ... %.6g N/m\n", c->stiffness * row->mass_low,
-            c->stiffness * row->mass_high);
-    fprintf(file, "  c_n              %.6g ... %.6g kg/s\n", c->damping * row->mass_low,
-            c->damping * row->mass_high);
-    fprintf(file, "  steps            %.4g a contact\n", row->steps);
-    fprintf(file,
-            "  restitution      asked %.6g, this integrator gives %.6g (%.6g ... %.6g by phase)\n",
-            row->values.restitution, row->hits.mean, row->hits.low, row->hits.high);
-    if (calibration) {
-        fprintf(file, "  calibration      %s\n", calibration);
-    }
-    if (row->values.law != OZ_LAW_HERTZ && row->values.restitution < OZ_CONTACT_RESTITUTION_LEAST) {
-        fprintf(file, "  restitution      %g is used as %g\n", row->values.restitution,
-                OZ_CONTACT_RESTITUTION_LEAST);
-    }
-    fprintf(file, "  stable           %s: largest step %.6g s, margin %.3g\n",
-            row->stable ? "yes" : "NO", row->largest_step, row->margin);
-    if (!row->tangential_stable) {
-        fprintf(file, "  warning          a sticking tangential spring is unstable at this step\n");
+    if (oz_schedule_missed(&schedule, missed, sizeof missed)) {
+        fprintf(file, "warning            %s\n", missed);
     }
 }
 
-static OzStatus print_contacts(FILE *file, const OzScene *scene, const OzGrains *grains)
+/* Whether a run would refuse member i of a sweep; said by name. */
+static OzStatus judge_member(const OzPlan *plan, int64_t i)
 {
-    OzPrediction *rows = NULL;
-    int count = 0;
-    OzStatus status = oz_predict_scene(&rows, &count, scene, grains);
-    for (int i = 0; status == OZ_OK && i < count; i++) {
-        print_contact(file, scene, &rows[i]);
+    OzScene scene = {0};
+    OzGrains grains = {0};
+    char *name = NULL;
+    OzStatus status = oz_plan_load(plan, i, &scene, &grains);
+    if (status != OZ_OK && oz_plan_name(plan, i, &name) == OZ_OK) {
+        oz_log_line("%s: %s", name, oz_status_text());
     }
-    free(rows);
+    free(name);
+    oz_grains_free(&grains);
+    oz_scene_free(&scene);
+    return status;
+}
+
+/* Fails as a run of the scene would before its first step. */
+static OzStatus judge(const OzOptions *options, const OzScene *scene, const OzGrains *grains)
+{
+    OzPlan plan = {0};
+    OzStatus status = OZ_OK, loss = OZ_OK;
+    int64_t lost = 0;
+    if (scene->sweep.count == 0) {
+        return oz_plan_judge(scene, grains, options->force);
+    }
+    OZ_TRY(oz_plan_create(&plan, options));
+    for (int64_t i = 0; i < plan.count; i++) {
+        OzStatus own = judge_member(&plan, i);
+        loss = loss == OZ_OK ? own : loss;
+        lost += own != OZ_OK;
+    }
+    if (lost > 0) {
+        status = oz_status_fail(loss, "%lld of %lld members cannot be run", (long long)lost,
+                                (long long)plan.count);
+    }
+done:
+    oz_plan_free(&plan);
+    return status;
+}
+
+static OzStatus print_rods(FILE *file, const OzScene *scene, const OzGrains *grains,
+                           const OzDevice *device, const OzOptions *options)
+{
+    OzStatus status = OZ_OK;
+    print_grains(file, grains);
+    print_motion(file, scene);
+    OZ_TRY(oz_inspect_contacts_print(file, scene, grains));
+    OZ_TRY(oz_drive_describe(device, scene, grains, file));
+    OZ_TRY(oz_report_bed_print(file, scene, grains, device, options->source_dir, PATIENCE));
+done:
     return status;
 }
 
@@ -114,6 +124,7 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     OzScene scene = {0};
     OzGrains grains = {0};
     OzDevice device = {0};
+    char burst[1024] = "";
     OZ_TRY(oz_scene_load(&scene, options->paths[0], options->settings, options->setting_count));
     OZ_TRY(oz_place_grains(&grains, &scene));
     fprintf(file, "scene              %s%s%s\n", scene.path, scene.title ? ": " : "",
@@ -130,14 +141,18 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
         OZ_TRY(oz_inspect_pieces_print(file, &scene, &grains));
         OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
     } else {
-        print_grains(file, &grains);
-        print_motion(file, &scene);
-        OZ_TRY(print_contacts(file, &scene, &grains));
-        OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
-        OZ_TRY(oz_report_bed_print(file, &scene, &grains, &device, options->source_dir, PATIENCE));
+        status = print_rods(file, &scene, &grains, &device, options);
+        if (status == OZ_ERR_BLOWUP) { /* while it settled, which an unstable step explains */
+            snprintf(burst, sizeof burst, "%s", oz_status_text());
+            status = OZ_OK;
+        }
+        OZ_TRY(status);
     }
-    if (!scene.movie.present && scene.snapshots.count == 0 && !(scene.snapshots.strobe > 0)) {
-        fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
+    print_pictures(file, &scene);
+    fflush(file);
+    OZ_TRY(judge(options, &scene, &grains));
+    if (burst[0]) {
+        status = oz_status_fail(OZ_ERR_BLOWUP, "%s", burst);
     }
 done:
     oz_device_close(&device);

@@ -2,6 +2,7 @@
 #include "study/inspect_pieces.h"
 
 #include "model/beam_limits.h"
+#include "study/inspect_range.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -19,11 +20,8 @@ static void print_range(FILE *file, const char *name, const double *values, cons
             high = fmax(high, values[i]);
         }
     }
-    bool spread = high > low * (1 + 1e-9); /* beyond the rounding of places */
-    if (spread) {
-        fprintf(file, "  %-16s %.6g ... %.6g %s\n", name, low, high, unit);
-    } else if (high >= low) {
-        fprintf(file, "  %-16s %.6g %s\n", name, low, unit);
+    if (high >= low) {
+        oz_inspect_range_print(file, name, low, high, unit);
     }
 }
 

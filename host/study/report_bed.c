@@ -83,6 +83,9 @@ OzStatus oz_report_bed_print(FILE *file, const OzScene *scene, const OzGrains *g
     }
     OZ_TRY(oz_stiffness_measure(&bed, &now));
     print(file, scene, &bed);
+    if (bed.largest_step < scene->step) {
+        oz_stiffness_say(&bed, scene);
+    }
 done:
     oz_snapshot_free(&now);
     return status;

@@ -10,6 +10,7 @@
 
 /* Settles the scene where it says so, for at most `patience` seconds of computing (a bed cut short
  * is measured as it is then, and named so), and prints its stiffness and largest stable step.
+ * Where its step is too large the log says so, as that of a run does.
  * Prints nothing for laws without a stiffness of their own and without grains. */
 OzStatus oz_report_bed_print(FILE *file, const OzScene *scene, const OzGrains *grains,
                              const OzDevice *device, const char *source_dir, double patience);
