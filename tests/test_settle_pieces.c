@@ -273,6 +273,31 @@ static void test_without_settle(void **state)
     rig_close(&rig);
 }
 
+/* Without grains there is nothing to wait for: walls move from the start. */
+static void test_no_grains(void **state)
+{
+    (void)state;
+    Rig rig;
+    double seconds = 1;
+    rig_open(&rig, "model: trigrains\n"
+                   "time: {step: 1e-5, duration: 1}\n"
+                   "grains:\n"
+                   "  - {kind: random, count: 0, shape: square, edge: 1e-3}\n"
+                   "walls:\n"
+                   "  - {kind: drum, diameter: 2e-2, motion: {angular_velocity: 1}}\n"
+                   "settle: {drag: 20}\n");
+    OzDrive *drive = start_alone(&rig);
+    must(oz_drive_settle(drive, &seconds, NULL, NULL));
+    assert_true(seconds == 0);
+    must(oz_drive_advance(drive, 1000));
+    OzSnapshot now = look(drive, 0, &rig);
+    const OzPieces *pieces = rig.grains.pieces;
+    assert_true(now.piece_position[0] != pieces->position[0]);
+    oz_snapshot_free(&now);
+    oz_drive_free(drive);
+    rig_close(&rig);
+}
+
 static int open_all(void **state)
 {
     int file = mkstemp(log_path);
@@ -290,7 +315,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comes_to_rest),  cmocka_unit_test(test_time_max_ends_it),
         cmocka_unit_test(test_members_wait),   cmocka_unit_test(test_watch_ends_it),
-        cmocka_unit_test(test_without_settle),
+        cmocka_unit_test(test_without_settle), cmocka_unit_test(test_no_grains),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);
 }

@@ -117,6 +117,7 @@ OzStatus oz_rest_run(const OzRest *rest, double *seconds, OzSettleWatch watch, v
     OzCrew *crew = rest->crew;
     const OzScene *scene = crew->members[0].scene;
     *seconds = 0;
+    crew->walls_still = false;
     if (!scene->settle.present || rest->is_empty) {
         return OZ_OK;
     }
