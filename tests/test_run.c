@@ -137,6 +137,38 @@ static void test_threads_give_the_same_bits(void **state)
     assert_true(same_files("one/series.csv", "two/series.csv"));
 }
 
+/* Too many grains for one work-group (OZ_DEVICE_SMALL_MOST): regions are spread over the threads.
+ * Switched as the bed of test_lists, thrown down hard so that lists are made anew often. */
+static const char many[] =
+    "model: rods\n"
+    "gravity: [0, 0, -100]\n"
+    "integrator: euler\n"
+    "time: {step: 1e-5, duration: 3e-3}\n"
+    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4}\n"
+    "grains:\n"
+    "  - {kind: random, count: 6100, diameter: [0.4e-3, 0.6e-3], aspect: [0.5, 3]}\n"
+    "walls:\n"
+    "  - {kind: plane, motion: {frequency: 100, acceleration_ratio: 4}}\n"
+    "  - {kind: cylinder, diameter: 2e-2}\n"
+    "observe: {interval: 3e-3}\n";
+
+static void test_threads_give_the_same_bits_of_many(void **state)
+{
+    (void)state;
+    write_file("many.yaml", "%s", many);
+    expect(0, "6100 grains", "run many.yaml -o many_one --no-video --device cpu --threads 1");
+    expect(0, "6100 grains", "run many.yaml -o many_two --no-video --device cpu --threads 2");
+    assert_true(same_files("many_one/final.csv", "many_two/final.csv"));
+    assert_true(same_files("many_one/series.csv", "many_two/series.csv"));
+    char *series = read_file("many_one/series.csv", NULL);
+    const char *cell = line_of(series, 2);
+    for (int column = 0; column < 19; column++) {
+        cell = strchr(cell, ',') + 1;
+    }
+    assert_true(strtol(cell, NULL, 10) > 100); /* contact_count */
+    free(series);
+}
+
 /* Both members in one launch on one thread, or a launch and a thread each. */
 static void test_threads_give_the_same_flat_bits(void **state)
 {
@@ -411,6 +443,7 @@ int main(void)
         cmocka_unit_test(test_finished_runs_are_kept),
         cmocka_unit_test(test_default_folder),
         cmocka_unit_test(test_threads_give_the_same_bits),
+        cmocka_unit_test(test_threads_give_the_same_bits_of_many),
         cmocka_unit_test(test_threads_give_the_same_flat_bits),
         cmocka_unit_test(test_bed_from_a_file),
         cmocka_unit_test(test_settings),
