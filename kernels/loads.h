@@ -19,8 +19,8 @@ OZ_INLINE uint oz_loads_from(const OzWork *w, uint pair)
            popcount((uint)w->pair_picked[pair / OZ_LANES] & before);
 }
 
-/* Where the force of a pair is kept: of one that was not picked, the zero behind all of them. By arithmetic:
- * which ones are picked cannot be foreseen, and a branch guessed wrong costs more than adding nothing. */
+/* Where the force of a pair is kept: of one that was not picked, the zero behind all of them (arrays are made
+ * zeroed). Which ones are picked cannot be foreseen, and a branch guessed wrong costs more than adding nothing. */
 OZ_INLINE uint oz_loads_at(const OzWork *w, uint pair)
 {
     uint none = (uint)(w->z.regions * w->z.inner_capacity);

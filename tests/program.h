@@ -158,6 +158,18 @@ static inline int wait_for(pid_t child, double seconds)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/* Line `index` of a text, in a buffer that the next call uses again. */
+static inline const char *line_of(const char *text, int index)
+{
+    static char line[4096];
+    for (; index > 0 && text; index--) {
+        text = strchr(text, '\n');
+        text = text ? text + 1 : NULL;
+    }
+    snprintf(line, sizeof line, "%.*s", text ? (int)strcspn(text, "\n") : 0, text ? text : "");
+    return line;
+}
+
 static inline int count_lines(const char *name)
 {
     char *text = read_file(name, NULL);

@@ -20,19 +20,6 @@ static const char bed[] = "model: rods\n"
 static const char pictures[] = "movie: {size: [320, 240], fps: 10, length: 0.5}\n"
                                "snapshots: {taps: [0, 1, 50]}\n";
 
-/* Grains of any shape thrown into a shaken vessel; its kernels are those of the extreme cases. */
-static const char flat[] =
-    "model: trigrains\n"
-    "time: {step: 4e-6, duration: 1.2e-2}\n"
-    "gravity: [20, -200]\n"
-    "integrator: gear4\n"
-    "precision: double\n"
-    "grains: [{kind: random, count: 12, shape: polygon, corners: [3, 5], radius: [1e-3, 2e-3]}]\n"
-    "walls:\n"
-    "  - {kind: vessel, width: 15e-3, height: 3e-2, motion: {frequency: 100, "
-    "acceleration_ratio: 1}}\n"
-    "observe: {ledger: true, interval: 1e-3}\n";
-
 static const char header[] =
     "step,time,tap,density,density_all,density_tap_mean,density_com,density_slab,angle,"
     "angle_tap_mean,angle_layer1,angle_layer2,angle_layer3,angle_layer4,count_layer1,count_layer2,"
@@ -45,18 +32,6 @@ static const char final_header[] =
 
 /* A program of its own, which tests share. */
 #define EXACT "--precision double --set observe.ledger=true"
-
-/* Line `index` of a text, in a buffer that the next call uses again. */
-static const char *line_of(const char *text, int index)
-{
-    static char line[4096];
-    for (; index > 0 && text; index--) {
-        text = strchr(text, '\n');
-        text = text ? text + 1 : NULL;
-    }
-    snprintf(line, sizeof line, "%.*s", text ? (int)strcspn(text, "\n") : 0, text ? text : "");
-    return line;
-}
 
 static int make_bed(void **state)
 {
@@ -126,71 +101,6 @@ static void test_default_folder(void **state)
     (void)state;
     expect(0, "30 grains", "run bed.yaml --until 0");
     assert_int_equal(count_lines("runs/bed/series.csv"), 2);
-}
-
-static void test_threads_give_the_same_bits(void **state)
-{
-    (void)state;
-    expect(0, "30 grains", "run bed.yaml -o one --device cpu --threads 1");
-    expect(0, "30 grains", "run bed.yaml -o two --device cpu --threads 2");
-    assert_true(same_files("one/final.csv", "two/final.csv"));
-    assert_true(same_files("one/series.csv", "two/series.csv"));
-}
-
-/* Too many grains for one work-group (OZ_DEVICE_SMALL_MOST): regions are spread over the threads.
- * Switched as the bed of test_lists, thrown down hard so that lists are made anew often. */
-static const char many[] =
-    "model: rods\n"
-    "gravity: [0, 0, -100]\n"
-    "integrator: euler\n"
-    "time: {step: 1e-5, duration: 3e-3}\n"
-    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4}\n"
-    "grains:\n"
-    "  - {kind: random, count: 6100, diameter: [0.4e-3, 0.6e-3], aspect: [0.5, 3]}\n"
-    "walls:\n"
-    "  - {kind: plane, motion: {frequency: 100, acceleration_ratio: 4}}\n"
-    "  - {kind: cylinder, diameter: 2e-2}\n"
-    "observe: {interval: 3e-3}\n";
-
-static void test_threads_give_the_same_bits_of_many(void **state)
-{
-    (void)state;
-    write_file("many.yaml", "%s", many);
-    expect(0, "6100 grains", "run many.yaml -o many_one --no-video --device cpu --threads 1");
-    expect(0, "6100 grains", "run many.yaml -o many_two --no-video --device cpu --threads 2");
-    assert_true(same_files("many_one/final.csv", "many_two/final.csv"));
-    assert_true(same_files("many_one/series.csv", "many_two/series.csv"));
-    char *series = read_file("many_one/series.csv", NULL);
-    const char *cell = line_of(series, 2);
-    for (int column = 0; column < 19; column++) {
-        cell = strchr(cell, ',') + 1;
-    }
-    assert_true(strtol(cell, NULL, 10) > 100); /* contact_count */
-    free(series);
-}
-
-/* Both members in one launch on one thread, or a launch and a thread each. */
-static void test_threads_give_the_same_flat_bits(void **state)
-{
-    (void)state;
-    static const char *const files[] = {"series.csv", "final.csv"};
-    char one[64], two[64];
-    write_file("flat.yaml", "%s", flat);
-    expect(0, "2 side by side, 1 launches at a time",
-           "run flat.yaml -o flat_one --seeds 1..2 --no-video --device cpu --threads 1");
-    expect(0, "2 side by side, 2 launches at a time",
-           "run flat.yaml -o flat_two --seeds 1..2 --no-video --device cpu --threads 2");
-    for (int k = 0; k < 4; k++) {
-        snprintf(one, sizeof one, "flat_one/seed_0000%d/%s", 1 + k % 2, files[k / 2]);
-        snprintf(two, sizeof two, "flat_two/seed_0000%d/%s", 1 + k % 2, files[k / 2]);
-        assert_true(same_files(one, two));
-    }
-    char *series = read_file("flat_one/seed_00001/series.csv", NULL);
-    int contacts = 0;
-    assert_int_equal(sscanf(line_of(series, 13), "3000,0.012,1.2,%d", &contacts), 1);
-    assert_true(contacts > 0);
-    free(series);
-    assert_false(same_files("flat_one/seed_00001/series.csv", "flat_one/seed_00002/series.csv"));
 }
 
 /* Spins come back through angular momenta: two roundings. */
@@ -442,9 +352,6 @@ int main(void)
         cmocka_unit_test(test_scene_as_used),
         cmocka_unit_test(test_finished_runs_are_kept),
         cmocka_unit_test(test_default_folder),
-        cmocka_unit_test(test_threads_give_the_same_bits),
-        cmocka_unit_test(test_threads_give_the_same_bits_of_many),
-        cmocka_unit_test(test_threads_give_the_same_flat_bits),
         cmocka_unit_test(test_bed_from_a_file),
         cmocka_unit_test(test_settings),
         cmocka_unit_test(test_pictures_between_taps),
