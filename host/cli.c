@@ -222,7 +222,7 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
     switch (letter) {
     case 'o':
         options->out = value;
-        return OZ_OK;
+        return value[0] ? OZ_OK : wrong(value, "-o with the name of a folder");
     case 's':
         return add_setting(options, value);
     case 'd':

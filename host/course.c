@@ -183,13 +183,20 @@ done:
     return status;
 }
 
-/* The last state of a member, if its course ended well or was interrupted, and its outputs whole.
- */
+/* Whether the device still has a state worth keeping: all went well, or what failed was not the
+ * simulation. */
+static bool has_state(OzStatus so_far)
+{
+    return so_far == OZ_OK || so_far == OZ_ERR_INTERRUPTED || so_far == OZ_ERR_FILE ||
+           so_far == OZ_ERR_MOVIE || so_far == OZ_ERR_GRAPHICS;
+}
+
+/* The last state of a member, if there is one, and its outputs whole. */
 static OzStatus end_member(OzCourse *course, int64_t m, OzStatus so_far)
 {
     OzStatus status = OZ_OK;
     OzOutputs *member = course->members[m];
-    if (so_far == OZ_OK || so_far == OZ_ERR_INTERRUPTED) {
+    if (has_state(so_far)) {
         OZ_TRY(oz_drive_capture(course->drive, (int)m, &member->now, false));
         OZ_TRY(oz_outputs_write_final(member));
     }

@@ -3,6 +3,7 @@
 #include "ensemble.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/memory.h"
 #include "base/student.h"
 #include "observe/inclination_fit.h"
@@ -53,6 +54,7 @@ static OzStatus open_table(const OzEnsemble *e, const char *name, FILE **file)
     OzStatus status = OZ_OK;
     char *path = NULL;
     OZ_TRY(in_folder(e, name, &path));
+    OZ_TRY(oz_folder_note(e->folder, name));
     *file = fopen(path, "w");
     if (!*file) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
@@ -337,6 +339,7 @@ static OzStatus close_table(const OzEnsemble *e, FILE *file, const char *part, c
     bad |= !file || fclose(file) != 0;
     OZ_TRY(in_folder(e, part, &from));
     OZ_TRY(in_folder(e, name, &to));
+    OZ_TRY(oz_folder_note(e->folder, name));
     if (bad || rename(from, to) != 0) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", to, strerror(errno));
     }

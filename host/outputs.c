@@ -2,7 +2,7 @@
 #include "outputs.h"
 
 #include "base/file.h"
-#include "leftovers.h"
+#include "base/folder.h"
 #include "observe/final.h"
 #include "observe/schedule.h"
 
@@ -10,30 +10,48 @@
 #include <stdlib.h>
 #include <string.h>
 
-static OzStatus refuse_finished(const char *folder, const char *mark)
+OzFolderUse oz_outputs_use(bool overwrite)
 {
-    char *path = NULL;
-    OzStatus status = oz_file_join(&path, folder, mark);
-    if (status == OZ_OK && oz_file_exists(path)) {
-        status = oz_status_fail(
-            OZ_ERR_INPUT, "%s holds a finished run; expected another folder (-o) or --overwrite",
-            folder);
-    }
-    free(path);
-    return status;
+    static const char *const writes[] = {"log.txt",
+                                         "scene.yaml",
+                                         "series.csv",
+                                         "frames.bin",
+                                         "final.csv",
+                                         "final.csv.part",
+                                         "movie.mp4",
+                                         "movie.mp4.part",
+                                         "members.csv",
+                                         "members.csv.part",
+                                         "ensemble.csv",
+                                         "ensemble.csv.part",
+                                         "inclination_fit.csv",
+                                         "inclination_spectrum.csv",
+                                         "snapshots/tap_*.png*",
+                                         "snapshots/time_*.png*",
+                                         "snapshots/strobe.png*",
+                                         NULL};
+    static const char *const endings[] = {"final.csv", "members.csv", NULL};
+    static const char *const results[] = {"series.csv", "frames.bin", "movie.mp4",
+                                          "members.csv.part", NULL};
+    return (OzFolderUse){
+        .writes = writes, .endings = endings, .results = results, .overwrite = overwrite};
 }
 
 OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name)
 {
+    return options->out ? oz_file_join(folder, NULL, options->out)
+                        : oz_file_join(folder, "runs", name);
+}
+
+/* The path of a file that is about to be made there; part: under another name first. */
+static OzStatus claim(char **path, const OzOutputs *outputs, const char *name, const char *part)
+{
     OzStatus status = OZ_OK;
-    OZ_TRY(options->out ? oz_file_join(folder, NULL, options->out)
-                        : oz_file_join(folder, "runs", name));
-    if (!options->overwrite) {
-        OZ_TRY(refuse_finished(*folder, "final.csv"));
-        OZ_TRY(refuse_finished(*folder, "members.csv"));
+    OZ_TRY(oz_file_join(path, outputs->folder, name));
+    OZ_TRY(oz_folder_note(outputs->folder, name));
+    if (part) {
+        OZ_TRY(oz_folder_note(outputs->folder, part));
     }
-    OZ_TRY(oz_leftovers_remove(*folder));
-    OZ_TRY(oz_file_make_folder(*folder));
 done:
     return status;
 }
@@ -43,7 +61,7 @@ static OzStatus write_scene(const OzOutputs *outputs)
     OzStatus status = OZ_OK;
     char *path = NULL;
     FILE *file = NULL;
-    OZ_TRY(oz_file_join(&path, outputs->folder, "scene.yaml"));
+    OZ_TRY(claim(&path, outputs, "scene.yaml", NULL));
     file = fopen(path, "w");
     if (!file) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
@@ -70,15 +88,17 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     outputs->is_open = true;
     if (outputs->name &&
         outputs->name[0]) { /* a plain run's folder is chosen, with its log in it */
-        OZ_TRY(oz_leftovers_remove(outputs->folder));
-        OZ_TRY(oz_file_make_folder(outputs->folder));
+        OzFolderUse use = oz_outputs_use(options->overwrite);
+        OZ_TRY(oz_folder_open(&outputs->owned, outputs->folder, &use));
     }
     OZ_TRY(oz_snapshot_create(&outputs->now, scene, grains));
     OZ_TRY(write_scene(outputs));
-    OZ_TRY(oz_file_join(&series, outputs->folder, "series.csv"));
+    OZ_TRY(claim(&outputs->final, outputs, "final.csv", "final.csv.part"));
+    OZ_TRY(oz_final_reserve(grains, outputs->final));
+    OZ_TRY(claim(&series, outputs, "series.csv", NULL));
     OZ_TRY(oz_series_create(&outputs->series, series, scene, grains));
     if (pictures) {
-        OZ_TRY(oz_file_join(&frames, outputs->folder, "frames.bin"));
+        OZ_TRY(claim(&frames, outputs, "frames.bin", NULL));
         OZ_TRY(oz_frames_create(&outputs->frames, frames, scene, grains));
     }
     if (pictures && !options->no_video) {
@@ -127,13 +147,11 @@ done:
 OzStatus oz_outputs_write_final(OzOutputs *outputs)
 {
     OzStatus status = OZ_OK;
-    char *path = NULL, *spectrum = NULL;
-    OZ_TRY(oz_file_join(&path, outputs->folder, "final.csv"));
-    OZ_TRY(oz_final_write(&outputs->now, path));
-    OZ_TRY(oz_file_join(&spectrum, outputs->folder, "inclination_spectrum.csv"));
+    char *spectrum = NULL;
+    OZ_TRY(oz_final_write(&outputs->now, outputs->final));
+    OZ_TRY(claim(&spectrum, outputs, "inclination_spectrum.csv", NULL));
     OZ_TRY(oz_series_write_spectrum(outputs->series, spectrum));
 done:
-    free(path);
     free(spectrum);
     return status;
 }
@@ -155,6 +173,10 @@ OzStatus oz_outputs_close(OzOutputs *outputs)
     outputs->frames = NULL;
     outputs->series = NULL;
     outputs->is_open = false;
+    if (outputs->final) {
+        oz_final_give_up(outputs->final);
+    }
+    oz_folder_close(&outputs->owned);
     return status == OZ_OK ? OZ_OK : oz_status_fail(status, "%s", first);
 }
 
@@ -169,5 +191,6 @@ void oz_outputs_free(OzOutputs *outputs)
     oz_scene_free(&outputs->scene);
     free(outputs->name);
     free(outputs->folder);
+    free(outputs->final);
     free(outputs);
 }

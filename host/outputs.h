@@ -3,6 +3,7 @@
 #ifndef OZ_OUTPUTS_H
 #define OZ_OUTPUTS_H
 
+#include "base/folder.h"
 #include "cli.h"
 #include "draw/studio.h"
 #include "observe/frames.h"
@@ -27,6 +28,8 @@ typedef struct OzOutputs {
     OzSnapshot now; /* the state to be written next */
     char *name;     /* of a member of an ensemble, as in seed_00003; owned */
     char *folder;   /* owned */
+    char *final;    /* owned: path of final.csv, once its room is reserved */
+    OzFolder owned; /* of a member of an ensemble: its folder, in use */
     OzSeries *series;
     OzFrames *frames;
     OzGallery *gallery;
@@ -38,8 +41,10 @@ typedef struct OzOutputs {
     OzStatus loss; /* of a member that was lost while others went on: why */
 } OzOutputs;
 
-/* The folder of a command: -o, or runs/<name>, made. Refuses one that holds a finished run or
- * ensemble, unless --overwrite; what an earlier run left there goes. The caller frees. */
+/* What a run does in its folder and in its members' folders. */
+OzFolderUse oz_outputs_use(bool overwrite);
+
+/* The folder of a command: -o, or runs/<name>. The caller frees. */
 OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name);
 
 /* Opens what the scene asks for in outputs->folder; device is for the movie's metadata; studio is

@@ -172,7 +172,7 @@ static OzStatus check_names(const OzPlan *plan)
     return OZ_OK;
 }
 
-static OzStatus check_values(const OzPlan *plan)
+static OzStatus check_values(OzPlan *plan)
 {
     OzStatus status = OZ_OK;
     const OzSweep *sweep = &plan->scene.sweep;
@@ -188,6 +188,7 @@ static OzStatus check_values(const OzPlan *plan)
     for (int v = 0; v < sweep->count; v++) {
         OzScene scene;
         status = load_scene(plan, v * plan->seed_count, &scene);
+        status = status == OZ_OK ? oz_inputs_add_scene(&plan->inputs, &scene) : status;
         oz_scene_free(&scene);
         OZ_TRY(status);
     }
@@ -206,6 +207,7 @@ OzStatus oz_plan_create(OzPlan *plan, const OzOptions *options)
     }
     plan->is_ensemble = options->has_seeds || plan->scene.sweep.count > 0;
     plan->count = plan->seed_count * (plan->scene.sweep.count ? plan->scene.sweep.count : 1);
+    OZ_TRY(oz_inputs_add_scene(&plan->inputs, &plan->scene));
     OZ_TRY(check_values(plan));
 done:
     return status;
@@ -214,5 +216,6 @@ done:
 void oz_plan_free(OzPlan *plan)
 {
     oz_scene_free(&plan->scene);
+    oz_inputs_free(&plan->inputs);
     *plan = (OzPlan){0};
 }

@@ -4,6 +4,7 @@
 #define OZ_PLAN_H
 
 #include "cli.h"
+#include "inputs.h"
 #include "model/grains.h"
 #include "scene/scene.h"
 
@@ -18,6 +19,7 @@ typedef struct OzPlan {
     int64_t seed_count;       /* members of each value                           */
     int64_t count;            /* members                                         */
     bool is_ensemble;         /* --seeds or a sweep: members have folders and names */
+    OzInputs inputs;          /* files that its scenes were read from and read   */
 } OzPlan;
 
 /* Reads the scene of options->paths[0] and, with each value of its sweep, whether it can be loaded.

@@ -31,7 +31,7 @@ static double host_bytes(const OzOptions *options, const OzMember *member)
 OzStatus oz_room_most(const OzOptions *options, const OzDevice *device, const OzMember *member,
                       int64_t *most, double *bytes)
 {
-    const double other_files = 64, files = 3; /* series, frames and movie */
+    const double other_files = 64, files = 4; /* series, frames, movie, its folder's lock */
     double here = host_bytes(options, member), there = 0;
     double spare = (double)sysconf(_SC_AVPHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     OzStatus status = oz_drive_most(device, member, most, &there);

@@ -30,6 +30,7 @@ typedef struct Run {
     OzDevice device;
     OzStudio *studio; /* of all members */
     char *folder;
+    OzFolder owned;             /* the folder, in use                                */
     OzOutputs **members;        /* of the group in hand */
     int64_t member_count, most; /* most: that there is room for at a time            */
     OzOutputs *loaded;          /* the next group's first, NULL at the end           */
@@ -48,6 +49,7 @@ static OzStatus open_log(const Run *run)
     OzStatus status = OZ_OK;
     char *path = NULL;
     OZ_TRY(oz_file_join(&path, run->folder, "log.txt"));
+    OZ_TRY(oz_folder_note(run->folder, "log.txt"));
     OZ_TRY(oz_log_open(path));
 done:
     free(path);
@@ -110,6 +112,39 @@ done:
     return status;
 }
 
+/* Members' folders that are there already, before anything is touched. */
+static OzStatus check_member_folders(const Run *run, const OzFolderUse *use)
+{
+    OzStatus status = OZ_OK;
+    char *name = NULL, *folder = NULL;
+    for (int64_t i = 0; run->plan.is_ensemble && i < run->plan.count && status == OZ_OK; i++) {
+        OZ_TRY(oz_plan_name(&run->plan, i, &name));
+        OZ_TRY(oz_file_join(&folder, run->folder, name));
+        status = oz_file_exists(folder) ? oz_folder_check(folder, use) : OZ_OK;
+        free(folder);
+        free(name);
+        folder = name = NULL;
+    }
+done:
+    free(folder);
+    free(name);
+    return status;
+}
+
+/* Chooses the folder and takes it. */
+static OzStatus open_folder(Run *run)
+{
+    OzStatus status = OZ_OK;
+    OzFolderUse use = oz_outputs_use(run->options->overwrite);
+    OZ_TRY(oz_outputs_choose_folder(&run->folder, run->options, run->plan.scene.name));
+    OZ_TRY(oz_inputs_check(&run->plan.inputs, run->folder, &use));
+    OZ_TRY(oz_folder_check(run->folder, &use));
+    OZ_TRY(check_member_folders(run, &use));
+    OZ_TRY(oz_folder_open(&run->owned, run->folder, &use));
+done:
+    return status;
+}
+
 static OzStatus open_run(Run *run)
 {
     OzStatus status = OZ_OK;
@@ -121,7 +156,7 @@ static OzStatus open_run(Run *run)
         status = oz_status_fail(run->loss, "%s: no member can be run", run->plan.scene.path);
         goto done;
     }
-    OZ_TRY(oz_outputs_choose_folder(&run->folder, options, run->plan.scene.name));
+    OZ_TRY(open_folder(run));
     OZ_TRY(open_log(run));
     oz_log_line("orzo %s: %s, %lld grains", ORZO_VERSION, run->plan.scene.path,
                 (long long)run->loaded->grains.count);
@@ -191,6 +226,32 @@ done:
     return status;
 }
 
+static OzStatus check_interrupt(void)
+{
+    return oz_interrupt_asked()
+               ? oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted before the first step")
+               : OZ_OK;
+}
+
+/* A member's folder lies in the run's, which says so; a plain run's is the run's own. */
+static OzStatus choose_member_folder(const Run *run, OzOutputs *member)
+{
+    OzStatus status = OZ_OK;
+    char *name = NULL;
+    if (!member->name[0]) {
+        return oz_file_join(&member->folder, NULL, run->folder);
+    }
+    if (asprintf(&name, "%s/", member->name) < 0) {
+        name = NULL;
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a folder's name");
+    }
+    OZ_TRY(oz_folder_note(run->folder, name));
+    OZ_TRY(oz_file_join(&member->folder, run->folder, member->name));
+done:
+    free(name);
+    return status;
+}
+
 static OzStatus open_group(Run *run)
 {
     OzStatus status = OZ_OK;
@@ -199,9 +260,9 @@ static OzStatus open_group(Run *run)
     oz_interrupt_hold();
     for (int64_t m = 0; m < run->member_count; m++) {
         OzOutputs *member = run->members[m];
+        OZ_TRY(check_interrupt());
         OZ_TRY(oz_plan_name(&run->plan, member->number, &member->name));
-        OZ_TRY(member->name[0] ? oz_file_join(&member->folder, run->folder, member->name)
-                               : oz_file_join(&member->folder, NULL, run->folder));
+        OZ_TRY(choose_member_folder(run, member));
         OZ_TRY(oz_outputs_open(member, run->options, run->device.name, run->studio));
     }
     if (oz_schedule_missed(&run->schedule, missed, sizeof missed)) {
@@ -340,6 +401,7 @@ static void close_run(Run *run)
     oz_plan_free(&run->plan);
     free(run->members);
     free(run->outcomes);
+    oz_folder_close(&run->owned);
     free(run->folder);
 }
 

@@ -181,8 +181,7 @@ static void test_failure_ends_all(void **state)
 {
     (void)state;
     char command[256];
-    snprintf(command, sizeof command, "mkdir -p '%s/full/seed_00002/snapshots/tap_00001.png.part'",
-             folder);
+    snprintf(command, sizeof command, "mkdir -p '%s/full/seed_00002' && touch '%s/full/seed_00002/snapshots'", folder, folder);
     assert_int_equal(system(command), 0);
     run(SHOWN " --threads 3", "full", 1);
     assert_said("cannot write full/seed_00002/snapshots/tap_00001.png.part: ");

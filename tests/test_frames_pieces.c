@@ -254,9 +254,9 @@ static void frames_are_drawn_again(void **state)
 static int end(void **state)
 {
     (void)state;
-    return remove_folder((const char *const[]){"draw/snapshots/strobe.png",
-                                               "draw/snapshots/time_0.250000.png", "draw/snapshots",
-                                               "draw", "scene.yaml", "frames.bin", NULL});
+    return remove_folder((const char *const[]){
+        "draw/snapshots/strobe.png", "draw/snapshots/time_0.250000.png", "draw/snapshots",
+        "draw/.orzo", "draw", "scene.yaml", "frames.bin", NULL});
 }
 
 int main(void)

@@ -22,7 +22,7 @@ static const struct {
     int floor;
 } rooms[] = {
     {"base", 0},    {"scene", 1},   {"model", 2},    {"observe", 3},
-    {"draw", 4},    {"compute", 4}, {"cli", 5},      {"leftovers", 5},
+    {"draw", 4},    {"compute", 4}, {"cli", 5},      {"inputs", 5},
     {"outputs", 6}, {"plan", 6},    {"ensemble", 6}, {"room", 6},
     {"course", 7},  {"run", 8},     {"study", 9},    {"main", 10},
 };

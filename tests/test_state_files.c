@@ -71,13 +71,47 @@ static void test_bed_refuses(void **state)
         }
         assert_null(grains.position);
     }
-    write_text(in_folder("bed.csv"), "id,x\n0,1\n");
-    assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_ERR_INPUT);
+    static const struct {
+        const char *file, *text;
+    } headers[] = {
+        {"id,x\n0,1\n", "bed.csv:1: without the column y"},
+        {"position\n0,1\n", "bed.csv:1: this is no final.csv"},
+        {OZ_BED_HEADER ",colour\n", "bed.csv:1: no such column: colour"},
+        {OZ_BED_HEADER ",x\n", "bed.csv:1: twice the column x"},
+        {OZ_BED_HEADER "\n", "bed.csv:1: no grain"},
+        {"", "bed.csv:1: this is no final.csv"},
+    };
+    for (size_t k = 0; k < sizeof headers / sizeof *headers; k++) {
+        write_text(in_folder("bed.csv"), headers[k].file);
+        assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_ERR_INPUT);
+        if (!strstr(oz_status_text(), headers[k].text)) {
+            fail_msg("%s lacks %s", oz_status_text(), headers[k].text);
+        }
+    }
     assert_int_equal(oz_bed_read(&grains, in_folder("none.csv")), OZ_ERR_FILE);
     write_text(in_folder("bed.csv"), OZ_BED_HEADER "\r\n1" STATE "1,2,3\r\n\r\n0" STATE "4,5,6");
     assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_OK);
     assert_int_equal(grains.count, 2);
     assert_near(grains.diameter[0], 4, 0);
+    oz_grains_free(&grains);
+}
+
+/* What spreadsheets make of a final.csv: a byte-order mark, quotes, spaces, columns in another
+ * order. */
+static void test_bed_as_others_write_it(void **state)
+{
+    (void)state;
+    OzGrains grains;
+    write_text(in_folder("bed.csv"), "\xef\xbb\xbf\"mass\", \"id\",x,y,z "
+                                     ",qw,qx,qy,qz,ux,uy,uz,vx,vy,vz,wx,wy,wz,diameter,length\r\n"
+                                     "3,0, 7 ,8,9,1,0,0,0,0,0,1,0,0,\"4\",0,0,0,1,2\r\n");
+    assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_OK);
+    assert_int_equal(grains.count, 1);
+    assert_near(grains.mass[0], 3, 0);
+    assert_near(grains.position[0], 7, 0);
+    assert_near(grains.position[2], 9, 0);
+    assert_near(grains.velocity[2], 4, 0);
+    assert_near(grains.length[0], 2, 0);
     oz_grains_free(&grains);
 }
 
@@ -226,9 +260,9 @@ static int clean_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_final_comes_back), cmocka_unit_test(test_bed_refuses),
-        cmocka_unit_test(test_frames_come_back), cmocka_unit_test(test_frames_damaged),
-        cmocka_unit_test(test_frames_promise),
+        cmocka_unit_test(test_final_comes_back),       cmocka_unit_test(test_bed_refuses),
+        cmocka_unit_test(test_bed_as_others_write_it), cmocka_unit_test(test_frames_come_back),
+        cmocka_unit_test(test_frames_damaged),         cmocka_unit_test(test_frames_promise),
     };
     return cmocka_run_group_tests(tests, make_folder, clean_up);
 }

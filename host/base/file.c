@@ -4,10 +4,13 @@
 #include "base/memory.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
+#include <stdio_ext.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { LARGEST_FILE = 1 << 30 };
 
@@ -16,14 +19,21 @@ OzStatus oz_file_read(char **bytes, size_t *length, const char *path)
     OzStatus status = OZ_OK;
     struct stat info;
     *bytes = NULL;
-    FILE *file = fopen(path, "rb");
-    if (!file || fstat(fileno(file), &info) != 0) {
+    /* Without O_NONBLOCK a pipe that nobody writes to would hold us here. */
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
+    if (!file || fstat(descriptor, &info) != 0) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot read %s: %s", path, strerror(errno));
+        if (!file && descriptor >= 0) {
+            close(descriptor);
+        }
         goto done;
     }
     if (!S_ISREG(info.st_mode) || info.st_size > LARGEST_FILE) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot read %s: %s", path,
-                                S_ISREG(info.st_mode) ? "larger than 1 GiB" : "not a file");
+                                S_ISREG(info.st_mode)    ? "larger than 1 GiB"
+                                : S_ISFIFO(info.st_mode) ? "a pipe, not a file"
+                                                         : "not a file");
         goto done;
     }
     OZ_TRY(oz_memory_new((void **)bytes, (size_t)info.st_size + 1, 1, path));
@@ -67,6 +77,19 @@ OzStatus oz_file_make_folder(const char *path)
             return OZ_OK;
         }
     }
+}
+
+OzStatus oz_file_commit(FILE *file, int64_t *whole, const char *path)
+{
+    if (fflush(file) == 0 && !ferror(file)) {
+        *whole = (int64_t)ftello(file);
+        return OZ_OK;
+    }
+    int why = errno;
+    __fpurge(file); /* else closing would write the rest */
+    const char *cut = ftruncate(fileno(file), (off_t)*whole) == 0 ? "" : "; its end may be cut";
+    fseeko(file, (off_t)*whole, SEEK_SET);
+    return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s%s", path, strerror(why), cut);
 }
 
 bool oz_file_exists(const char *path)

@@ -18,9 +18,14 @@ static void note_signal(int number)
 
 void oz_interrupt_watch(void)
 {
-    struct sigaction action = {.sa_handler = note_signal};
+    struct sigaction action = {.sa_handler = note_signal}, before;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
+        sigaction(SIGHUP, &action, NULL); /* under nohup it stays ignored */
+    }
+    signal(SIGXFSZ,
+           SIG_IGN); /* a file-size limit is then an error of the write, which has a name */
 }
 
 void oz_interrupt_hold(void)

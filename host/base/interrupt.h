@@ -4,7 +4,9 @@
 
 #include <stdbool.h>
 
-/* From now on SIGINT and SIGTERM end the process with status 130, at once: nothing is being written yet. */
+/* From now on SIGINT, SIGTERM and SIGHUP (unless it was ignored, as under nohup) end the process
+ * with status 130, at once: nothing is being written yet. A file-size limit becomes a failed write.
+ */
 void oz_interrupt_watch(void);
 
 /* From now on they end nothing by themselves. */

@@ -25,7 +25,11 @@ static void write_file(const char *format, va_list arguments)
     if (file) {
         vfprintf(file, format, arguments);
         fputc('\n', file);
-        fflush(file);
+        if (fflush(file) != 0 || ferror(file)) {
+            fprintf(stderr, "log.txt cannot be written any more: %s\n", strerror(errno));
+            fclose(file);
+            file = NULL;
+        }
     }
 }
 

@@ -16,7 +16,8 @@ void oz_log_detail(const char *format, ...) __attribute__((format(printf, 1, 2))
  * clears it. */
 void oz_log_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Lines go to this file too, from now on; NULL path closes it. */
+/* Lines go to this file too, from now on; NULL path closes it. When it cannot be written any more
+ * that is said once on stderr, and lines go there alone. */
 OzStatus oz_log_open(const char *path);
 
 #endif

@@ -1,9 +1,13 @@
 /* Checked allocation. */
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 OzStatus oz_memory_new(void **pointer, size_t count, size_t size, const char *what)
 {
@@ -38,4 +42,34 @@ OzStatus oz_memory_text(char **copy, const char *text)
     }
     *copy = strdup(text);
     return *copy ? OZ_OK : oz_status_fail(OZ_ERR_MEMORY, "out of memory for a text");
+}
+
+/* A control group's limit (version 2, then 1); "max" and what cannot be read give INFINITY. */
+static double group_limit(void)
+{
+    static const char *const files[] = {"/sys/fs/cgroup/memory.max",
+                                        "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
+    double least = INFINITY;
+    for (int i = 0; i < 2; i++) {
+        double bytes = 0;
+        FILE *file = fopen(files[i], "r");
+        if (file && fscanf(file, "%lf", &bytes) == 1) {
+            least = fmin(least, bytes);
+        }
+        if (file) {
+            fclose(file);
+        }
+    }
+    return least;
+}
+
+double oz_memory_most(void)
+{
+    struct rlimit space;
+    double pages = (double)sysconf(_SC_PHYS_PAGES), page = (double)sysconf(_SC_PAGESIZE);
+    double most = pages > 0 && page > 0 ? pages * page : INFINITY;
+    if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) {
+        most = fmin(most, (double)space.rlim_cur);
+    }
+    return fmin(most, group_limit());
 }

@@ -18,6 +18,10 @@ OzStatus oz_memory_grow(void **pointer, size_t old_count, size_t count, size_t s
 /* A copy of text made with malloc, or NULL for NULL; the caller frees it. */
 OzStatus oz_memory_text(char **copy, const char *text);
 
+/* Bytes that this process may use at most: the machine's memory, or the limit of its control group or of its address
+ * space where that is less. INFINITY when none of them is told. */
+double oz_memory_most(void);
+
 #define OZ_NEW(pointer, count)                                                                     \
     oz_memory_new((void **)(pointer), (size_t)(count), sizeof **(pointer), #pointer)
 

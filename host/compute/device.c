@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 #include "compute/cl_try.h"
+#include "compute/kernel_cache.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +20,7 @@ static int find_candidates(Candidate *found)
     cl_platform_id platforms[16];
     cl_uint platform_count = 0;
     int count = 0;
+    oz_kernel_cache_choose();
     if (clGetPlatformIDs(16, platforms, &platform_count) != CL_SUCCESS) {
         return 0;
     }
@@ -165,10 +167,13 @@ OzStatus oz_device_open(OzDevice *device, const char *want, int threads)
     if (!any && open_first(device, candidates, count, want)) {
         return OZ_OK;
     }
+    const char *trouble = oz_kernel_cache_trouble();
     return oz_status_fail(any ? OZ_ERR_DEVICE : OZ_ERR_INPUT,
-                          "no OpenCL device answers to '%s' (%d found); `orzo devices` lists them, "
-                          "package pocl-opencl-icd gives any CPU one",
-                          any ? "auto" : want, count);
+                          "no OpenCL device answers to '%s' (%d found); %s", any ? "auto" : want,
+                          count,
+                          trouble[0] ? trouble
+                                     : "`orzo devices` lists them, package pocl-opencl-icd gives "
+                                       "any CPU one");
 }
 
 OzStatus oz_device_branch(OzDevice *branch, const OzDevice *device)
@@ -224,7 +229,9 @@ OzStatus oz_device_list(FILE *file)
                 reason ? reason : "");
     }
     if (count == 0) {
-        fprintf(file, "no OpenCL device; package pocl-opencl-icd gives any CPU one\n");
+        const char *trouble = oz_kernel_cache_trouble();
+        fprintf(file, "no OpenCL device; %s\n",
+                trouble[0] ? trouble : "package pocl-opencl-icd gives any CPU one");
     }
     return OZ_OK;
 }

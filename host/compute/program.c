@@ -7,6 +7,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 enum { FILES_MAX = 64, DEPTH_MAX = 16 };
 
@@ -91,19 +92,33 @@ OzStatus oz_program_flatten(char **text, const char *source_dir, const char *nam
     return status;
 }
 
+/* A limit of files' size, which a driver's cache of kernels may have met: drivers do not say so. */
+static void name_limit(char *text, size_t size)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        snprintf(text, size,
+                 "; files are limited to %.4g kB here (ulimit -f), which may be too little for "
+                 "built kernels",
+                 (double)limit.rlim_cur / 1024);
+    }
+}
+
 static OzStatus build_failed(cl_program program, const OzDevice *device, cl_int code,
                              const char *name)
 {
     static const size_t shown = 12000; /* the failure text holds 16 kB */
     size_t size = 0;
     clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size);
-    char *log = calloc(size + 1, 1);
+    char *log = calloc(size + 1, 1), limit[160] = "";
+    name_limit(limit, sizeof limit);
     if (log) {
         clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
         log[size > shown ? shown : size] = '\0';
     }
-    OzStatus status = oz_status_fail(OZ_ERR_DEVICE, "OpenCL: building %s for %s failed: %s\n%s",
-                                     name, device->name, oz_cl_try_name(code), log ? log : "");
+    OzStatus status =
+        oz_status_fail(OZ_ERR_DEVICE, "OpenCL: building %s for %s failed: %s%s\n%s", name,
+                       device->name, oz_cl_try_name(code), limit, log ? log : "");
     free(log);
     return status;
 }

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "draw/movie.h"
@@ -74,6 +75,8 @@ static OzStatus open_movie(OzGallery *gallery)
                               "seed",
                               seed,
                               NULL};
+    OZ_TRY(oz_folder_note(gallery->settings->folder, "movie.mp4"));
+    OZ_TRY(oz_folder_note(gallery->settings->folder, "movie.mp4.part"));
     OZ_TRY(oz_file_join(&path, gallery->settings->folder, "movie.mp4"));
     OZ_TRY(oz_movie_create(&gallery->movie, path, gallery->look.width, gallery->look.height,
                            gallery->scene->movie.fps, metadata));
@@ -95,11 +98,25 @@ done:
     return status;
 }
 
+/* Notes snapshots/<name>, and the name under which it is written first. */
+static OzStatus note_image(const OzGallery *gallery, const char *name)
+{
+    OzStatus status = OZ_OK;
+    char noted[128];
+    for (int part = 0; part < 2; part++) {
+        snprintf(noted, sizeof noted, "snapshots/%s%s", name, part ? ".part" : "");
+        OZ_TRY(oz_folder_note(gallery->settings->folder, noted));
+    }
+done:
+    return status;
+}
+
 /* The gallery's image as snapshots/<name>. */
 static OzStatus write_image(OzGallery *gallery, const char *name)
 {
     OzStatus status = OZ_OK;
     char *folder = NULL, *path = NULL;
+    OZ_TRY(note_image(gallery, name));
     OZ_TRY(oz_file_join(&folder, gallery->settings->folder, "snapshots"));
     OZ_TRY(oz_file_make_folder(folder));
     OZ_TRY(oz_file_join(&path, folder, name));

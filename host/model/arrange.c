@@ -65,7 +65,7 @@ static OzStatus count_grains(Arrangement *arrangement)
         total += population->count;
     }
     arrangement->first[scene->population_count] = total;
-    return OZ_OK;
+    return oz_grains_check_memory(scene->path, total);
 }
 
 /* Vertices are cut into triangles once, and copied from the population's first grain. */

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,8 +19,11 @@ typedef struct Reader {
     const char *path;
     char *text, *next; /* whole file; start of the next line */
     int line;
-    bool *seen; /* by id */
+    bool *seen;                /* by id */
+    int place[OZ_BED_COLUMNS]; /* which value of a row the file's cell i is */
 } Reader;
+
+enum { CELL_SIZE = 64 };
 
 static OzStatus complain(const Reader *reader, const char *wrong, const char *expected)
 {
@@ -56,26 +60,54 @@ static int64_t count_rows(const char *text)
     return lines > 0 ? lines - 1 : 0;
 }
 
+/* Copies the next cell, without the quotes and spaces about it, and steps over its comma; false at
+ * the line's end. *at starts as the line and is NULL after its last cell. What is longer than a
+ * cell can be is cut, and then no number and no name. */
+static bool next_cell(const char **at, char cell[CELL_SIZE])
+{
+    static const char around[] = " \t\"";
+    if (!*at) {
+        return false;
+    }
+    size_t length = strcspn(*at, ",");
+    const char *from = *at, *comma = from + length;
+    size_t skipped = strspn(from, around);
+    from += skipped < length ? skipped : length;
+    length = (size_t)(comma - from);
+    while (length > 0 && strchr(around, from[length - 1])) {
+        length--;
+    }
+    snprintf(cell, CELL_SIZE, "%.*s", (int)(length < CELL_SIZE ? length : CELL_SIZE), from);
+    *at = *comma ? comma + 1 : NULL;
+    return true;
+}
+
+static OzStatus parse_number(const Reader *reader, const char *cell, double *value)
+{
+    char *end = NULL;
+    *value = strtod(cell, &end);
+    if (end == cell || *end) {
+        return complain(reader, "not a number", "20 numbers with commas between them");
+    }
+    return isfinite(*value) ? OZ_OK
+                            : complain(reader, "nan, infinite or too large", "finite numbers");
+}
+
 static OzStatus parse_row(const Reader *reader, const char *line, double row[OZ_BED_COLUMNS])
 {
+    OzStatus status = OZ_OK;
     const char *at = line;
-    for (int i = 0; i < OZ_BED_COLUMNS; i++) {
-        char *end = NULL;
-        row[i] = strtod(at, &end);
-        bool last = i == OZ_BED_COLUMNS - 1;
-        if (end == at || !(*end == '\0' || *end == ',')) {
-            return complain(reader, "not a number", "20 numbers with commas between them");
-        }
-        if ((*end == '\0') != last) {
-            return complain(reader, last ? "too many numbers" : "too few numbers",
-                            "20: " OZ_BED_HEADER);
-        }
-        if (!isfinite(row[i])) {
-            return complain(reader, "nan, infinite or too large", "finite numbers");
-        }
-        at = end + 1;
+    char cell[CELL_SIZE];
+    int count = 0;
+    for (; count < OZ_BED_COLUMNS && next_cell(&at, cell); count++) {
+        OZ_TRY(parse_number(reader, cell, &row[reader->place[count]]));
     }
-    return OZ_OK;
+    if (at || count < OZ_BED_COLUMNS) {
+        status =
+            complain(reader, at ? "too many numbers" : "too few numbers", "20: " OZ_BED_HEADER);
+    }
+done:
+    return status;
 }
 
 static OzStatus check_id(const Reader *reader, double id, int64_t count)
@@ -135,14 +167,65 @@ static OzStatus store(const Reader *reader, OzGrains *grains, const double row[O
     return OZ_OK;
 }
 
-static OzStatus read_header(Reader *reader)
+/* The place of a column's name in a row of ours, or -1. */
+static int find_column(const char *name)
 {
-    const char *line = next_line(reader);
-    if (!line || strcmp(line, OZ_BED_HEADER) != 0) {
-        reader->line = 1;
+    const char *at = OZ_BED_HEADER;
+    char column[CELL_SIZE];
+    for (int i = 0; next_cell(&at, column); i++) {
+        if (strcmp(column, name) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static OzStatus complain_of_column(const Reader *reader, const char *what, const char *name)
+{
+    char wrong[CELL_SIZE + 64];
+    snprintf(wrong, sizeof wrong, "%s %s", what, name);
+    return complain(reader, wrong, "the columns " OZ_BED_HEADER ", in any order");
+}
+
+/* Takes one name of the header; *count is how many came before. */
+static OzStatus take_column(Reader *reader, const char *name, bool found[OZ_BED_COLUMNS],
+                            int *count)
+{
+    int column = find_column(name);
+    if (column < 0 && *count == 0) {
         return complain(reader, "this is no final.csv", "the first line " OZ_BED_HEADER);
     }
+    if (column < 0 || found[column]) {
+        return complain_of_column(reader, column < 0 ? "no such column:" : "twice the column",
+                                  name);
+    }
+    found[column] = true;
+    reader->place[(*count)++] = column;
     return OZ_OK;
+}
+
+static OzStatus read_header(Reader *reader)
+{
+    static const char byte_order_mark[] = "\xef\xbb\xbf";
+    OzStatus status = OZ_OK;
+    char name[CELL_SIZE];
+    bool found[OZ_BED_COLUMNS] = {false};
+    int count = 0;
+    if (strncmp(reader->next, byte_order_mark, 3) == 0) {
+        reader->next += 3;
+    }
+    const char *line = next_line(reader), *at = line ? line : "";
+    reader->line = 1;
+    while (next_cell(&at, name)) {
+        OZ_TRY(take_column(reader, name, found, &count));
+    }
+    at = OZ_BED_HEADER;
+    for (int i = 0; i < OZ_BED_COLUMNS; i++) {
+        next_cell(&at, name);
+        OZ_TRY(found[i] ? OZ_OK : complain_of_column(reader, "without the column", name));
+    }
+done:
+    return status;
 }
 
 static OzStatus read_rows(Reader *reader, OzGrains *grains)
@@ -176,6 +259,7 @@ OzStatus oz_bed_read(OzGrains *grains, const char *path)
     reader.next = reader.text;
     int64_t count = count_rows(reader.text);
     OZ_TRY(read_header(&reader));
+    OZ_TRY(count > 0 ? OZ_OK : complain(&reader, "no grain", "a row for each below the header"));
     OZ_TRY(OZ_NEW(&reader.seen, count));
     OZ_TRY(oz_grains_create(grains, count));
     OZ_TRY(read_rows(&reader, grains));

@@ -22,9 +22,10 @@ enum {
 };
 
 /* Reads a bed into grains (the caller frees with oz_grains_free): geometry, mass, the inertia of
- * that mass, and the state as written, bit for bit; population 0. Rows may come in any order, ids
- * must be 0 to count - 1, each once. Fails with OZ_ERR_INPUT as `file:line: what is wrong; what was
- * expected`, with OZ_ERR_FILE when the file cannot be read; grains is then zeroed. */
+ * that mass, and the state as written, bit for bit; population 0. Rows and columns may come in any
+ * order; a byte-order mark, quotes and spaces about cells are passed over; ids must be 0 to count -
+ * 1, each once, and there is at least one. Fails with OZ_ERR_INPUT as `file:line: what is wrong;
+ * what was expected`, with OZ_ERR_FILE when the file cannot be read; grains is then zeroed. */
 OzStatus oz_bed_read(OzGrains *grains, const char *path);
 
 #endif

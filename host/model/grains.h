@@ -44,4 +44,7 @@ void oz_grains_quaternion(const double axis[3], double quaternion[4]);
 /* Volume of a spherocylinder, m^3. */
 double oz_grains_volume(double diameter, double length);
 
+/* Refuses, with OZ_ERR_INPUT, more grains than this machine's memory holds whatever else the scene asks for. */
+OzStatus oz_grains_check_memory(const char *scene_path, int64_t count);
+
 #endif

@@ -305,6 +305,7 @@ static OzStatus make_grains(Placement *place)
     OZ_TRY(OZ_NEW(&place->beds, scene->population_count));
     OZ_TRY(OZ_NEW(&place->first, scene->population_count));
     OZ_TRY(count_grains(place, &total));
+    OZ_TRY(oz_grains_check_memory(scene->path, total));
     OZ_TRY(oz_grains_create(place->grains, total));
     OZ_TRY(OZ_NEW(&place->waiting, total));
     for (int p = 0; p < scene->population_count; p++) {

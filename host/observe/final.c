@@ -5,9 +5,11 @@
 #include "model/bed.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void fill_row(const OzSnapshot *snapshot, int64_t i, double row[OZ_BED_COLUMNS])
 {
@@ -65,24 +67,75 @@ static void write_flat_rows(const OzSnapshot *snapshot, FILE *file)
     }
 }
 
-OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path)
+/* The name under which the file stands until it is whole. */
+static OzStatus part_of(char **part, const char *path)
 {
-    char *temporary = NULL;
-    if (asprintf(&temporary, "%s.part", path) < 0) {
+    if (asprintf(part, "%s.part", path) < 0) {
+        *part = NULL;
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a file name");
     }
-    FILE *file = fopen(temporary, "w");
+    return OZ_OK;
+}
+
+OzStatus oz_final_reserve(const OzGrains *grains, const char *path)
+{
+    /* -1.2345678901234567e-308 and a comma: 25 bytes; a grain has at most OZ_BED_COLUMNS of them.
+     */
+    const int64_t number = 25, bytes = 1024 + number * OZ_BED_COLUMNS * grains->count;
+    OzStatus status = OZ_OK;
+    char *part = NULL;
+    OZ_TRY(part_of(&part, path));
+    int descriptor = open(part, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    bool good = descriptor >= 0;
+    good = good && (fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, bytes) == 0 ||
+                    errno == EOPNOTSUPP || errno == ENOSYS);
+    if (!good) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot reserve %.3g MB for %s: %s",
+                                (double)bytes / 1e6, path, strerror(errno));
+        remove(part);
+    }
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
+done:
+    free(part);
+    return status;
+}
+
+void oz_final_give_up(const char *path)
+{
+    char *part = NULL;
+    if (part_of(&part, path) == OZ_OK) {
+        remove(part);
+    }
+    free(part);
+}
+
+/* Cuts off what was reserved and not needed. */
+static bool finish(FILE *file)
+{
+    bool good = fflush(file) == 0 && !ferror(file);
+    good = good && ftruncate(fileno(file), ftello(file)) == 0;
+    return fclose(file) == 0 && good;
+}
+
+OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path)
+{
+    OzStatus status = OZ_OK;
+    char *part = NULL;
+    OZ_TRY(part_of(&part, path));
+    FILE *file = fopen(part, "r+"); /* what is reserved there stays so */
+    file = file ? file : fopen(part, "w");
     bool good = file != NULL;
     if (file) {
         (snapshot->grains->pieces ? write_flat_rows : write_rows)(snapshot, file);
-        good = !ferror(file);
-        good = fclose(file) == 0 && good;
+        good = finish(file);
     }
-    OzStatus status = OZ_OK;
-    if (!good || rename(temporary, path) != 0) {
+    if (!good || rename(part, path) != 0) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        remove(temporary);
+        remove(part);
     }
-    free(temporary);
+done:
+    free(part);
     return status;
 }

@@ -2,6 +2,7 @@
  * trusts nothing of a file before its checksum. Knows nothing of pictures. */
 #include "observe/frames.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "observe/frame_pieces.h"
 
@@ -28,6 +29,7 @@ enum {
 struct OzFrames {
     FILE *file;
     char *path;
+    int64_t whole; /* writing: bytes of whole frames */
     int64_t count;
     int wall_count;
     bool is_flat;
@@ -88,10 +90,8 @@ static OzStatus refuse(const OzFrames *frames, const char *why)
 static OzStatus write_block(OzFrames *frames, unsigned char *block, size_t bytes)
 {
     seal(block, bytes);
-    if (fwrite(block, 1, bytes, frames->file) != bytes || fflush(frames->file) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", frames->path, strerror(errno));
-    }
-    return OZ_OK;
+    fwrite(block, 1, bytes, frames->file);
+    return oz_file_commit(frames->file, &frames->whole, frames->path);
 }
 
 static OzStatus write_static(OzFrames *frames, const OzGrains *grains)

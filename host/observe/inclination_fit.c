@@ -2,6 +2,7 @@
 #include "observe/inclination_fit.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "observe/power_fit.h"
@@ -41,6 +42,7 @@ static OzStatus write_row(const OzPowerFit *f, int count, const char *folder)
     OzStatus status = OZ_OK;
     char *path = NULL;
     OZ_TRY(oz_file_join(&path, folder, file_name));
+    OZ_TRY(oz_folder_note(folder, file_name));
     FILE *file = fopen(path, "w");
     bool bad = !file || fprintf(file,
                                 "theta_c,b,p,p_low,p_high,residual_rms,speeds\n"

@@ -2,6 +2,7 @@
  */
 #include "observe/series.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "observe/surplus.h"
 
@@ -20,6 +21,7 @@ typedef struct Ring {
 struct OzSeries {
     FILE *file;
     char *path;
+    int64_t whole; /* bytes of whole rows */
     const OzScene *scene;
     OzMeasure measure;
     Ring density, angle;
@@ -67,10 +69,7 @@ static bool has_column(const OzSeries *series, const OzColumn *column)
 static OzStatus end_row(OzSeries *series)
 {
     fputc('\n', series->file);
-    if (fflush(series->file) != 0 || ferror(series->file)) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
-    }
-    return OZ_OK;
+    return oz_file_commit(series->file, &series->whole, series->path);
 }
 
 static OzStatus write_header(OzSeries *series)

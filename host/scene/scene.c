@@ -230,6 +230,7 @@ static OzStatus load_text(OzScene *scene, const char *path, const char *text, si
     OZ_TRY(oz_memory_text(&scene->path, path));
     OZ_TRY(name_of(&scene->name, path));
     OZ_TRY(read_all(&loader, scene, text, length, settings, setting_count));
+    OZ_TRY(oz_memory_text(&scene->base, loader.labels[1]));
     OZ_TRY(oz_faults_report(&loader.faults));
 done:
     /* A reader that could not go on left its one fault behind. */
@@ -298,6 +299,7 @@ void oz_scene_free(OzScene *scene)
         }
     }
     free(scene->path);
+    free(scene->base);
     free(scene->name);
     *scene = (OzScene){0};
 }

@@ -216,6 +216,7 @@ typedef struct OzSweep {
 
 typedef struct OzScene {
     char *path;  /* as given, for messages */
+    char *base;  /* path of the scene that it extends; NULL: none */
     char *name;  /* file name without folder and .yaml: the run folder's name */
     char *title;
     OzModelKind model;

@@ -2,8 +2,10 @@
 #include "study/redraw.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "draw/gallery.h"
+#include "inputs.h"
 #include "observe/frames.h"
 
 #include <stdlib.h>
@@ -15,8 +17,25 @@ typedef struct Redraw {
     OzFrames *frames;
     OzGallery *gallery;
     OzGallerySettings settings;
+    OzInputs inputs;
+    OzFolder owned; /* out, in use */
     char *scene_path, *frames_path, *out;
 } Redraw;
+
+/* Takes the folder that pictures go to, which must not be the run's own. Earlier pictures there go.
+ */
+static OzStatus own_folder(Redraw *r)
+{
+    static const char *const writes[] = {"movie.mp4", "movie.mp4.part", "snapshots/*.png*", NULL};
+    OzStatus status = OZ_OK;
+    OzFolderUse use = {.writes = writes};
+    OZ_TRY(oz_inputs_add(&r->inputs, r->frames_path));
+    OZ_TRY(oz_inputs_add_scene(&r->inputs, &r->scene));
+    OZ_TRY(oz_inputs_check(&r->inputs, r->out, &use));
+    OZ_TRY(oz_folder_open(&r->owned, r->out, &use));
+done:
+    return status;
+}
 
 static OzStatus open_all(Redraw *r, const OzOptions *options)
 {
@@ -29,7 +48,7 @@ static OzStatus open_all(Redraw *r, const OzOptions *options)
     OZ_TRY(oz_scene_load(&r->scene, r->scene_path, options->settings, options->setting_count));
     OZ_TRY(oz_frames_open(&r->frames, r->frames_path, &r->grains));
     OZ_TRY(oz_snapshot_create(&r->snapshot, &r->scene, &r->grains));
-    OZ_TRY(oz_file_make_folder(r->out));
+    OZ_TRY(own_folder(r));
     r->settings = (OzGallerySettings){.folder = r->out,
                                       .source_dir = options->source_dir,
                                       .backend = options->gl,
@@ -71,6 +90,8 @@ done:;
     OzStatus closed = oz_gallery_finish(r.gallery);
     status = status == OZ_OK ? closed : status;
     oz_frames_finish(r.frames);
+    oz_inputs_free(&r.inputs);
+    oz_folder_close(&r.owned);
     oz_snapshot_free(&r.snapshot);
     oz_grains_free(&r.grains);
     oz_scene_free(&r.scene);

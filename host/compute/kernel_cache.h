@@ -1,0 +1,15 @@
+/* Where PoCL keeps the kernels that it has built. PoCL finds no device at all, or ends the process,
+ * when it cannot write there. */
+#ifndef OZ_COMPUTE_KERNEL_CACHE_H
+#define OZ_COMPUTE_KERNEL_CACHE_H
+
+/* To be called before the first OpenCL call; later calls do nothing. Where PoCL's own choice
+ * (POCL_CACHE_DIR, else XDG_CACHE_HOME, else HOME) cannot be written, a folder of this user's among
+ * the temporary ones takes its place, and a warning says so. */
+void oz_kernel_cache_choose(void);
+
+/* Why there is no place to write, for the message that no device was found; "" when there is one.
+ */
+const char *oz_kernel_cache_trouble(void);
+
+#endif

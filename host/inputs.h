@@ -1,0 +1,28 @@
+/* The files that a command reads: its scene, what that extends, beds from files. A run must neither
+ * remove nor overwrite them. */
+#ifndef OZ_INPUTS_H
+#define OZ_INPUTS_H
+
+#include "base/folder.h"
+#include "scene/scene.h"
+
+/* Real paths, each once. Zeroed is valid: none. */
+typedef struct OzInputs {
+    char **paths; /* owned */
+    int count;
+} OzInputs;
+
+/* Adds what this scene was read from and reads. Files that are not there are left out. */
+OzStatus oz_inputs_add_scene(OzInputs *inputs, const OzScene *scene);
+
+/* Adds one file. */
+OzStatus oz_inputs_add(OzInputs *inputs, const char *path);
+
+/* Refuses, with OZ_ERR_INPUT and by name, an input that a command in this folder would write or
+ * remove: one that use writes or a marker names, in the folder or in a folder right below it. A
+ * folder that is not there is fine. Touches nothing. */
+OzStatus oz_inputs_check(const OzInputs *inputs, const char *folder, const OzFolderUse *use);
+
+void oz_inputs_free(OzInputs *inputs);
+
+#endif
