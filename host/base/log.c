@@ -1,6 +1,8 @@
 /* Log lines. Knows nothing of simulations. */
 #include "base/log.h"
 
+#include "base/clock.h"
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -8,9 +10,11 @@
 #include <string.h>
 #include <unistd.h>
 
-/* stderr's lock is that of the file and of progress_shown too. */
+/* stderr's lock is that of these too. */
 static FILE *file;
 static bool progress_shown;
+static double pace = 10;       /* s between plain progress lines              */
+static double next_plain = -1; /* on oz_clock_now, of the next; -1: not begun */
 
 static void clear_progress(void)
 {
@@ -20,16 +24,19 @@ static void clear_progress(void)
     }
 }
 
+/* A file that takes no more is said once, then left alone. */
 static void write_file(const char *format, va_list arguments)
 {
-    if (file) {
-        vfprintf(file, format, arguments);
-        fputc('\n', file);
-        if (fflush(file) != 0 || ferror(file)) {
-            fprintf(stderr, "log.txt cannot be written any more: %s\n", strerror(errno));
-            fclose(file);
-            file = NULL;
-        }
+    if (!file) {
+        return;
+    }
+    vfprintf(file, format, arguments);
+    fputc('\n', file);
+    if (fflush(file) != 0) {
+        clear_progress();
+        fprintf(stderr, "warning: log.txt cannot be written any more: %s\n", strerror(errno));
+        fclose(file);
+        file = NULL;
     }
 }
 
@@ -58,18 +65,54 @@ void oz_log_detail(const char *format, ...)
     funlockfile(stderr);
 }
 
+static bool is_blank(const char *text)
+{
+    return text[strspn(text, " ")] == '\0';
+}
+
+static void draw_progress(const char *text)
+{
+    clear_progress();
+    if (!is_blank(text)) {
+        fputs(text, stderr);
+        progress_shown = true;
+    }
+    fflush(stderr);
+}
+
+static void print_progress(const char *text)
+{
+    double now = oz_clock_now();
+    if (next_plain < 0) {
+        next_plain = now + pace;
+    }
+    if (now >= next_plain && !is_blank(text)) {
+        fprintf(stderr, "%s\n", text);
+        next_plain = now + pace;
+    }
+}
+
 void oz_log_progress(const char *format, ...)
 {
-    if (!isatty(STDERR_FILENO)) {
-        return;
-    }
-    flockfile(stderr);
-    clear_progress();
+    char text[512];
     va_list arguments;
     va_start(arguments, format);
-    progress_shown = vfprintf(stderr, format, arguments) > 0;
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    fflush(stderr);
+    flockfile(stderr);
+    if (isatty(STDERR_FILENO)) {
+        draw_progress(text);
+    } else {
+        print_progress(text);
+    }
+    funlockfile(stderr);
+}
+
+void oz_log_pace(double seconds)
+{
+    flockfile(stderr);
+    pace = seconds;
+    next_plain = -1;
     funlockfile(stderr);
 }
 

@@ -1,0 +1,145 @@
+/* Lines for people: what a pipe or a file gets of progress, and what log.txt gets. */
+#include "base/log.h"
+
+#include "base/clock.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char folder[] = "/tmp/orzo_log_XXXXXX", said[64], kept[64];
+
+/* What stderr was given while it was a file: `said`. */
+static int real_stderr = -1;
+
+static void divert(void)
+{
+    fflush(stderr);
+    real_stderr = dup(STDERR_FILENO);
+    assert_non_null(freopen(said, "w", stderr));
+}
+
+static void restore(void)
+{
+    fflush(stderr);
+    assert_true(dup2(real_stderr, STDERR_FILENO) >= 0);
+    close(real_stderr);
+}
+
+static int count_lines(const char *path, const char *holding)
+{
+    char line[256];
+    int count = 0;
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file)) {
+        count += strstr(line, holding) != NULL;
+    }
+    fclose(file);
+    return count;
+}
+
+static void nap(double seconds)
+{
+    struct timespec time = {0, (long)(1e9 * seconds)};
+    nanosleep(&time, NULL);
+}
+
+/* Calls without end for three paces and a half: one line at the end of each whole pace. The first
+ * pace begins with the first call. A thousand calls more often change nothing. */
+static void test_progress_in_a_file_is_a_line_a_pace(void **state)
+{
+    (void)state;
+    const double pace = 0.2;
+    double start = oz_clock_now();
+    divert();
+    oz_log_pace(pace);
+    while (oz_clock_now() - start < 3.5 * pace) {
+        oz_log_progress("%.0f %% done", 12.0);
+        nap(1e-3);
+    }
+    restore();
+    /* A machine too busy to call in time writes fewer, never more. */
+    int count = count_lines(said, "12 % done\n");
+    assert_in_range(count, 2, 3);
+    assert_int_equal(count_lines(said, ""), count);
+}
+
+static void test_blank_progress_is_no_line(void **state)
+{
+    (void)state;
+    divert();
+    oz_log_pace(0);
+    oz_log_progress(" ");
+    oz_log_progress("%s", "");
+    oz_log_progress("here");
+    restore();
+    assert_int_equal(count_lines(said, ""), 1);
+    assert_int_equal(count_lines(said, "here"), 1);
+}
+
+static void test_progress_never_reaches_the_log(void **state)
+{
+    (void)state;
+    divert();
+    oz_log_pace(0);
+    assert_int_equal(oz_log_open(kept), OZ_OK);
+    oz_log_line("begun");
+    oz_log_progress("half");
+    oz_log_open(NULL);
+    restore();
+    assert_int_equal(count_lines(said, "half"), 1);
+    assert_int_equal(count_lines(kept, "half"), 0);
+    assert_int_equal(count_lines(kept, "begun"), 1);
+}
+
+/* /dev/full takes nothing: said once, and lines go on on stderr. */
+static void test_log_that_cannot_be_written_is_said_once(void **state)
+{
+    (void)state;
+    divert();
+    assert_int_equal(oz_log_open("/dev/full"), OZ_OK);
+    oz_log_line("one");
+    oz_log_line("two");
+    oz_log_open(NULL);
+    restore();
+    assert_int_equal(count_lines(said, "log.txt cannot be written"), 1);
+    assert_int_equal(count_lines(said, "No space left"), 1);
+    assert_int_equal(count_lines(said, "two"), 1);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    bool made = mkdtemp(folder) != NULL;
+    snprintf(said, sizeof said, "%s/said", folder);
+    snprintf(kept, sizeof kept, "%s/kept", folder);
+    return made ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    unlink(said);
+    unlink(kept);
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_progress_in_a_file_is_a_line_a_pace),
+        cmocka_unit_test(test_blank_progress_is_no_line),
+        cmocka_unit_test(test_progress_never_reaches_the_log),
+        cmocka_unit_test(test_log_that_cannot_be_written_is_said_once),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
