@@ -1,5 +1,6 @@
 /* The program: one sub-command, its exit status. */
 #include "base/log.h"
+#include "base/streams.h"
 #include "cli.h"
 #include "compute/device.h"
 #include "draw/movie.h"
@@ -89,30 +90,45 @@ static const struct {
     {"devices", devices_command},
 };
 
-int main(int argc, char **argv)
+static OzStatus help_or_run(const OzOptions *options)
+{
+    if (options->help) {
+        oz_cli_help(options->command);
+        return OZ_OK;
+    }
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        if (strcmp(commands[i].name, options->command) == 0) {
+            return commands[i].run(options);
+        }
+    }
+    return OZ_ERR_INPUT;
+}
+
+static OzStatus obey(int argc, char **argv)
 {
     OzOptions options;
     if (argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
         oz_cli_help(NULL);
-        return 0;
+        return OZ_OK;
     }
     if (argc > 1 && strcmp(argv[1], "--version") == 0) {
         printf("orzo %s\n", ORZO_VERSION);
-        return 0;
+        return OZ_OK;
     }
     OzStatus status = oz_cli_parse(&options, argc, argv);
     if (status != OZ_OK) {
         oz_log_line("%s", oz_status_text());
-        return oz_status_exit_code(status);
+        return status;
     }
-    if (options.help) {
-        oz_cli_help(options.command);
-        return 0;
+    return help_or_run(&options);
+}
+
+int main(int argc, char **argv)
+{
+    oz_streams_open();
+    OzStatus status = obey(argc, argv), printed = oz_streams_flush();
+    if (printed != OZ_OK) {
+        oz_log_line("%s", oz_status_text());
     }
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
-        if (strcmp(commands[i].name, options.command) == 0) {
-            return oz_status_exit_code(commands[i].run(&options));
-        }
-    }
-    return oz_status_exit_code(OZ_ERR_INPUT);
+    return oz_status_exit_code(status == OZ_OK ? printed : status);
 }
