@@ -5,6 +5,7 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/stage.h"
 #include "compute/stiffness.h"
 #include "model/calibrate.h"
 
@@ -67,9 +68,9 @@ static bool must_end(const OzCourse *course)
 
 static bool watch_settling(void *context, double time, double ratio)
 {
-    const OzCourse *course = context;
+    OzCourse *course = context;
     if (course->leads) {
-        oz_log_progress("settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
+        oz_stage_say(&course->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
     }
     return !must_end(course);
 }
@@ -77,8 +78,13 @@ static bool watch_settling(void *context, double time, double ratio)
 static OzStatus settle(OzCourse *course)
 {
     double seconds = 0, start = oz_clock_now();
+    if (course->leads) {
+        oz_stage_begin(&course->stage, "settling");
+    }
     OzStatus status = oz_drive_settle(course->drive, &seconds, watch_settling, course);
-    oz_log_progress(" ");
+    if (course->leads) {
+        oz_stage_end(&course->stage);
+    }
     OZ_AFTER(status, drop_stopped(course));
     if (status == OZ_OK && seconds > 0) {
         const char *first = course->members[0]->name;
@@ -139,9 +145,11 @@ static void show_progress(const OzCourse *course)
 {
     double step = (double)oz_drive_step(course->drive), last = (double)course->schedule.last_step;
     double spent = oz_clock_now() - course->first_step, rate = spent > 0 ? step / spent : 0;
-    oz_log_progress("%5.1f %%  %.4f s  %.0f steps/s  %.0f s left",
+    char left[48];
+    oz_clock_words(rate > 0 ? (last - step) / rate : 0, left, sizeof left);
+    oz_log_progress("%.1f %%: %.4g s simulated, %.0f steps/s, %s left",
                     last > 0 ? 100 * step / last : 100, step * course->schedule.scene->step, rate,
-                    rate > 0 ? (last - step) / rate : 0);
+                    left);
 }
 
 static OzStatus launch(OzCourse *course, int64_t step, double *shown)
@@ -208,16 +216,28 @@ done:
     return status;
 }
 
+/* Pictures may still wait to be drawn. */
+static void end_all(OzCourse *course, OzStatus *status)
+{
+    if (course->leads) {
+        oz_stage_begin(&course->stage, "finishing files and pictures");
+    }
+    for (int64_t m = 0; m < course->member_count; m++) {
+        if (course->members[m]->is_open) {
+            OZ_AFTER(*status, end_member(course, m, *status));
+        }
+    }
+    if (course->leads) {
+        oz_stage_end(&course->stage);
+    }
+}
+
 static void run_one(OzCourse *course)
 {
     OzStatus status = settle(course);
     status = status == OZ_OK ? tell_contacts(course) : status;
     status = status == OZ_OK ? walk(course) : status;
-    for (int64_t m = 0; m < course->member_count; m++) {
-        if (course->members[m]->is_open) {
-            OZ_AFTER(status, end_member(course, m, status));
-        }
-    }
+    end_all(course, &status);
     /* All its members were stopped: others may do better. */
     course->status = status == OZ_ERR_BLOWUP && course->is_ensemble ? OZ_OK : status;
     snprintf(course->text, sizeof course->text, "%s", oz_status_text());

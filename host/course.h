@@ -4,6 +4,7 @@
 #ifndef OZ_COURSE_H
 #define OZ_COURSE_H
 
+#include "base/stage.h"
 #include "compute/drive.h"
 #include "observe/schedule.h"
 #include "outputs.h"
@@ -22,6 +23,7 @@ typedef struct OzCourse {
     atomic_bool *ended;  /* shared: a course that failed ends the others          */
     OzDevice device;     /* a branch                                              */
     OzDrive *drive;
+    OzStage stage;            /* in hand, of the course that leads                     */
     double first_step, spent; /* wall clock; from the first step to the last      */
     OzStatus status;          /* how it ended, and why                            */
     char text[4096];

@@ -1,8 +1,11 @@
-/* Lines for people: what a pipe or a file gets of progress, and what log.txt gets. */
+/* Lines for people: what a pipe or a file gets of progress and of long stages, and what log.txt
+ * gets. */
 #include "base/log.h"
 
 #include "base/clock.h"
+#include "base/stage.h"
 
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -22,14 +25,14 @@ static int real_stderr = -1;
 
 static void divert(void)
 {
-    fflush(stderr);
+    int file = creat(said, 0600);
     real_stderr = dup(STDERR_FILENO);
-    assert_non_null(freopen(said, "w", stderr));
+    assert_true(file >= 0 && dup2(file, STDERR_FILENO) >= 0);
+    close(file);
 }
 
 static void restore(void)
 {
-    fflush(stderr);
     assert_true(dup2(real_stderr, STDERR_FILENO) >= 0);
     close(real_stderr);
 }
@@ -49,7 +52,7 @@ static int count_lines(const char *path, const char *holding)
 
 static void nap(double seconds)
 {
-    struct timespec time = {0, (long)(1e9 * seconds)};
+    struct timespec time = {.tv_nsec = (long)(1e9 * seconds)};
     nanosleep(&time, NULL);
 }
 
@@ -116,6 +119,62 @@ static void test_log_that_cannot_be_written_is_said_once(void **state)
     assert_int_equal(count_lines(said, "two"), 1);
 }
 
+/* A stage is named after a second, once, in the log too; how far it is comes after that. */
+static void test_stage_that_lasts_is_named(void **state)
+{
+    (void)state;
+    OzStage stage;
+    divert();
+    oz_log_pace(0);
+    assert_int_equal(oz_log_open(kept), OZ_OK);
+    oz_stage_begin(&stage, "baking %d loaves", 7);
+    nap(0.8);
+    assert_int_equal(count_lines(said, "baking"), 0);
+    nap(0.9);
+    oz_stage_say(&stage, "baking: half done");
+    nap(0.6);
+    oz_stage_end(&stage);
+    int lines = count_lines(said, "");
+    nap(0.4);
+    oz_log_open(NULL);
+    restore();
+    assert_int_equal(count_lines(said, "baking 7 loaves ...\n"), 1);
+    assert_true(count_lines(said, "baking 7 loaves: 1 s\n") >= 1);
+    assert_true(count_lines(said, "baking: half done\n") >= 1);
+    assert_int_equal(count_lines(said, ""), lines);
+    assert_int_equal(count_lines(kept, "baking"), 1);
+}
+
+static void test_durations_in_words(void **state)
+{
+    (void)state;
+    const struct {
+        double seconds;
+        const char *words;
+    } rows[] = {{0.04, "0.0 s"},        {9.94, "9.9 s"},       {9.96, "10 s"},
+                {119.4, "119 s"},       {119.6, "2 min 0 s"},  {250, "4 min 10 s"},
+                {7199.7, "2 h 0 min"},  {8000, "2 h 13 min"},  {86400, "24 h 0 min"},
+                {172800, "2 days 0 h"}, {442800, "5 days 3 h"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char words[48];
+        oz_clock_words(rows[i].seconds, words, sizeof words);
+        assert_string_equal(words, rows[i].words);
+    }
+}
+
+static void test_short_stage_says_nothing(void **state)
+{
+    (void)state;
+    OzStage stage;
+    divert();
+    oz_log_pace(0);
+    oz_stage_begin(&stage, "crumbs");
+    oz_stage_say(&stage, "crumbs: 3");
+    oz_stage_end(&stage);
+    restore();
+    assert_int_equal(count_lines(said, ""), 0);
+}
+
 static int make_folder(void **state)
 {
     (void)state;
@@ -140,6 +199,9 @@ int main(void)
         cmocka_unit_test(test_blank_progress_is_no_line),
         cmocka_unit_test(test_progress_never_reaches_the_log),
         cmocka_unit_test(test_log_that_cannot_be_written_is_said_once),
+        cmocka_unit_test(test_stage_that_lasts_is_named),
+        cmocka_unit_test(test_short_stage_says_nothing),
+        cmocka_unit_test(test_durations_in_words),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -2,10 +2,17 @@
 #ifndef OZ_BASE_CLOCK_H
 #define OZ_BASE_CLOCK_H
 
+#include <stddef.h>
+
 /* Seconds since an arbitrary start, monotonic. */
 double oz_clock_now(void);
 
-/* Processor seconds of all threads of this process: what other programs do to the wall clock does not show. */
+/* Processor seconds of all threads of this process: what other programs do to the wall clock does
+ * not show. */
 double oz_clock_processor(void);
+
+/* A duration as people say it, to about three digits: "0.4 s", "38 s", "4 min 10 s", "2 h 13 min",
+ * "5 days 3 h"; cut to size. */
+void oz_clock_words(double seconds, char *text, size_t size);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/embed.h"
 #include "base/memory.h"
+#include "base/stage.h"
 #include "compute/cl_try.h"
 
 #include <stdlib.h>
@@ -134,7 +135,10 @@ OzStatus oz_program_build(cl_program *program, const OzDevice *device, const cha
     *program = clCreateProgramWithSource(device->context, 1, (const char **)&text, NULL, &code);
     CL_TRY(code);
     snprintf(all, sizeof all, "-cl-std=CL1.2 %s", options);
+    OzStage stage;
+    oz_stage_begin(&stage, "building kernels");
     code = clBuildProgram(*program, 1, &device->id, all, NULL, NULL);
+    oz_stage_end(&stage);
     if (code != CL_SUCCESS) {
         status = build_failed(*program, device, code, name);
     }

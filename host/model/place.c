@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/stage.h"
 #include "model/arrange.h"
 #include "model/bed.h"
 #include "model/column.h"
@@ -28,6 +29,9 @@ enum { TRIES_PER_ROUND = 2000 };
 /* Rounds for one grain between walls on all sides, where nothing can grow. */
 enum { ROUND_LIMIT = 20 };
 
+/* Grains between words on how far placing is: some milliseconds. */
+enum { SAY_EVERY = 1000 };
+
 /* A grain waiting for its place. */
 typedef struct Waiting {
     double extent; /* m, shaft and caps */
@@ -44,6 +48,7 @@ typedef struct Placement {
     OzColumn column;
     OzCrowd crowd;
     int64_t tries_left, raise_count;
+    OzStage *stage;
 } Placement;
 
 static OzStatus read_bed(OzGrains *bed, const OzScene *scene, const OzPopulation *population)
@@ -287,6 +292,10 @@ static OzStatus place_waiting(Placement *place)
     place->tries_left = 1000000 + 300 * count;
     for (int64_t w = 0; w < count; w++) {
         OZ_TRY(place_grain(place, place->waiting[w].id, w));
+        if (w % SAY_EVERY == 0) {
+            oz_stage_say(place->stage, "placing grains: %lld of %lld", (long long)w,
+                         (long long)count);
+        }
     }
     if (place->raise_count) {
         oz_log_line("%s: the random grains needed a start column %.3g times as large as their "
@@ -317,12 +326,9 @@ done:
     return status;
 }
 
-OzStatus oz_place_grains(OzGrains *grains, const OzScene *scene)
+static OzStatus place_rods(OzGrains *grains, const OzScene *scene, OzStage *stage)
 {
-    Placement place = {.scene = scene, .grains = grains};
-    if (scene->model == OZ_MODEL_TRIGRAINS) {
-        return oz_arrange_grains(grains, scene);
-    }
+    Placement place = {.scene = scene, .grains = grains, .stage = stage};
     memset(grains, 0, sizeof *grains);
     OzStatus status = make_grains(&place);
     for (int p = 0; place.beds && p < scene->population_count; p++) {
@@ -335,5 +341,15 @@ OzStatus oz_place_grains(OzGrains *grains, const OzScene *scene)
     free(place.first);
     free(place.waiting);
     oz_crowd_free(&place.crowd);
+    return status;
+}
+
+OzStatus oz_place_grains(OzGrains *grains, const OzScene *scene)
+{
+    OzStage stage;
+    oz_stage_begin(&stage, "placing grains");
+    OzStatus status = scene->model == OZ_MODEL_TRIGRAINS ? oz_arrange_grains(grains, scene)
+                                                         : place_rods(grains, scene, &stage);
+    oz_stage_end(&stage);
     return status;
 }
