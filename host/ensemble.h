@@ -1,6 +1,6 @@
 /* The tables of an ensemble: members.csv with one row a member, ensemble.csv with mean, spread and
- * 95 % interval of every column of series.csv over the members of each value of the sweep; of a
- * drum swept over its speed also inclination_fit.csv (observe/inclination_fit.h). */
+ * 95 % interval of every column of series.csv over the members of each combination of the sweep; of
+ * a drum swept over its speed also inclination_fit.csv (observe/inclination_fit.h). */
 #ifndef OZ_ENSEMBLE_H
 #define OZ_ENSEMBLE_H
 
@@ -15,16 +15,17 @@ typedef struct OzEnsemble OzEnsemble;
 typedef struct OzEnsembleRow {
     const char *name; /* its folder below the ensemble's        */
     uint64_t seed;
-    const char *value;  /* of the swept key; NULL without a sweep */
+    const char *value;  /* of the swept keys, with commas between; NULL without a sweep */
     const char *status; /* "done", "stopped", ...                 */
     bool has_series;    /* it was opened in this run              */
 } OzEnsembleRow;
 
-/* key is the swept one or NULL; both are borrowed. */
+/* key is the swept one or NULL; of several keys, with commas between, each has a column. Both are
+ * borrowed. */
 OzStatus oz_ensemble_create(OzEnsemble **ensemble, const char *folder, const char *key);
 
-/* Adds a member, whose series.csv (if there is one) is whole. Members of one value come one after
- * another. */
+/* Adds a member, whose series.csv (if there is one) is whole. Members of one combination
+ * come one after another. */
 OzStatus oz_ensemble_add(OzEnsemble *ensemble, const OzEnsembleRow *row);
 
 /* Puts members.csv and ensemble.csv in place, says and writes the fit, and frees; NULL is fine. */

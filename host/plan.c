@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/stage.h"
 #include "model/beam_limits.h"
 #include "model/place.h"
 #include "model/predict.h"
@@ -21,29 +22,45 @@ const char *oz_plan_value(const OzPlan *plan, int64_t i)
     return plan->scene.sweep.count ? plan->scene.sweep.values[i / plan->seed_count] : NULL;
 }
 
+/* The place of `seed` among the swept keys, or -1. */
+static int seed_key(const OzSweep *sweep)
+{
+    for (int k = 0; k < sweep->key_count; k++) {
+        if (strcmp(sweep->keys[k].path, "seed") == 0) {
+            return k;
+        }
+    }
+    return -1;
+}
+
 uint64_t oz_plan_seed(const OzPlan *plan, int64_t i)
 {
+    const OzSweep *sweep = &plan->scene.sweep;
     if (plan->options->has_seeds) {
         return plan->options->seed_first + (uint64_t)(i % plan->seed_count);
     }
-    bool swept = plan->scene.sweep.count && strcmp(plan->scene.sweep.key, "seed") == 0;
-    return swept ? strtoull(oz_plan_value(plan, i), NULL, 10) : plan->scene.seed;
+    int k = seed_key(sweep);
+    return k < 0 ? plan->scene.seed : strtoull(oz_sweep_value(sweep, i, k), NULL, 10);
 }
 
-/* The scene of member i: the command's settings, the value, the seed. */
+/* The scene of member i: the command's settings, the values, the seed. */
 static OzStatus load_scene(const OzPlan *plan, int64_t i, OzScene *scene)
 {
     const OzOptions *options = plan->options;
-    char *settings[OZ_CLI_SETTINGS_MAX + 2], value[SETTING_SIZE], seed[SETTING_SIZE];
-    int count = options->setting_count;
+    const OzSweep *sweep = &plan->scene.sweep;
+    char *settings[OZ_CLI_SETTINGS_MAX + OZ_SWEEP_KEYS_MAX + 1];
+    char texts[OZ_SWEEP_KEYS_MAX + 1][SETTING_SIZE];
+    int count = options->setting_count, own = 0;
     memcpy(settings, options->settings, (size_t)count * sizeof *settings);
-    if (plan->scene.sweep.count) {
-        snprintf(value, sizeof value, "%s=%s", plan->scene.sweep.key, oz_plan_value(plan, i));
-        settings[count++] = value;
+    for (; own < sweep->key_count; own++) {
+        snprintf(texts[own], SETTING_SIZE, "%s=%s", sweep->keys[own].path,
+                 oz_sweep_value(sweep, i / plan->seed_count, own));
     }
     if (options->has_seeds) {
-        snprintf(seed, sizeof seed, "seed=%" PRIu64, oz_plan_seed(plan, i));
-        settings[count++] = seed;
+        snprintf(texts[own++], SETTING_SIZE, "seed=%" PRIu64, oz_plan_seed(plan, i));
+    }
+    for (int k = 0; k < own; k++) {
+        settings[count++] = texts[k];
     }
     OzStatus status = oz_scene_load(scene, options->paths[0], settings, count);
     oz_sweep_free(&scene->sweep);
@@ -123,53 +140,111 @@ static const char *last_word(const char *path)
     return word;
 }
 
-/* The key's last word and the value, with nothing in it that a folder's name should not have. */
-static void name_value(const OzPlan *plan, int64_t i, char *name, size_t size)
+/* A swept key's name in a folder's: its last word, or all of it where another ends alike. */
+static const char *name_of(const OzSweep *sweep, int k)
 {
-    snprintf(name, size, "%s_%s", last_word(plan->scene.sweep.key), oz_plan_value(plan, i));
-    for (char *letter = name; *letter; letter++) {
+    const char *word = last_word(sweep->keys[k].path);
+    for (int other = 0; other < sweep->key_count; other++) {
+        if (other != k && strcmp(word, last_word(sweep->keys[other].path)) == 0) {
+            return sweep->keys[k].path;
+        }
+    }
+    return word;
+}
+
+/* Keys and values of a combination, with nothing in them that a folder's name should not have. */
+static OzStatus name_values(const OzPlan *plan, int64_t combination, char **name)
+{
+    const OzSweep *sweep = &plan->scene.sweep;
+    size_t length = 0;
+    *name = NULL;
+    FILE *file = open_memstream(name, &length);
+    for (int k = 0; file && k < sweep->key_count; k++) {
+        fprintf(file, "%s%s_%s", k ? "_" : "", name_of(sweep, k),
+                oz_sweep_value(sweep, combination, k));
+    }
+    if (!file || fclose(file) != 0 || !*name) {
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a member's name");
+    }
+    for (char *letter = *name; *letter; letter++) {
         if (!isalnum((unsigned char)*letter) && !strchr("._+-", *letter)) {
             *letter = '_';
         }
     }
+    return OZ_OK;
 }
 
 OzStatus oz_plan_name(const OzPlan *plan, int64_t i, char **name)
 {
-    char value[160] = "", seed[32] = "";
-    if (plan->scene.sweep.count) {
-        name_value(plan, i, value, sizeof value);
-    }
+    OzStatus status = OZ_OK;
+    char *values = NULL, seed[32] = "";
+    *name = NULL;
+    OZ_TRY(name_values(plan, i / plan->seed_count, &values));
     if (plan->options->has_seeds) {
-        snprintf(seed, sizeof seed, "%sseed_%05" PRIu64, value[0] ? "_" : "",
+        snprintf(seed, sizeof seed, "%sseed_%05" PRIu64, values[0] ? "_" : "",
                  oz_plan_seed(plan, i));
     }
-    *name = NULL;
-    if (asprintf(name, "%s%s", value, seed) < 0) {
+    if (asprintf(name, "%s%s", values, seed) < 0) {
         *name = NULL;
-        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a member's name");
+        status = oz_status_fail(OZ_ERR_MEMORY, "out of memory for a member's name");
     }
-    return OZ_OK;
+done:
+    free(values);
+    return status;
 }
 
-/* Two values must not come to the same folder. */
+static int compare_texts(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Two combinations must not come to the same folder. */
 static OzStatus check_names(const OzPlan *plan)
 {
-    char one[160], other[160];
-    for (int i = 1; i < plan->scene.sweep.count; i++) {
-        name_value(plan, i * plan->seed_count, one, sizeof one);
-        for (int k = 0; k < i; k++) {
-            name_value(plan, k * plan->seed_count, other, sizeof other);
-            if (strcmp(one, other) == 0) {
-                return oz_status_fail(
-                    OZ_ERR_INPUT,
-                    "%s: two values of the sweep of %s would both be written into "
-                    "%s; expected values that differ in letters and digits",
-                    plan->scene.path, plan->scene.sweep.key, one);
-            }
+    OzStatus status = OZ_OK;
+    char **names = NULL;
+    int count = plan->scene.sweep.count, made = 0;
+    OZ_TRY(OZ_NEW(&names, count));
+    for (; made < count; made++) {
+        OZ_TRY(name_values(plan, made, &names[made]));
+    }
+    if (count > 0) {
+        qsort(names, (size_t)count, sizeof *names, compare_texts);
+    }
+    for (int i = 1; i < count; i++) {
+        if (strcmp(names[i - 1], names[i]) == 0) {
+            status = oz_status_fail(
+                OZ_ERR_INPUT,
+                "%s: two members of the sweep of %s would both be written into %s; expected values "
+                "that differ in letters and digits",
+                plan->scene.path, plan->scene.sweep.key, names[i]);
+            goto done;
         }
     }
-    return OZ_OK;
+done:
+    for (int i = 0; names && i < made; i++) {
+        free(names[i]);
+    }
+    free(names);
+    return status;
+}
+
+/* Whether each combination can be loaded; their grains are placed later, one after the other. */
+static OzStatus try_values(OzPlan *plan)
+{
+    OzStatus status = OZ_OK;
+    OzStage stage;
+    int count = plan->scene.sweep.count;
+    oz_stage_begin(&stage, "reading %d scenes of the sweep", count);
+    for (int v = 0; status == OZ_OK && v < count; v++) {
+        OzScene scene;
+        oz_stage_say(&stage, "reading scenes of the sweep: %d of %d", v, count);
+        status = load_scene(plan, v * plan->seed_count, &scene);
+        status = status == OZ_OK ? oz_inputs_add_scene(&plan->inputs, &scene) : status;
+        oz_scene_free(&scene);
+    }
+    oz_stage_end(&stage);
+    return status;
 }
 
 static OzStatus check_values(OzPlan *plan)
@@ -180,18 +255,12 @@ static OzStatus check_values(OzPlan *plan)
         return oz_status_fail(OZ_ERR_INPUT, "%s: %lld members; expected at most %d",
                               plan->scene.path, (long long)plan->count, OZ_PLAN_MEMBERS_MAX);
     }
-    if (sweep->count && plan->options->has_seeds && strcmp(sweep->key, "seed") == 0) {
+    if (plan->options->has_seeds && seed_key(sweep) >= 0) {
         return oz_status_fail(OZ_ERR_INPUT, "%s: sweeps the seed; expected that or --seeds",
                               plan->scene.path);
     }
     OZ_TRY(check_names(plan));
-    for (int v = 0; v < sweep->count; v++) {
-        OzScene scene;
-        status = load_scene(plan, v * plan->seed_count, &scene);
-        status = status == OZ_OK ? oz_inputs_add_scene(&plan->inputs, &scene) : status;
-        oz_scene_free(&scene);
-        OZ_TRY(status);
-    }
+    OZ_TRY(try_values(plan));
 done:
     return status;
 }

@@ -1,5 +1,6 @@
-/* Which scenes a command asks for: the one that was written, or a member for each value of its
- * sweep and each seed of --seeds. Values come in the order written, each with all its seeds. */
+/* Which scenes a command asks for: the one that was written, or a member for each combination of
+ * its sweep's values and each seed of --seeds. Combinations come in the order of the sweep, each
+ * with all its seeds. */
 #ifndef OZ_PLAN_H
 #define OZ_PLAN_H
 
@@ -16,30 +17,33 @@ enum { OZ_PLAN_MEMBERS_MAX = 100000 }; /* each has a folder of its own */
 typedef struct OzPlan {
     const OzOptions *options; /* borrowed                                        */
     OzScene scene;            /* as written, sweep included                      */
-    int64_t seed_count;       /* members of each value                           */
+    int64_t seed_count;       /* members of each combination                     */
     int64_t count;            /* members                                         */
     bool is_ensemble;         /* --seeds or a sweep: members have folders and names */
     OzInputs inputs;          /* files that its scenes were read from and read   */
 } OzPlan;
 
-/* Reads the scene of options->paths[0] and, with each value of its sweep, whether it can be loaded.
+/* Reads the scene of options->paths[0] and whether each combination of its sweep can be loaded.
  * The caller frees with oz_plan_free (zeroed is fine). */
 OzStatus oz_plan_create(OzPlan *plan, const OzOptions *options);
 void oz_plan_free(OzPlan *plan);
 
-/* Refuses a step at which a contact of the scene grows by itself, or warns in the log with force. */
+/* Refuses a step at which a contact of the scene grows by itself, or warns in the log with force.
+ */
 OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force);
 
 /* Member i's scene, without a sweep, and its grains at the start. Refuses a step at which a contact
  * grows by itself, unless --force. The caller frees both, also on failure. */
 OzStatus oz_plan_load(const OzPlan *plan, int64_t i, OzScene *scene, OzGrains *grains);
 
-/* The value that member i has of the swept key, as written; NULL without a sweep. */
+/* The values that member i has of the swept keys, as written, with commas between where there are
+ * several (scene.sweep.key is their head in a table); NULL without a sweep. */
 const char *oz_plan_value(const OzPlan *plan, int64_t i);
 
 uint64_t oz_plan_seed(const OzPlan *plan, int64_t i);
 
-/* Its folder's name, as in friction_0.2_seed_00003; empty for a plain run. The caller frees. */
+/* Its folder's name: every swept key and its value, and the seed, as in friction_0.2_seed_00003;
+ * empty for a plain run. The caller frees. */
 OzStatus oz_plan_name(const OzPlan *plan, int64_t i, char **name);
 
 #endif

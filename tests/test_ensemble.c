@@ -212,6 +212,51 @@ static void test_sweep(void **state)
     assert_int_equal((int)number_at("sweep/ensemble.csv", 8, "members"), 2);
 }
 
+/* Two keys: each combination is the run that has both values, and has its row under both. */
+static void test_grid(void **state)
+{
+    (void)state;
+    run("--set 'sweep={contact.friction: [0.1, 0.2], contact.restitution: [0.4, 0.6]}' --seeds "
+        "1..2",
+        "grid", 0);
+    run("--set contact.friction=0.2 --set contact.restitution=0.6 --set seed=2", "corner", 0);
+    assert_same_file("corner", "grid/friction_0.2_restitution_0.6_seed_00002", "final.csv");
+    assert_same_file("corner", "grid/friction_0.2_restitution_0.6_seed_00002", "series.csv");
+    assert_same_file("seeds/seed_00001", "grid/friction_0.1_restitution_0.4_seed_00001",
+                     "final.csv");
+    /* Four rows for each combination. */
+    assert_true(number_at("grid/ensemble.csv", 9, "contact.friction") == 0.2);
+    assert_true(number_at("grid/ensemble.csv", 9, "contact.restitution") == 0.4);
+    assert_true(number_at("grid/ensemble.csv", 13, "contact.restitution") == 0.6);
+    assert_true(number_at("grid/ensemble.csv", 13, "step") == 0);
+    assert_int_equal((int)number_at("grid/ensemble.csv", 16, "members"), 2);
+    assert_true(number_at("grid/members.csv", 8, "contact.friction") == 0.2);
+    assert_true(number_at("grid/members.csv", 8, "contact.restitution") == 0.6);
+    assert_int_equal((int)number_at("grid/members.csv", 8, "seed"), 2);
+    assert_int_equal((int)number_at("grid/members.csv", 8, "step"), 1000);
+}
+
+/* In step; keys that end alike go by their whole names. */
+static void test_zip(void **state)
+{
+    (void)state;
+    run("--set 'sweep={contact.friction: [0.2, 0.2], walls.0.contact.friction: [0.1, 0.3], zip: "
+        "true}'",
+        "zip", 0);
+    run("--set contact.friction=0.2 --set walls.0.contact.friction=0.3", "pair", 0);
+    assert_same_file("pair", "zip/contact.friction_0.2_walls.0.contact.friction_0.3", "final.csv");
+    char *members = read_text("zip/members.csv");
+    assert_non_null(
+        strstr(members, "folder,seed,contact.friction,walls.0.contact.friction,status"));
+    assert_non_null(strstr(members, "_0.1,1,0.2,0.1,done,"));
+    assert_non_null(strstr(members, "_0.3,1,0.2,0.3,done,"));
+    free(members);
+    run("--set 'sweep={contact.friction: [0.2, 0.2], contact.restitution: [0.5, 0.5], zip: true}'",
+        "bad", 2);
+    assert_said("two members of the sweep of contact.friction,contact.restitution would both be "
+                "written into friction_0.2_restitution_0.5");
+}
+
 /* A grain thrown at 100 m/s moves more than its radius in a step. */
 static void test_stopped_member(void **state)
 {
@@ -304,6 +349,8 @@ int main(void)
         cmocka_unit_test(test_courses_change_nothing),
         cmocka_unit_test(test_failure_ends_all),
         cmocka_unit_test(test_sweep),
+        cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_zip),
         cmocka_unit_test(test_stopped_member),
         cmocka_unit_test(test_nonsense_is_refused),
     };

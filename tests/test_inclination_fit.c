@@ -109,6 +109,8 @@ static void test_ensemble(void **state)
     int count;
     end_ensemble("walls.0.motion.frequency", SPEEDS);
     assert_false(contains("log.txt", "Theta_c"));
+    end_ensemble("contact.friction,walls.0.motion.angular_velocity", SPEEDS);
+    assert_false(contains("log.txt", "Theta_c"));
     end_ensemble("walls.0.motion.angular_velocity", 3);
     assert_true(contains("log.txt", "needs 4 different speeds"));
     assert_false(is_there("inclination_fit.csv"));

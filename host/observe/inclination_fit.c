@@ -18,7 +18,8 @@ bool oz_inclination_fit_applies(const char *key)
 {
     const char *end = ".motion.angular_velocity";
     size_t length = key ? strlen(key) : 0;
-    return length > strlen(end) && strcmp(key + length - strlen(end), end) == 0;
+    return length > strlen(end) && !strchr(key, ',') &&
+           strcmp(key + length - strlen(end), end) == 0;
 }
 
 OzStatus oz_inclination_fit_add(OzInclinationFit *fit, double speed, double inclination)

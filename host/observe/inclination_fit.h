@@ -13,7 +13,8 @@ typedef struct OzInclinationFit {
     int count, capacity;
 } OzInclinationFit;
 
-/* Whether a swept key is the speed at which a wall turns. */
+/* Whether what is swept (keys, with commas between) is the speed at which a wall turns, and no
+ * more. */
 bool oz_inclination_fit_applies(const char *key);
 
 /* Adds a point: rad/s (its sign is dropped) and degrees. */

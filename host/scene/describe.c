@@ -61,7 +61,7 @@ static const char *noun(const OzKey *key)
     case OZ_KEY_NUMBERS:
         return "a list of numbers ";
     case OZ_KEY_SWEEP:
-        return "a key and a list of its values";
+        return "keys, each with a list of values";
     case OZ_KEY_SECTION:
         return "a group of keys, or false to leave it out";
     case OZ_KEY_ITEMS:

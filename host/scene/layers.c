@@ -25,13 +25,20 @@ static OzNode *rival_of(const OzNode *map, const char *name)
     return key && key->rival ? oz_tree_child(map, key->rival) : NULL;
 }
 
+/* A group of keys; a sweep is one value, whose keys go together. */
+static bool is_group(const OzNode *map, const OzNode *entry)
+{
+    const OzKey *key = key_of(map, entry->key);
+    return entry->kind == OZ_NODE_MAP && !(key && key->type == OZ_KEY_SWEEP);
+}
+
 OzStatus oz_layers_merge(OzNode *upper, OzNode *lower)
 {
     for (int i = lower->count - 1; i >= 0; i--) {
         OzNode *entry = lower->items[i];
         OzNode *over = oz_tree_child(upper, entry->key);
         OzStatus status = OZ_OK;
-        if (over && over->kind == OZ_NODE_MAP && entry->kind == OZ_NODE_MAP) {
+        if (over && is_group(upper, over) && entry->kind == OZ_NODE_MAP) {
             status = oz_layers_merge(over, entry);
         } else if (!over) {
             OzNode *rival = rival_of(upper, entry->key);

@@ -386,7 +386,8 @@ static const OzKey KEYS[] = {
     {"snapshots.strobe", NUMBER(0, 1e9, "s"), AT(snapshots.strobe), .write = OZ_WRITE_NONZERO, FLAT,
      .fallback_help = "none", .help = "one picture of the states so far apart, over each other"},
     {"sweep", OF(SWEEP), AT(sweep), .write = OZ_WRITE_NONZERO,
-     .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}"},
+     .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}; of several keys "
+             "for every combination, or with zip: true for those that stand in the same place"},
     {NULL, OF(TEXT)},
 };
 /* clang-format on */

@@ -207,11 +207,22 @@ typedef struct OzSnapshotSettings {
     double strobe; /* s between the states laid over each other in one picture; 0: none */
 } OzSnapshotSettings;
 
-/* One key that takes several values in turn: the scene then stands for several. */
-typedef struct OzSweep {
-    char *key;     /* "contact.friction"; NULL without a sweep */
-    char **values; /* as written                               */
+/* One key that takes several values. */
+typedef struct OzSweepKey {
+    char *path;    /* "contact.friction" */
+    char **values; /* as written         */
     int count;
+} OzSweepKey;
+
+/* Keys that take several values in turn: the scene then stands for several, its combinations. */
+typedef struct OzSweep {
+    OzSweepKey *keys;
+    int key_count;
+    bool zip;      /* values go in step; else every value meets every other, the last key's
+                      values changing fastest                                              */
+    char *key;     /* all keys with commas between, as a table's head; NULL without a sweep */
+    char **values; /* of each combination, in the order of keys, with commas between        */
+    int count;     /* combinations                                                          */
 } OzSweep;
 
 typedef struct OzScene {

@@ -6,10 +6,12 @@
 #include "scene/keys.h"
 
 #include <ctype.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_VALUES = 10000 };
+#define EXAMPLE "as in {contact.friction: [0.1, 0.2]}"
 
 /* "walls.0.motion.frequency" as in the list of keys: "walls[].motion.frequency". */
 static void as_key(const char *path, char *key, size_t size)
@@ -50,90 +52,212 @@ static void check_key(const OzNode *entry, int model, OzFaults *faults)
 static bool is_value(const OzNode *node)
 {
     return node->kind == OZ_NODE_SCALAR && !node->refused && node->text[0] &&
-           !strpbrk(node->text, ",\"'\n\r\t:#{}[]") && !isspace((unsigned char)node->text[0]);
+           strlen(node->text) <= OZ_SWEEP_VALUE_MAX && !strpbrk(node->text, ",\"'\n\r\t:#{}[]") &&
+           !isspace((unsigned char)node->text[0]);
 }
 
-static OzStatus read_values(OzSweep *sweep, const OzNode *list, OzFaults *faults)
+static bool comes_again(const OzSweepKey *key, const char *text)
+{
+    for (int k = 0; k < key->count; k++) {
+        if (strcmp(key->values[k], text) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static OzStatus read_values(OzSweepKey *key, const OzNode *list, bool zip, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(OZ_NEW(&sweep->values, list->count));
+    OZ_TRY(OZ_NEW(&key->values, list->count));
     for (int i = 0; i < list->count; i++) {
         const OzNode *node = list->items[i];
-        bool again = false;
         if (!is_value(node)) {
             oz_faults_add(faults, node->source, node->line,
                           "a value of the sweep is no number or word; expected numbers or words");
-            continue;
-        }
-        for (int k = 0; k < sweep->count; k++) {
-            again |= strcmp(sweep->values[k], node->text) == 0;
-        }
-        if (again) {
+        } else if (!zip && comes_again(key, node->text)) {
             oz_faults_add(faults, node->source, node->line,
                           "%.40s comes twice in the sweep; expected different values", node->text);
-            continue;
+        } else {
+            OZ_TRY(oz_memory_text(&key->values[key->count], node->text));
+            key->count++;
         }
-        OZ_TRY(oz_memory_text(&sweep->values[sweep->count], node->text));
-        sweep->count++;
     }
 done:
     return status;
 }
 
-/* What is no sweep: anything but one key and a list of values. */
-static void complain(const OzNode *node, OzFaults *faults)
+static OzStatus read_key(OzSweepKey *key, const OzNode *entry, int model, bool zip,
+                         OzFaults *faults)
 {
-    char is[128], what[512];
-    const OzNode *entry = node->kind == OZ_NODE_MAP && node->count > 0 ? node->items[0] : NULL;
-    oz_describe_node(entry ? entry : node, is, sizeof is);
-    if (!entry) {
-        snprintf(what, sizeof what, "sweep is %s; expected one key and its values", is);
-    } else if (node->count > 1) {
-        snprintf(what, sizeof what, "sweep has %d keys, %.80s and %.80s%s; expected one",
-                 node->count, entry->key, node->items[1]->key, node->count > 2 ? ", ..." : "");
-    } else {
-        snprintf(what, sizeof what, "sweep of %.80s is %s; expected a list of 1 to %d values",
-                 entry->key, is, MOST_VALUES);
+    OzStatus status = OZ_OK;
+    if (entry->kind != OZ_NODE_LIST || entry->count < 1 ||
+        entry->count > OZ_SWEEP_COMBINATIONS_MAX) {
+        char is[128];
+        oz_describe_node(entry, is, sizeof is);
+        if (!entry->refused) {
+            oz_faults_add(faults, entry->source, entry->line,
+                          "sweep of %.80s is %s; expected a list of 1 to %d values, " EXAMPLE,
+                          entry->key, is, OZ_SWEEP_COMBINATIONS_MAX);
+        }
+        return OZ_OK;
     }
-    oz_faults_add(faults, node->source, node->line, "%s, as in {contact.friction: [0.1, 0.2]}",
-                  what);
+    check_key(entry, model, faults);
+    OZ_TRY(oz_memory_text(&key->path, entry->key));
+    OZ_TRY(read_values(key, entry, zip, faults));
+done:
+    return status;
+}
+
+static bool is_zip(const OzNode *entry)
+{
+    return strcmp(entry->key, "zip") == 0;
+}
+
+static bool read_zip(const OzNode *node, OzFaults *faults)
+{
+    const OzNode *zip = oz_tree_child(node, "zip");
+    bool yes = zip && zip->kind == OZ_NODE_SCALAR && strcmp(zip->text, "true") == 0;
+    bool no = !zip || (zip->kind == OZ_NODE_SCALAR && strcmp(zip->text, "false") == 0);
+    if (!yes && !no && !zip->refused) {
+        char is[128];
+        oz_describe_node(zip, is, sizeof is);
+        oz_faults_add(faults, zip->source, zip->line, "sweep.zip is %s; expected true or false",
+                      is);
+    }
+    return yes;
+}
+
+/* How many combinations there are; none, with a fault, where that makes no sense. */
+static int count_combinations(const OzSweep *sweep, const OzNode *node, OzFaults *faults)
+{
+    const OzSweepKey *first = &sweep->keys[0];
+    double count = 1;
+    for (int k = 0; k < sweep->key_count; k++) {
+        const OzSweepKey *key = &sweep->keys[k];
+        if (sweep->zip && key->count != first->count) {
+            oz_faults_add(faults, node->source, node->line,
+                          "sweep of %.80s has %d values and of %.80s %d; expected as many for each "
+                          "with zip",
+                          first->path, first->count, key->path, key->count);
+            return 0;
+        }
+        count = sweep->zip ? key->count : count * key->count;
+    }
+    if (count > OZ_SWEEP_COMBINATIONS_MAX) {
+        oz_faults_add(faults, node->source, node->line,
+                      "sweep has %.6g combinations; expected at most %d", count,
+                      OZ_SWEEP_COMBINATIONS_MAX);
+        return 0;
+    }
+    return (int)count;
+}
+
+/* Texts of all keys, joined by commas: their paths (i < 0), or their values in combination i. */
+static OzStatus join(char **joined, const OzSweep *sweep, int i)
+{
+    char text[OZ_SWEEP_KEYS_MAX * (OZ_SWEEP_VALUE_MAX + 160)] = "";
+    for (int k = 0; k < sweep->key_count; k++) {
+        size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, "%s%s", k ? "," : "",
+                 i < 0 ? sweep->keys[k].path : oz_sweep_value(sweep, i, k));
+    }
+    return oz_memory_text(joined, text);
+}
+
+static OzStatus combine(OzSweep *sweep, int count)
+{
+    OzStatus status = OZ_OK;
+    if (count == 0) {
+        return OZ_OK;
+    }
+    OZ_TRY(join(&sweep->key, sweep, -1));
+    OZ_TRY(OZ_NEW(&sweep->values, count));
+    for (; sweep->count < count; sweep->count++) {
+        OZ_TRY(join(&sweep->values[sweep->count], sweep, sweep->count));
+    }
+done:
+    return status;
+}
+
+static bool is_sweep(const OzNode *node, OzFaults *faults)
+{
+    char is[128];
+    int keys = node->count - (oz_tree_child(node, "zip") != NULL);
+    if (node->kind == OZ_NODE_MAP && keys >= 1 && keys <= OZ_SWEEP_KEYS_MAX) {
+        return true;
+    }
+    oz_describe_node(node, is, sizeof is);
+    if (node->kind == OZ_NODE_MAP) {
+        snprintf(is, sizeof is, "a group of %d keys", keys);
+    }
+    if (!node->refused) {
+        oz_faults_add(faults, node->source, node->line,
+                      "sweep is %s; expected 1 to %d keys, each with a list of values, " EXAMPLE,
+                      is, OZ_SWEEP_KEYS_MAX);
+    }
+    return false;
 }
 
 OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, int model, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
-    const OzNode *entry = node->kind == OZ_NODE_MAP && node->count == 1 ? node->items[0] : NULL;
-    if (oz_tree_is_empty(node)) {
+    int before = faults->count;
+    if (oz_tree_is_empty(node) || !is_sweep(node, faults)) {
         return OZ_OK;
     }
-    if (!entry || entry->kind != OZ_NODE_LIST || entry->count < 1 || entry->count > MOST_VALUES) {
-        if (!node->refused && !(entry && entry->refused)) {
-            complain(node, faults);
+    sweep->zip = read_zip(node, faults);
+    OZ_TRY(OZ_NEW(&sweep->keys, node->count));
+    for (int i = 0; i < node->count; i++) {
+        if (!is_zip(node->items[i])) {
+            OZ_TRY(read_key(&sweep->keys[sweep->key_count++], node->items[i], model, sweep->zip,
+                            faults));
         }
-        return OZ_OK;
     }
-    check_key(entry, model, faults);
-    OZ_TRY(oz_memory_text(&sweep->key, entry->key));
-    OZ_TRY(read_values(sweep, entry, faults));
+    if (faults->count == before && !node->refused) {
+        OZ_TRY(combine(sweep, count_combinations(sweep, node, faults)));
+    }
 done:
     return status;
 }
 
+const char *oz_sweep_value(const OzSweep *sweep, int64_t i, int k)
+{
+    for (int later = k + 1; !sweep->zip && later < sweep->key_count; later++) {
+        i /= sweep->keys[later].count;
+    }
+    return sweep->keys[k].values[i % sweep->keys[k].count];
+}
+
 void oz_sweep_write(const OzSweep *sweep, FILE *file)
 {
-    fprintf(file, "{%s: [", sweep->key);
-    for (int i = 0; i < sweep->count; i++) {
-        fprintf(file, "%s%s", i ? ", " : "", sweep->values[i]);
+    for (int k = 0; k < sweep->key_count; k++) {
+        const OzSweepKey *key = &sweep->keys[k];
+        fprintf(file, "%s%s: [", k ? ", " : "{", key->path);
+        for (int i = 0; i < key->count; i++) {
+            fprintf(file, "%s%s", i ? ", " : "", key->values[i]);
+        }
+        fputc(']', file);
     }
-    fputs("]}", file);
+    fprintf(file, "%s}", sweep->zip ? ", zip: true" : "");
+}
+
+static void free_texts(char **texts, int count)
+{
+    for (int i = 0; i < count; i++) {
+        free(texts[i]);
+    }
+    free(texts);
 }
 
 void oz_sweep_free(OzSweep *sweep)
 {
-    for (int i = 0; i < sweep->count; i++) {
-        free(sweep->values[i]);
+    for (int k = 0; k < sweep->key_count; k++) {
+        free_texts(sweep->keys[k].values, sweep->keys[k].count);
+        free(sweep->keys[k].path);
     }
-    free(sweep->values);
+    free(sweep->keys);
+    free_texts(sweep->values, sweep->count);
     free(sweep->key);
     *sweep = (OzSweep){0};
 }

@@ -1,17 +1,27 @@
-/* The `sweep` group of a scene: one key and the values it takes in turn, each a member of an
- * ensemble. */
+/* The `sweep` group of a scene: keys and the values that each takes, whose combinations are members
+ * of an ensemble. */
 #ifndef OZ_SCENE_SWEEP_H
 #define OZ_SCENE_SWEEP_H
 
 #include "scene/scene.h"
 #include "scene/tree.h"
 
-/* Takes the group's one entry into sweep. Adds faults for more than one key, one that does not
- * exist, and values that are no different numbers or words; whether the key may have them shows
- * when a member is loaded. */
+enum {
+    OZ_SWEEP_KEYS_MAX = 16,
+    OZ_SWEEP_COMBINATIONS_MAX = 100000, /* each has a folder of its own */
+    OZ_SWEEP_VALUE_MAX = 100            /* letters: a value is part of a folder's name */
+};
+
+/* Takes the group's entries into sweep: keys with lists, and `zip`. Adds faults for a key that does
+ * not exist, for values that are no numbers or words, and for those of a key that are not different
+ * (of a zip: for lists of different lengths); whether a key may have a value shows when a member is
+ * loaded. */
 OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, int model, OzFaults *faults);
 
-/* {key: [value, ...]}, as read. */
+/* The value of key k in combination i. */
+const char *oz_sweep_value(const OzSweep *sweep, int64_t i, int k);
+
+/* {key: [value, ...], ...}, as read. */
 void oz_sweep_write(const OzSweep *sweep, FILE *file);
 
 /* Frees what sweep owns and zeroes it. */
