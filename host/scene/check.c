@@ -333,10 +333,21 @@ static void check_singles(Checker *checker)
     }
 }
 
+/* False when what was written is no law: what goes with it cannot be said. */
+static bool knows_law(const Checker *checker)
+{
+    const OzNode *law = oz_tree_at(checker->root, "contact.law");
+    const char *name = oz_keys_choice_name("contact.law", (int)checker->scene->contact.law);
+    return !law || (law->text && strcmp(law->text, name) == 0);
+}
+
 /* Keys of other laws than the scene's; a wall's row belongs to the laws of the row it inherits. */
 static void check_laws(Checker *checker)
 {
     const OzScene *scene = checker->scene;
+    if (!knows_law(checker)) {
+        return;
+    }
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         if (!key->laws || key->laws >> scene->contact.law & 1 ||
             !oz_keys_serves(key, (int)scene->model)) {

@@ -158,6 +158,22 @@ static size_t name_at(const char *start, char name[LONGEST_NAME + 1])
     return length;
 }
 
+/* Letters of a path up to the end of its list's name; 0 outside of lists. */
+static size_t list_length(const char *path)
+{
+    const char *brackets = strstr(path, "[]");
+    return brackets ? (size_t)(brackets - path) + strlen("[]") : 0;
+}
+
+/* How far away the same name is elsewhere: nearest in the same list's items, never in another's, of
+ * which a person who writes here has not thought. */
+static int how_far_elsewhere(const OzKey *key, const char *path)
+{
+    size_t own = list_length(path), other = list_length(key->path);
+    bool same = own == other && strncmp(path, key->path, own) == 0;
+    return own && other && !same ? LONGEST_NAME : own && same ? 0 : 1;
+}
+
 /* How far `meant` is from the row's name within the group, which begins at group; *length is that
  * name's end. A name that belongs elsewhere must be spelled right. */
 static int how_far(const OzKey *key, const char *path, size_t group, size_t *length)
@@ -167,7 +183,7 @@ static int how_far(const OzKey *key, const char *path, size_t group, size_t *len
     name_at(key->path + own, name);
     if (strcmp(path + group, name) == 0) {
         *length = own + strlen(name);
-        return 1;
+        return how_far_elsewhere(key, path);
     }
     if (strncmp(key->path, path, group) != 0) {
         return LONGEST_NAME;
@@ -198,7 +214,8 @@ bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size
     return found;
 }
 
-void oz_describe_names(const char *group, int model, char *text, size_t size)
+void oz_describe_names(const char *group, int model, unsigned kinds, unsigned shapes, char *text,
+                       size_t size)
 {
     size_t start = strlen(group) + (group[0] != '\0'), used = 0;
     char last[LONGEST_NAME + 1] = "";
@@ -207,7 +224,9 @@ void oz_describe_names(const char *group, int model, char *text, size_t size)
         char name[LONGEST_NAME + 1];
         bool below = oz_keys_serves(key, model) && strncmp(key->path, group, strlen(group)) == 0 &&
                      (start == 0 || key->path[start - 1] == '.');
-        if (below && name_at(key->path + start, name) && strcmp(name, last) != 0) {
+        bool fits = (!key->kinds || !kinds || key->kinds & kinds) &&
+                    (!key->shapes || !shapes || key->shapes & shapes);
+        if (below && fits && name_at(key->path + start, name) && strcmp(name, last) != 0) {
             used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
             strcpy(last, name);
         }

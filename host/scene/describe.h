@@ -14,8 +14,10 @@ void oz_describe_node(const OzNode *node, char *text, size_t size);
 /* The model's known path that an unknown one was probably meant to be; false when none is near. */
 bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size);
 
-/* The model's names directly below a group ("" is the scene itself), with commas. */
-void oz_describe_names(const char *group, int model, char *text, size_t size);
+/* The model's names directly below a group ("" is the scene itself), with commas; of a list's items
+ * those of the kinds and shapes whose bits are set (0: of any). */
+void oz_describe_names(const char *group, int model, unsigned kinds, unsigned shapes, char *text,
+                       size_t size);
 
 /* The names of the choice at path whose bits are set, as in "single or lattice"; cut to size. */
 void oz_describe_bits(unsigned bits, const char *path, char *text, size_t size);

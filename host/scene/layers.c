@@ -18,11 +18,13 @@ static const OzKey *key_of(const OzNode *map, const char *name)
     return oz_keys_find(path);
 }
 
-/* The entry of map that says in another way what `name` would, or NULL. */
+/* The entry of map that says in another way what `name` would, or NULL: also where it says only
+ * that it is left out. */
 static OzNode *rival_of(const OzNode *map, const char *name)
 {
     const OzKey *key = key_of(map, name);
-    return key && key->rival ? oz_tree_child(map, key->rival) : NULL;
+    OzNode *rival = key && key->rival ? oz_tree_child(map, key->rival) : NULL;
+    return rival && !oz_tree_is_false(rival) ? rival : NULL;
 }
 
 /* A group of keys; a sweep is one value, whose keys go together. */
@@ -57,7 +59,7 @@ OzStatus oz_layers_merge(OzNode *upper, OzNode *lower)
 static OzStatus put_entry(OzNode *map, const char *name, OzNode *value)
 {
     OzNode *old = oz_tree_child(map, name);
-    OzNode *rival = rival_of(map, name);
+    OzNode *rival = oz_tree_is_false(value) ? NULL : rival_of(map, name);
     OzNode *gone[] = {old, rival && !rival->source->setting ? rival : NULL};
     for (int i = 0; i < 2; i++) {
         if (gone[i]) {
@@ -159,4 +161,55 @@ done:
     oz_tree_free(value);
     free(copy);
     return status;
+}
+
+static bool may_be_missing(const OzKey *key)
+{
+    return !key->required && !key->fallback && !key->shared;
+}
+
+/* Whether `false` at path means that nothing stands there. */
+static bool is_optional(const char *path, int model)
+{
+    const OzKey *key = oz_keys_of(path, model);
+    size_t length = strlen(path);
+    bool any = false;
+    if (key) {
+        return key->type == OZ_KEY_SECTION ||
+               (may_be_missing(key) && !key->inherits && key->type != OZ_KEY_EXTENDS);
+    }
+    for (key = oz_keys_all(); key->path; key++) {
+        if (strncmp(key->path, path, length) == 0 && key->path[length] == '.' &&
+            oz_keys_serves(key, model)) {
+            if (key->required || key->fallback) {
+                return false;
+            }
+            any = true;
+        }
+    }
+    return any;
+}
+
+/* Whether the node is an item of a list of groups. */
+static bool is_item(const OzNode *node)
+{
+    char path[256];
+    oz_tree_path(node->parent, true, path, sizeof path);
+    const OzKey *list = oz_keys_find(path);
+    return list && list->type == OZ_KEY_ITEMS;
+}
+
+void oz_layers_drop(OzNode *root, int model)
+{
+    for (int i = root->count - 1; i >= 0; i--) {
+        OzNode *node = root->items[i];
+        char path[256];
+        oz_tree_path(node, true, path, sizeof path);
+        if (oz_tree_is_false(node) && (is_item(node) || is_optional(path, model))) {
+            oz_tree_detach(node);
+            oz_tree_free(node);
+        } else {
+            oz_layers_drop(node, model);
+        }
+    }
 }

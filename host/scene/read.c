@@ -7,6 +7,8 @@
 #include "scene/describe.h"
 #include "scene/document.h"
 #include "scene/keys.h"
+#include "scene/layers.h"
+#include "scene/refuse.h"
 #include "scene/sweep.h"
 #include "scene/value.h"
 
@@ -32,8 +34,11 @@ typedef struct Reader {
     OzScene *scene;
     OzFaults *faults;
     const OzNode *root;
-    int model;     /* what the scene is, or rods while that is unknown  */
+    int model; /* what the scene is, or rods while that is unknown  */
+    bool model_known;
+    bool confused; /* some key is of another model than the unknown one */
     bool contacts; /* some grains touch by the laws of `contact`        */
+    bool law_known;
 } Reader;
 
 static bool belongs(const Reader *reader, const OzKey *key, const char *prefix)
@@ -96,27 +101,6 @@ static bool is_misspelt(const Reader *reader, const OzNode *map, const char *wan
     return found;
 }
 
-static void report_unknown(const Reader *reader, const OzNode *node, const char *path)
-{
-    char shown[LONGEST_PATH], near[LONGEST_PATH], group[LONGEST_PATH], names[1024];
-    oz_tree_path(node, false, shown, sizeof shown);
-    if (oz_describe_nearest(path, reader->model, near, sizeof near)) {
-        oz_faults_add(reader->faults, node->source, node->line,
-                      "unknown key %.100s; did you mean %s?", shown, near);
-        return;
-    }
-    oz_tree_path(node->parent, true, group, sizeof group);
-    oz_describe_names(group, reader->model, names, sizeof names);
-    oz_faults_add(reader->faults, node->source, node->line,
-                  "unknown key %.100s; expected one of %s", shown, names);
-}
-
-static bool is_false(const OzNode *node)
-{
-    return node->kind == OZ_NODE_SCALAR && !node->quoted && !node->refused &&
-           strcmp(node->text, "false") == 0;
-}
-
 /* True when the node's keys are to be read; a fault when it is something else, unless it is an
  * empty group where that is as good as an absent one. */
 static bool is_group(const Reader *reader, const OzNode *node, bool may_be_empty)
@@ -138,32 +122,15 @@ static bool is_group(const Reader *reader, const OzNode *node, bool may_be_empty
 static void report_foreign(const Reader *reader, const char *name, unsigned owners, unsigned own,
                            const OzNode *node, const Place *place)
 {
-    char path[LONGEST_PATH], choice[LONGEST_PATH], is[32], expected[128];
-    oz_tree_path(node, false, path, sizeof path);
+    char choice[LONGEST_PATH];
     snprintf(choice, sizeof choice, "%s%s", place->prefix, name);
-    oz_describe_bits(own, choice, is, sizeof is);
-    oz_describe_bits(owners, choice, expected, sizeof expected);
-    oz_faults_add(reader->faults, node->source, node->line,
-                  "%s makes no sense for %s %s; expected it with %s %s only", path, name, is, name,
-                  expected);
+    oz_refuse_foreign(reader->faults, node, choice, owners, own);
 }
 
-static void report_foreign_model(const Reader *reader, const OzKey *key, const OzNode *node)
+static void report_foreign_model(Reader *reader, const OzKey *key, const OzNode *node)
 {
-    char path[LONGEST_PATH], owners[64];
-    oz_tree_path(node, false, path, sizeof path);
-    oz_describe_bits(key->models, "model", owners, sizeof owners);
-    oz_faults_add(reader->faults, node->source, node->line,
-                  "%s makes no sense for model %s; expected it with model %s only", path,
-                  oz_keys_choice_name("model", reader->model), owners);
-}
-
-static void report_shared(const Reader *reader, const OzKey *key, const OzNode *node)
-{
-    char path[LONGEST_PATH];
-    oz_tree_path(node, false, path, sizeof path);
-    oz_faults_add(reader->faults, node->source, node->line,
-                  "%s is one for the whole scene; expected it at %s", path, key->inherits);
+    reader->confused |= !reader->model_known;
+    oz_refuse_foreign(reader->faults, node, "model", key->models, 1u << reader->model);
 }
 
 /* Of two rivals the one written later gets the fault. */
@@ -223,16 +190,14 @@ static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, c
         return OZ_OK;
     }
     if (key->shared) {
-        report_shared(reader, key, node);
+        oz_refuse_shared(reader->faults, node, key);
         return OZ_OK;
     }
     check_rival(reader, key, node);
     switch (key->type) {
     case OZ_KEY_SECTION:
-        *(bool *)oz_value_at(key, place->base) = !is_false(node);
-        return is_false(node) || !is_group(reader, node, true)
-                   ? OZ_OK
-                   : read_map(reader, node, place, false);
+        *(bool *)oz_value_at(key, place->base) = true;
+        return is_group(reader, node, true) ? read_map(reader, node, place, false) : OZ_OK;
     case OZ_KEY_ITEMS:
         return read_items(reader, key, node);
     case OZ_KEY_SWEEP:
@@ -264,28 +229,13 @@ static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, 
         } else if (oz_keys_find(path)) {
             report_foreign_model(reader, oz_keys_find(path), node);
         } else if (!oz_keys_is_group(path)) {
-            report_unknown(reader, node, path);
+            oz_refuse_unknown(reader->faults, node, reader->model, place->kind, place->shape);
         } else if (is_group(reader, node, true)) {
             OZ_TRY(read_map(reader, node, place, false));
         }
     }
 done:
     return status;
-}
-
-static void report_missing(const Reader *reader, const OzKey *key, const Place *place)
-{
-    char path[LONGEST_PATH], expected[256], rival[64] = "";
-    const char *name = key->path + strlen(place->prefix);
-    const OzNode *nearest = oz_tree_nearest((OzNode *)(uintptr_t)place->node, name);
-    oz_tree_path(place->node, false, path, sizeof path);
-    oz_describe_expected(key, expected, sizeof expected);
-    if (key->rival) {
-        snprintf(rival, sizeof rival, " (or %s)", key->rival);
-    }
-    oz_faults_add(reader->faults, nearest->source, nearest->line,
-                  "%s%s%s%s is missing; expected %s", path, path[0] ? "." : "", name, rival,
-                  expected);
 }
 
 /* False when a group on the way to the row is an optional one that is absent, or is no group. */
@@ -309,7 +259,8 @@ static bool is_required(const Reader *reader, const OzKey *key, const Place *pla
     return key->required && belongs(reader, key, place->prefix) &&
            (!key->kinds || key->kinds & place->kind) &&
            (!key->shapes || key->shapes & place->shape) &&
-           (!key->laws || (reader->contacts && key->laws >> reader->scene->contact.law & 1)) &&
+           (!key->laws || (reader->contacts && reader->law_known &&
+                           key->laws >> reader->scene->contact.law & 1)) &&
            is_asked_for(key, place);
 }
 
@@ -330,7 +281,7 @@ static void check_required(const Reader *reader, const Place *place)
                  key->rival ? key->rival : "");
         const OzKey *other = key->rival ? oz_keys_find(rival) : NULL;
         if (!other || !is_there(reader, other, place)) {
-            report_missing(reader, key, place);
+            oz_refuse_missing(reader->faults, place->node, place->prefix, key);
         }
     }
 }
@@ -396,23 +347,54 @@ done:
     return status;
 }
 
-OzStatus oz_read_scene(OzScene *scene, const OzNode *root, bool whole, OzFaults *faults)
+/* What is known of the scene before its values are read. */
+static Reader begin(OzScene *scene, const OzNode *root, OzFaults *faults)
+{
+    const OzNode *grains = oz_tree_child(root, "grains"), *contact = oz_tree_child(root, "contact");
+    const unsigned trigrains = 1u << OZ_MODEL_TRIGRAINS, disc = 1u << OZ_SHAPE_DISC;
+    unsigned model = read_bit(OZ_MODEL_RODS, "", "model", root);
+    bool flat = model == trigrains;
+    Reader reader = {.scene = scene,
+                     .faults = faults,
+                     .root = root,
+                     .model = flat ? OZ_MODEL_TRIGRAINS : OZ_MODEL_RODS,
+                     .model_known = model != 0,
+                     .contacts = !flat};
+    for (int i = 0; flat && grains && i < grains->count; i++) {
+        reader.contacts |= read_bit(reader.model, "grains[].", "shape", grains->items[i]) == disc;
+    }
+    reader.law_known = !contact || !oz_tree_child(contact, "law") ||
+                       read_bit(reader.model, "contact.", "law", contact) != 0;
+    return reader;
+}
+
+/* The model's own fault, in place of all others. */
+static OzStatus stop_at_model(const Reader *reader, const Place *place)
+{
+    const OzKey *key = oz_keys_find("model");
+    const OzNode *node = written(place, key);
+    oz_faults_free(reader->faults);
+    if (node) {
+        oz_value_read(key, node, place->base, reader->faults);
+    } else {
+        oz_refuse_missing(reader->faults, place->node, place->prefix, key);
+    }
+    return OZ_ERR_INPUT;
+}
+
+OzStatus oz_read_scene(OzScene *scene, OzNode *root, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
-    const OzNode *grains = oz_tree_child(root, "grains");
     Place place = {scene, "", root, ~0u, ~0u};
-    bool flat = read_bit(OZ_MODEL_RODS, "", "model", root) == 1u << OZ_MODEL_TRIGRAINS;
-    Reader reader = {scene, faults, root, flat ? OZ_MODEL_TRIGRAINS : OZ_MODEL_RODS, !flat};
-    for (int i = 0; flat && grains && i < grains->count; i++) {
-        unsigned shape = read_bit(reader.model, "grains[].", "shape", grains->items[i]);
-        reader.contacts |= shape == 1u << OZ_SHAPE_DISC;
-    }
+    Reader reader = begin(scene, root, faults);
+    oz_layers_drop(root, reader.model);
     OZ_TRY(read_defaults(&reader, "", scene));
     OZ_TRY(read_map(&reader, root, &place, false));
     inherit(&reader, &place);
     OZ_TRY(read_map(&reader, root, &place, true));
-    if (whole) {
-        check_required(&reader, &place);
+    check_required(&reader, &place);
+    if (reader.confused) {
+        status = stop_at_model(&reader, &place);
     }
 done:
     return status;

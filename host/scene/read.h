@@ -5,9 +5,10 @@
 #include "scene/scene.h"
 #include "scene/tree.h"
 
-/* Puts every default and then every written value into a zeroed scene. Adds faults for unknown,
- * contradicting and wrong values, which keep their defaults, and, when the tree is whole, for
- * missing ones. */
-OzStatus oz_read_scene(OzScene *scene, const OzNode *root, bool whole, OzFaults *faults);
+/* Puts every default and then every written value into a zeroed scene. Takes out of the tree what
+ * is left out by `false` (oz_layers_drop). Adds faults for unknown, contradicting and wrong values,
+ * which keep their defaults, and for missing ones; where the model is not known, and other keys
+ * cannot be judged without it, for that alone. */
+OzStatus oz_read_scene(OzScene *scene, OzNode *root, OzFaults *faults);
 
 #endif

@@ -22,7 +22,6 @@ typedef struct Loader {
     char **labels; /* of the settings and the extended file                 */
     OzFaults faults;
     OzNode *root;
-    bool whole; /* what the scene extends was found and read                    */
 } Loader;
 
 /* The folder part of a path in a new text; NULL for the working folder. */
@@ -107,6 +106,12 @@ static OzStatus parse_file(Loader *loader, OzNode **map, const char *text, size_
     return OZ_OK;
 }
 
+/* Without what it extends a scene cannot be judged: the fault stands alone. */
+#define STOP(loader, node, ...)                                                                    \
+    (oz_faults_free(&(loader)->faults),                                                            \
+     oz_faults_add(&(loader)->faults, (node)->source, (node)->line, __VA_ARGS__), OZ_ERR_INPUT)
+
+/* *base receives what the scene extends; it stays NULL, with a fault, when that is no scene. */
 static OzStatus parse_base(Loader *loader, OzNode **base, const OzNode *extends)
 {
     OzStatus status = OZ_OK;
@@ -118,10 +123,7 @@ static OzStatus parse_base(Loader *loader, OzNode **base, const OzNode *extends)
     OZ_TRY(folder_of(&source->folder, source->name));
     status = oz_file_read(&text, &length, source->name);
     if (status == OZ_ERR_FILE) {
-        oz_faults_add(&loader->faults, extends->source, extends->line, "%s; expected a scene file",
-                      oz_status_text());
-        status = OZ_OK;
-        goto done;
+        status = STOP(loader, extends, "%s; expected a scene file", oz_status_text());
     }
     OZ_TRY(status);
     OZ_TRY(parse_file(loader, base, text, length, source));
@@ -144,26 +146,26 @@ static OzStatus extend(Loader *loader)
 {
     OzStatus status = OZ_OK;
     OzNode *base = NULL, *deeper = NULL, *extends = take_extends(loader->root);
-    loader->whole = !extends;
-    if (!extends) {
+    if (!extends || oz_tree_is_false(extends)) {
         goto done;
     }
     if (extends->kind != OZ_NODE_SCALAR || extends->refused || oz_tree_is_empty(extends)) {
-        oz_faults_add(&loader->faults, extends->source, extends->line,
-                      "extends is no file name; expected one other scene file");
+        status = STOP(loader, extends, "extends is no file name; expected one other scene file");
         goto done;
     }
     OZ_TRY(parse_base(loader, &base, extends));
     if (!base) {
+        status = OZ_ERR_INPUT;
         goto done;
     }
     deeper = take_extends(base);
-    if (deeper) {
-        oz_faults_add(&loader->faults, deeper->source, deeper->line,
-                      "extends in a file that is itself extended; expected one level only");
+    if (deeper && !oz_tree_is_false(deeper)) {
+        status = STOP(loader, deeper,
+                      "extends in a file that is itself extended, by %s; expected one level only",
+                      loader->sources[0].name);
+        goto done;
     }
     OZ_TRY(oz_layers_merge(loader->root, base));
-    loader->whole = true;
 done:
     oz_tree_free(extends);
     oz_tree_free(deeper);
@@ -214,7 +216,7 @@ static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_
     for (int i = 0; i < setting_count; i++) {
         OZ_TRY(parse_setting(loader, settings[i], i));
     }
-    OZ_TRY(oz_read_scene(scene, loader->root, loader->whole, &loader->faults));
+    OZ_TRY(oz_read_scene(scene, loader->root, &loader->faults));
     OZ_TRY(oz_check_scene(scene, loader->root, &loader->faults));
 done:
     return status;

@@ -153,6 +153,12 @@ bool oz_tree_is_empty(const OzNode *node)
             strcmp(node->text, "null") == 0);
 }
 
+bool oz_tree_is_false(const OzNode *node)
+{
+    return node->kind == OZ_NODE_SCALAR && !node->quoted && !node->refused &&
+           strcmp(node->text, "false") == 0;
+}
+
 void oz_tree_free(OzNode *node)
 {
     if (!node) {

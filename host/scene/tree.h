@@ -53,6 +53,9 @@ void oz_tree_fault(OzNode *root, OzFaults *faults, const char *path, const char 
 /* True for a value left empty: `key:`, `~` or `null`. */
 bool oz_tree_is_empty(const OzNode *node);
 
+/* True for a plain `false`: what is left out. */
+bool oz_tree_is_false(const OzNode *node);
+
 /* Frees a root or detached node with all below it; NULL is fine. */
 void oz_tree_free(OzNode *node);
 
