@@ -11,20 +11,24 @@
 static const struct {
     const char *name, *arguments, *takes, *help;
     int least_paths, most_paths;
+    const char *example;
 } command_rows[] = {
     {"run", "SCENE", "oOsedtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1,
-     1},
-    {"check", "SCENE", "sdtpfS",
-     "validate; what follows from the scene, what is stable, what is left out", 1, 1},
+     1, "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
+    {"check", "SCENE", "vsdtpgfS",
+     "validate; restitution, stability and cost to expect, what follows from the scene", 1, 1,
+     "orzo check scenes/an6.yaml --set time.step=2e-5 --verbose"},
     {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o",
-     1, 1},
+     1, 1, "orzo draw runs/an6 -o pictures --set movie.colour=speed"},
     {"keys", "[PART]", "c",
-     "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1},
+     "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1,
+     "orzo keys contact."},
     {"bench", "[SCENE]...", "oQFzbysdtS",
-     "speed on this machine: an6 and a ladder of beds, or scenes", 0, OZ_CLI_PATHS_MAX},
+     "speed on this machine: an6 and a ladder of beds, or scenes", 0, OZ_CLI_PATHS_MAX,
+     "orzo bench --quick --threads 2"},
     {"report", "[SCENE]...", "oQTXMBEHefsdtS", "what accuracy costs: error against run time", 0,
-     OZ_CLI_PATHS_MAX},
-    {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0},
+     OZ_CLI_PATHS_MAX, "orzo report scenes/report/normal_hit.yaml --tolerance 0.01"},
+    {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0, "orzo devices"},
 };
 
 /* One option: its letter in command_rows, its names, its value and help. */
@@ -57,6 +61,7 @@ static const struct {
     {'E', "--ensemble", NULL, "a shaken bed at every step and integrator, for many seeds, instead"},
     {'H', "--hits", NULL,
      "how often two grains hit and how they spin then, for each value, instead"},
+    {'v', "--verbose", NULL, "kernel switches, what is left out, device memory, too"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -108,6 +113,9 @@ void oz_cli_help(const char *command)
         if (only < 0 || c == only) {
             print_command(c);
         }
+    }
+    if (only >= 0) {
+        printf("example: %s\n", command_rows[only].example);
     }
     if (only < 0) {
         printf(
@@ -263,6 +271,7 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         options->no_video |= letter == 'n';
         options->force |= letter == 'f';
         options->columns |= letter == 'c';
+        options->verbose |= letter == 'v';
         return OZ_OK;
     }
 }

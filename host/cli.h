@@ -23,7 +23,7 @@ typedef struct OzOptions {
     double until;                         /* --until, s; negative: not given   */
     bool has_seeds;                       /* --seeds                          */
     uint64_t seed_first, seed_last;
-    bool overwrite, no_video, force, columns, help;
+    bool overwrite, no_video, force, columns, help, verbose;
     const char *source_dir;               /* --source-dir                     */
     bool features, quick;                 /* bench                            */
     double budget;                        /* --budget, s; 0: not given        */

@@ -188,7 +188,6 @@ static void test_other_commands(void **state)
     assert_true(strncmp(names, header, strlen(header)) == 0);
     assert_string_equal(names + strlen(header), ledger_header);
     expect(0, "encoder", "devices");
-    expect(0, "left out", "check bed.yaml");
 }
 
 static void test_wrong_command_lines(void **state)
@@ -215,41 +214,6 @@ static void test_wrong_arguments_are_named(void **state)
     expect(2, "orzo: 'b.yaml' is one too many; expected orzo check SCENE\n", "check a.yaml b.yaml");
     expect(2, "orzo: 'all' is one too many; expected orzo devices\n", "devices all");
     expect(2, "orzo: key=value is missing; expected --set key=value\n", "run bed.yaml --set");
-}
-
-/* `check` ends as `run` would, and prints everything before. */
-static void test_check_ends_as_a_run_would(void **state)
-{
-    (void)state;
-    static const char refusal[] = "bed.yaml: time.step 0.0007 s is unstable for a contact of two "
-                                  "grains; expected below";
-    expect(2, refusal, "run bed.yaml -o refused --set time.step=7e-4");
-    expect(2, refusal, "check bed.yaml --set time.step=7e-4");
-    assert_true(contains("said", "stable           NO: ") && contains("said", "not opened"));
-    expect(0, "warning: at time.step 0.0007 s a contact of two grains is unstable",
-           "check bed.yaml --set time.step=7e-4 --set settle=false --force");
-    expect(2, "step_7e-4: bed.yaml: time.step 0.0007 s is unstable",
-           "check bed.yaml --set 'sweep={time.step: [2e-5, 7e-4]}'");
-    assert_true(contains("said", "1 of 2 members cannot be run"));
-    expect(0, "exit status: 0 done", "--help");
-}
-
-static void test_check_is_short(void **state)
-{
-    (void)state;
-    expect(
-        0, "warning            snapshots.taps 50 beyond the run's end at tap 2 are not drawn",
-        "check shown.yaml --set 'grains=[{kind: random, count: 30, diameter: 1e-3, aspect: 2}]'");
-    assert_true(contains("said", "contact            at walls 0 to 1\n"));
-    assert_false(contains("said", "contact            at wall "));
-    char *said = read_file("said", NULL), *line = strstr(said, "  k_n  ");
-    assert_non_null(line);
-    assert_null(strstr(line_of(line, 0), "...")); /* one mass, one stiffness */
-    free(said);
-    expect(0, " ... ", "check bed.yaml --set walls.1.contact.friction=0.1");
-    assert_true(contains("said", "contact            at walls 0 to 1\n"));
-    expect(0, "contact            at wall 1\n",
-           "check bed.yaml --set walls.1.contact.restitution=0.9");
 }
 
 /* A guard ends the run: exit status 1, and what was written so far is whole. */
@@ -345,8 +309,6 @@ int main(void)
         cmocka_unit_test(test_other_commands),
         cmocka_unit_test(test_wrong_command_lines),
         cmocka_unit_test(test_wrong_arguments_are_named),
-        cmocka_unit_test(test_check_ends_as_a_run_would),
-        cmocka_unit_test(test_check_is_short),
         cmocka_unit_test(test_blowup),
         cmocka_unit_test(test_interrupted),
         cmocka_unit_test(test_maps_no_more_than_it_needs),

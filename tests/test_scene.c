@@ -280,6 +280,47 @@ static void rows_are_complete(void **state)
     assert_string_equal(oz_keys_choice_name("seed", 0), "?");
 }
 
+/* The words between two headings, or after the last. */
+static const char *section(char *text, const char *heading, const char *next)
+{
+    char *start = strstr(text, heading), *end = next ? strstr(text, next) : NULL;
+    assert_non_null(start);
+    if (end) {
+        end[-1] = '\0';
+    }
+    return start;
+}
+
+static void lists_each_key_once_by_model(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    assert_true(oz_keys_print(NULL, file));
+    fclose(file);
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        char line[128];
+        snprintf(line, sizeof line, "\n%s\n", key->path);
+        const char *found = strstr(text, line);
+        assert_non_null(found);
+        assert_null(strstr(found + 1, line));
+    }
+    const char *flat = section(text, "== only of model trigrains\n", NULL);
+    const char *solid = section(text, "== only of model rods\n", "== only of model trigrains\n");
+    const char *all = section(text, "== of every model\n", "== only of model rods\n");
+    assert_true(strstr(all, "\nseed\n") && strstr(solid, "\ngyroscopic\n") &&
+                strstr(flat, "\nbeams.stiffness\n"));
+    assert_non_null(strstr(all, "\ngravity\n    acceleration of free fall\n"
+                                "    model rods: a list of 3 numbers from -1e6 to 1e6 m/s^2; "
+                                "default [0, 0, -9.81]\n"
+                                "    model trigrains: a list of 2 numbers from -1e6 to 1e6 m/s^2; "
+                                "default [0, -9.81]\n"));
+    assert_non_null(strstr(all, "\nintegrator\n    model rods: how a step is made\n"
+                                "        one of euler, "));
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -294,6 +335,7 @@ int main(void)
         cmocka_unit_test(names_corners_as_written),
         cmocka_unit_test(refuses_huge_files),
         cmocka_unit_test(rows_are_complete),
+        cmocka_unit_test(lists_each_key_once_by_model),
     };
     if (chdir(ORZO_TESTS) != 0) {
         return 1;

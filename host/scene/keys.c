@@ -9,6 +9,8 @@
 #include <stdint.h>
 #include <string.h>
 
+enum { EVERY_MODEL = 1 << OZ_MODEL_RODS | 1 << OZ_MODEL_TRIGRAINS };
+
 const OzKey *oz_keys_all(void)
 {
     return oz_rows_all();
@@ -126,7 +128,6 @@ static void print_bits(unsigned bits, const char *path, const char *lead, FILE *
 static void print_owners(const OzKey *key, FILE *file)
 {
     bool wall = strncmp(key->path, "walls", 5) == 0;
-    print_bits(key->models, "model", "; model ", file);
     print_bits(key->kinds, wall ? "walls[].kind" : "grains[].kind", "; kind ", file);
     print_bits(key->shapes, "grains[].shape", "; shape ", file);
     print_bits(key->laws, "contact.law", "; law ", file);
@@ -136,20 +137,77 @@ static void print_owners(const OzKey *key, FILE *file)
     }
 }
 
+/* The next row with the path of `key`, or NULL. */
+static const OzKey *next_alike(const OzKey *key)
+{
+    for (const OzKey *other = key + 1; other->path; other++) {
+        if (strcmp(other->path, key->path) == 0) {
+            return other;
+        }
+    }
+    return NULL;
+}
+
+/* The models that have a key of this path, as bits. */
+static unsigned models_of(const char *path)
+{
+    unsigned models = 0;
+    for (const OzKey *key = oz_keys_find(path); key; key = next_alike(key)) {
+        models |= key->models ? key->models : ~0u;
+    }
+    return models & EVERY_MODEL;
+}
+
+static void print_expected(const OzKey *key, FILE *file)
+{
+    char expected[256];
+    oz_describe_expected(key, expected, sizeof expected);
+    fprintf(file, "%s; ", expected);
+    print_default(key, file);
+    print_owners(key, file);
+    fputc('\n', file);
+}
+
+/* All rows of a path: what they mean, said once where they mean the same, and what each model
+ * expects. */
+static void print_path(const OzKey *first, FILE *file)
+{
+    const OzKey *second = next_alike(first);
+    bool same = !second || strcmp(first->help, second->help) == 0;
+    fprintf(file, "%s\n", first->path);
+    if (same) {
+        fprintf(file, "    %s\n", first->help);
+    }
+    for (const OzKey *key = first; key; key = next_alike(key)) {
+        fputs("    ", file);
+        print_bits(second ? key->models : 0, "model", "model ", file);
+        fputs(second ? ": " : "", file);
+        if (!same) {
+            fprintf(file, "%s\n        ", key->help);
+        }
+        print_expected(key, file);
+    }
+}
+
 bool oz_keys_print(const char *part, FILE *file)
 {
+    static const unsigned sections[] = {EVERY_MODEL, 1u << OZ_MODEL_RODS, 1u << OZ_MODEL_TRIGRAINS};
     bool any = false;
-    for (const OzKey *key = oz_rows_all(); key->path; key++) {
-        char expected[256];
-        if (part && !strstr(key->path, part)) {
-            continue;
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        bool begun = false;
+        for (const OzKey *key = oz_rows_all(); key->path; key++) {
+            if ((part && !strstr(key->path, part)) || oz_keys_find(key->path) != key ||
+                models_of(key->path) != sections[i]) {
+                continue;
+            }
+            if (!begun) {
+                fprintf(file, "%s== ", any ? "\n" : "");
+                print_bits(i ? sections[i] : 0, "model", "only of model ", file);
+                fputs(i ? "\n" : "of every model\n", file);
+            }
+            begun = any = true;
+            print_path(key, file);
         }
-        any = true;
-        oz_describe_expected(key, expected, sizeof expected);
-        fprintf(file, "%s\n    %s\n    %s; ", key->path, key->help, expected);
-        print_default(key, file);
-        print_owners(key, file);
-        fputc('\n', file);
     }
     return any;
 }

@@ -2,14 +2,13 @@
 #include "study/inspect.h"
 
 #include "base/log.h"
-#include "compute/drive.h"
 #include "model/place.h"
-#include "observe/schedule.h"
 #include "plan.h"
 #include "scene/keys.h"
 #include "study/inspect_contacts.h"
 #include "study/inspect_pieces.h"
 #include "study/inspect_range.h"
+#include "study/inspect_verdict.h"
 #include "study/report_bed.h"
 
 #include <math.h>
@@ -17,6 +16,9 @@
 
 /* s of computing: 1000 rods come to rest in less on any machine of today. */
 #define PATIENCE 4.0
+
+/* s of timed steps: a thousand of 1000 rods, and some of as many as fit the machine. */
+#define STRETCH 0.4
 
 static void print_range(FILE *file, const char *name, const double *values, int64_t count,
                         const char *unit)
@@ -50,18 +52,6 @@ static void print_motion(FILE *file, const OzScene *scene)
                     "wall %d             moves %.6g m up and down at %g Hz: %.4g times gravity\n",
                     w, motion->amplitude, motion->frequency, motion->acceleration_ratio);
         }
-    }
-}
-
-static void print_pictures(FILE *file, const OzScene *scene)
-{
-    char missed[512];
-    OzSchedule schedule = oz_schedule_create(scene, -1);
-    if (!scene->movie.present && scene->snapshots.count == 0 && !(scene->snapshots.strobe > 0)) {
-        fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
-    }
-    if (oz_schedule_missed(&schedule, missed, sizeof missed)) {
-        fprintf(file, "warning            %s\n", missed);
     }
 }
 
@@ -105,59 +95,109 @@ done:
     return status;
 }
 
-static OzStatus print_rods(FILE *file, const OzScene *scene, const OzGrains *grains,
-                           const OzDevice *device, const OzOptions *options)
+static void print_heading(FILE *file, const OzScene *scene)
+{
+    fprintf(file, "scene              %s%s%s\n", scene->path, scene->title ? ": " : "",
+            scene->title ? scene->title : "");
+}
+
+static void print_steps(FILE *file, const OzScene *scene)
+{
+    fprintf(file, "integrator         %s, step %g s, %.0f steps\n",
+            oz_keys_choice_name("integrator", (int)scene->integrator), scene->step,
+            round(scene->duration / scene->step));
+    if (scene->step != scene->written_step) {
+        fprintf(file, "  step             %.17g s, fitted to the contact time: %g was written\n",
+                scene->step, scene->written_step);
+    }
+}
+
+/* What the verdict rests on. */
+static OzStatus print_details(FILE *file, const OzVerdict *v)
 {
     OzStatus status = OZ_OK;
-    print_grains(file, grains);
-    print_motion(file, scene);
-    OZ_TRY(oz_inspect_contacts_print(file, scene, grains));
-    OZ_TRY(oz_drive_describe(device, scene, grains, file));
-    OZ_TRY(oz_report_bed_print(file, scene, grains, device, options->source_dir, PATIENCE));
+    print_steps(file, v->scene);
+    if (v->scene->model == OZ_MODEL_TRIGRAINS) {
+        OZ_TRY(oz_inspect_pieces_print(file, v->scene, v->grains));
+        goto done;
+    }
+    print_grains(file, v->grains);
+    print_motion(file, v->scene);
+    OZ_TRY(oz_inspect_contacts_print(file, v->scene, v->grains));
+    oz_report_bed_print(file, v->scene, v->rehearsal);
 done:
     return status;
+}
+
+/* What becomes of the scene on the device. */
+static OzStatus print_kernels(FILE *file, const OzVerdict *v)
+{
+    const OzScene *scene = v->scene;
+    if (!scene->movie.present && scene->snapshots.count == 0 && !(scene->snapshots.strobe > 0)) {
+        fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
+    }
+    return oz_drive_describe(v->device, scene, v->grains, file);
+}
+
+static OzStatus print_all(FILE *file, const OzVerdict *v)
+{
+    OzStatus status = OZ_OK;
+    print_heading(file, v->scene);
+    OZ_TRY(oz_inspect_verdict_print(file, v));
+    OZ_TRY(print_details(file, v));
+    OZ_TRY(v->options->verbose ? print_kernels(file, v) : OZ_OK);
+    fflush(file);
+done:
+    return status;
+}
+
+/* Everything that was opened for an inspection. Zeroed is valid. */
+typedef struct Inspection {
+    OzScene scene;
+    OzGrains grains;
+    OzDevice device;
+    OzRehearsal rehearsal;
+    char burst[1024]; /* why the rehearsal was stopped by a guard, if it was */
+} Inspection;
+
+static OzStatus open_all(Inspection *in, const OzOptions *options)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_scene_load(&in->scene, options->paths[0], options->settings, options->setting_count));
+    OZ_TRY(oz_place_grains(&in->grains, &in->scene));
+    OZ_TRY(oz_device_open(&in->device, options->device, options->threads));
+    status = oz_rehearsal_run(&in->rehearsal, &in->scene, &in->grains, &in->device,
+                              options->source_dir, PATIENCE, STRETCH);
+    if (status == OZ_ERR_BLOWUP) { /* which an unstable step explains, once it is judged */
+        snprintf(in->burst, sizeof in->burst, "%s", oz_status_text());
+        status = OZ_OK;
+    }
+done:
+    return status;
+}
+
+static void close_all(Inspection *in)
+{
+    oz_rehearsal_free(&in->rehearsal);
+    oz_device_close(&in->device);
+    oz_grains_free(&in->grains);
+    oz_scene_free(&in->scene);
 }
 
 OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
 {
     OzStatus status = OZ_OK;
-    OzScene scene = {0};
-    OzGrains grains = {0};
-    OzDevice device = {0};
-    char burst[1024] = "";
-    OZ_TRY(oz_scene_load(&scene, options->paths[0], options->settings, options->setting_count));
-    OZ_TRY(oz_place_grains(&grains, &scene));
-    fprintf(file, "scene              %s%s%s\n", scene.path, scene.title ? ": " : "",
-            scene.title ? scene.title : "");
-    fprintf(file, "integrator         %s, step %g s, %.0f steps\n",
-            oz_keys_choice_name("integrator", (int)scene.integrator), scene.step,
-            round(scene.duration / scene.step));
-    if (scene.step != scene.written_step) {
-        fprintf(file, "  step             %.17g s, fitted to the contact time: %g was written\n",
-                scene.step, scene.written_step);
-    }
-    OZ_TRY(oz_device_open(&device, options->device, options->threads));
-    if (scene.model == OZ_MODEL_TRIGRAINS) {
-        OZ_TRY(oz_inspect_pieces_print(file, &scene, &grains));
-        OZ_TRY(oz_drive_describe(&device, &scene, &grains, file));
-    } else {
-        status = print_rods(file, &scene, &grains, &device, options);
-        if (status == OZ_ERR_BLOWUP) { /* while it settled, which an unstable step explains */
-            snprintf(burst, sizeof burst, "%s", oz_status_text());
-            status = OZ_OK;
-        }
-        OZ_TRY(status);
-    }
-    print_pictures(file, &scene);
-    fflush(file);
-    OZ_TRY(judge(options, &scene, &grains));
-    if (burst[0]) {
-        status = oz_status_fail(OZ_ERR_BLOWUP, "%s", burst);
+    Inspection in = {0};
+    OZ_TRY(open_all(&in, options));
+    const OzVerdict verdict = {options,    &in.scene,     &in.grains,
+                               &in.device, &in.rehearsal, in.burst[0] != '\0'};
+    OZ_TRY(print_all(file, &verdict));
+    OZ_TRY(judge(options, &in.scene, &in.grains));
+    if (in.burst[0]) {
+        status = oz_status_fail(OZ_ERR_BLOWUP, "%s", in.burst);
     }
 done:
-    oz_device_close(&device);
-    oz_grains_free(&grains);
-    oz_scene_free(&scene);
+    close_all(&in);
     if (status != OZ_OK) {
         oz_log_line("%s", oz_status_text());
     }

@@ -3,19 +3,16 @@
 #ifndef OZ_STUDY_REPORT_BED_H
 #define OZ_STUDY_REPORT_BED_H
 
-#include "compute/device.h"
-#include "model/grains.h"
+#include "study/rehearsal.h"
 
 #include <stdio.h>
 
-/* Settles the scene where it says so, for at most `patience` seconds of computing (a bed cut short
- * is measured as it is then, and named so), and prints its stiffness and largest stable step.
- * Where its step is too large the log says so, as that of a run does.
- * Prints nothing for laws without a stiffness of their own and without grains. */
-OzStatus oz_report_bed_print(FILE *file, const OzScene *scene, const OzGrains *grains,
-                             const OzDevice *device, const char *source_dir, double patience);
+/* Prints the stiffness and the largest stable step of a rehearsed bed; one whose settling was cut
+ * short is named so. Where its step is too large the log says so, as that of a run does. Prints
+ * nothing for laws without a stiffness of their own and without grains. */
+void oz_report_bed_print(FILE *file, const OzScene *scene, const OzRehearsal *rehearsal);
 
-/* The same for a scene file, with all the time it takes. */
+/* The same for a scene file, with all the time that settling takes. */
 OzStatus oz_report_bed_say(const char *path, char *const *settings, int setting_count,
                            const char *device, int threads, const char *source_dir);
 

@@ -1,0 +1,115 @@
+/* Rehearsing. What it times is what `orzo run` would do: the same kernels, on the same device. */
+#include "study/rehearsal.h"
+
+#include "base/clock.h"
+#include "base/stage.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Watches a settling for as long as patience lasts. */
+typedef struct Patience {
+    OzStage stage;
+    double start, deadline, time;
+} Patience;
+
+static bool is_patient(void *context, double time, double ratio)
+{
+    Patience *patience = context;
+    patience->time = time;
+    oz_stage_say(&patience->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
+    return oz_clock_now() < patience->deadline;
+}
+
+static OzStatus settle(OzRehearsal *r, OzDrive *drive, const OzScene *scene, double seconds)
+{
+    double now = oz_clock_now();
+    Patience patience = {.start = now, .deadline = now + seconds};
+    oz_stage_begin(&patience.stage, "settling");
+    OzStatus status = oz_drive_settle(drive, &r->settled_time, is_patient, &patience);
+    oz_stage_end(&patience.stage);
+    r->settled_in = oz_clock_now() - patience.start;
+    r->cut = status == OZ_ERR_INTERRUPTED;
+    if (r->cut) {
+        double whole = scene->settle.time_max + scene->settle.rest_time;
+        r->settled_time = patience.time;
+        r->settling_left = r->settled_in * (whole / patience.time - 1);
+    }
+    return r->cut ? OZ_OK : status;
+}
+
+/* The first launch is not timed where others follow: drivers finish their kernels in it. */
+static OzStatus make_steps(OzRehearsal *r, OzDrive *drive, const OzScene *scene, double stretch)
+{
+    OzStatus status = OZ_OK;
+    int64_t first = oz_drive_step(drive), last = first + llround(scene->duration / scene->step);
+    double start = oz_clock_now(), deadline = start + stretch;
+    for (int launches = 0; oz_drive_step(drive) < last && oz_clock_now() < deadline; launches++) {
+        if (launches == 1) {
+            first = oz_drive_step(drive);
+            start = oz_clock_now();
+            deadline = start + stretch;
+        }
+        OZ_TRY(oz_drive_launch(drive, last));
+        r->steps = oz_drive_step(drive) - first;
+        r->spent = oz_clock_now() - start;
+    }
+done:
+    return status;
+}
+
+static void take_start(OzSnapshot *now)
+{
+    size_t count = (size_t)now->count;
+    memcpy(now->position, now->grains->position, 3 * count * sizeof(double));
+    memcpy(now->quaternion, now->grains->quaternion, 4 * count * sizeof(double));
+    oz_snapshot_turn_axes(now);
+    oz_snapshot_move_walls(now);
+}
+
+static OzStatus measure_stiffness(OzRehearsal *r, const OzScene *scene)
+{
+    r->has_stiffness = oz_stiffness_applies(scene) && r->now.count > 0;
+    return r->has_stiffness ? oz_stiffness_measure(&r->stiffness, &r->now) : OZ_OK;
+}
+
+static OzStatus rehearse(OzRehearsal *r, const OzScene *scene, const OzDevice *device,
+                         const char *source_dir, double patience, double stretch)
+{
+    OzStatus status = OZ_OK;
+    OzDrive *drive = NULL;
+    OzMember member = {scene, r->now.grains};
+    OZ_TRY(oz_drive_create(&drive, device, &member, 1, source_dir));
+    OZ_TRY(settle(r, drive, scene, patience));
+    OZ_TRY(oz_drive_capture(drive, 0, &r->now, false));
+    OZ_TRY(measure_stiffness(r, scene));
+    if (stretch > 0) {
+        OZ_TRY(make_steps(r, drive, scene, stretch));
+    }
+done:
+    oz_drive_free(drive);
+    return status;
+}
+
+OzStatus oz_rehearsal_run(OzRehearsal *rehearsal, const OzScene *scene, const OzGrains *grains,
+                          const OzDevice *device, const char *source_dir, double patience,
+                          double stretch)
+{
+    OzStatus status = OZ_OK;
+    *rehearsal = (OzRehearsal){0};
+    OZ_TRY(oz_snapshot_create(&rehearsal->now, scene, grains));
+    if (scene->settle.present || stretch > 0) {
+        OZ_TRY(rehearse(rehearsal, scene, device, source_dir, patience, stretch));
+    } else {
+        take_start(&rehearsal->now);
+        OZ_TRY(measure_stiffness(rehearsal, scene));
+    }
+done:
+    return status;
+}
+
+void oz_rehearsal_free(OzRehearsal *rehearsal)
+{
+    oz_snapshot_free(&rehearsal->now);
+    *rehearsal = (OzRehearsal){0};
+}
