@@ -63,13 +63,14 @@ OZ_INLINE OzWallDistance oz_enclosure_distance(OzPlace place_, OzVec3 end, const
     return oz_walls_cylinder(from, side->radius);
 }
 
-/* Overlaps that no run may go on with. */
-OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact, real radius, int step)
+/* Overlaps that no run may go on with; counts: lanes with an end of their own. */
+OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact, real radius,
+                                  mask counts, int step)
 {
-    mask deep = contact.touching & (contact.overlap > radius);
-    if (OZ_ANY(deep)) {
-        mask lost = contact.touching & (contact.overlap > REAL(2.0) * radius);
-        oz_work_stop_lanes(w, deep, OZ_STOP_DEEP, step, slots);
+    OzDeep deep = {contact.overlap, contact.rate, REAL(0.5) * radius, radius, counts, OZ_DEEP_WALL};
+    mask lost = counts & !(contact.overlap <= REAL(2.0) * radius);
+    oz_deep_guard(w, deep, slots, step);
+    if (OZ_ANY(lost)) {
         oz_work_stop_lanes(w, lost, OZ_STOP_ESCAPED, step, slots);
     }
 }
@@ -97,7 +98,11 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
     }
     OzVec3 force = oz_where(OZ_PICKED_BEFORE(count), parts.force);
     oz_loads_add(w, slots, force, oz_cross(arm, force));
-    oz_enclosure_guard(w, slots, contact, grain.radius, step);
+    mask counts = OZ_PICKED_BEFORE(count);
+    if (!OZ_EQUAL && !side->first) {
+        counts = counts & (oz_dot(end, end) > REAL(0.0));
+    }
+    oz_enclosure_guard(w, slots, contact, grain.radius, counts, step);
 #if OZ_LEDGER
     oz_pairs_note(w->wall_ledger, slots, OZ_WALL_ENDS * OZ_CONTACT_LEDGER,
                   side->index * OZ_CONTACT_LEDGER, contact, parts, parts.force, arm);

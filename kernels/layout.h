@@ -24,6 +24,7 @@ typedef struct OzParameters {
     scalar dt;            /* s                                                                */
     scalar drag;          /* 1/s, only while settling                                         */
     scalar gravity[3];    /* m/s^2                                                            */
+    scalar deep_look, deep_warn, deep_stop; /* depths (depth.h) looked at, counted, stopped at     */
     OzLawConstants law;            /* between grains                                                   */
     scalar outer_least, outer_most; /* m, of one grain in the outer list: grows with its speed */
     scalar outer_time;    /* s: for which that shall last at its present speed                */
@@ -58,8 +59,12 @@ enum {
     OZ_STOP_NAN = 1,
     OZ_STOP_ESCAPED = 2,
     OZ_STOP_DEEP = 4,
-    OZ_STOP_FAST = 8
+    OZ_STOP_FAST = 8,
+    OZ_STOP_MET = 16
 };
+
+/* Where a contact is deep, as bits; depths are counted in parts of one such share of their unit. */
+enum { OZ_DEEP_PAIR = 1, OZ_DEEP_WALL = 2, OZ_DEEP_SHARE = 1000000 };
 
 enum { OZ_NEVER = 0x7fffffff };
 
@@ -83,6 +88,11 @@ typedef struct OzControl {
     int outer_stale;  /* the outer list no longer covers the inner skin                         */
     int refreshes, rebuilds; /* since the start of the run                                      */
     int crossed;      /* contacts without a normal (shafts crossing) met so far                 */
+    int deep_count;   /* deep contacts of this launch, each counted once a step                 */
+    int deep_step;    /* first step with one; OZ_NEVER                                          */
+    int deep_grain;   /* the lowest id in it (a pair's first grain); OZ_NEVER                   */
+    int deep_depth;   /* the greatest depth in it, in OZ_DEEP_SHARE of its unit                 */
+    int deep_kinds;   /* OZ_DEEP_... in it                                                      */
 } OzControl;
 
 /* Words of a record: what a contact needs of a grain, one record a slot, OZ_RECORD scalars. */

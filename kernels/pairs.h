@@ -5,8 +5,8 @@
 #ifndef OZ_KERNELS_PAIRS_H
 #define OZ_KERNELS_PAIRS_H
 
+#include "kernels/deep.h"
 #include "kernels/picked.h"
-#include "kernels/work.h"
 
 /* The sieve lets pass what is closer than the sum of radii and this share more: whether a pair touches is the
  * contact law's to say, and the rounding of long shafts must not come between. */
@@ -223,9 +223,13 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
         oz_pairs_store_springs(w, items, springs);
     }
     oz_pairs_finish(w, pairs, at, OZ_PICKED_BEFORE(count), pair);
-    if (OZ_ANY(pair.deep)) {
-        oz_work_stop_lanes(w, pair.deep, OZ_STOP_DEEP, step, pairs->a + at);
-    }
+    OzDeep deep = {pair.depth,
+                   pair.closing,
+                   oz_smaller(one.radius, other.radius),
+                   one.radius + other.radius,
+                   OZ_PICKED_BEFORE(count),
+                   OZ_DEEP_PAIR};
+    oz_deep_guard(w, deep, pairs->a + at, step);
     if (OZ_ANY(pair.crossed)) {
         atomic_inc(&w->control->crossed);
     }

@@ -5,14 +5,14 @@
 #define OZ_KERNELS_RODS_H
 
 #include "kernels/contact_line.h"
+#include "kernels/depth.h"
 #include "kernels/walls.h"
 
 /* What a pair of grains does to both. */
 typedef struct OzPairForce {
     OzVec3 force;              /* N, on b; -force on a            */
     OzVec3 torque_a, torque_b; /* N m, about each one's centre    */
-    real overlap;              /* m, 0 when not touching          */
-    mask deep;                 /* overlap beyond the smaller radius */
+    real depth, closing;       /* m, m/s: overlap at the closest points, < 0 apart, and its rate */
     mask crossed;              /* the shafts meet: no normal exists, z was taken */
     OzContact contact;         /* for the ledger                  */
     OzContactForce parts;
@@ -72,6 +72,8 @@ OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzCloses
     OzPairForce pair;
     pair.contact = oz_grain_contact(a, b, apart, at, &pair.arm_a, &pair.arm_b, &pair.crossed);
     pair.crossed = pair.crossed & pair.contact.touching;
+    pair.depth = pair.contact.overlap;
+    pair.closing = pair.contact.rate;
     if (OZ_LINE) {
         oz_rods_line(&pair, a, b, apart, law, history, dt, share);
     } else {
@@ -80,8 +82,6 @@ OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzCloses
         pair.torque_b = oz_cross(pair.arm_b, pair.parts.force);
     }
     pair.force = pair.parts.force;
-    pair.overlap = pair.contact.touching ? pair.contact.overlap : REAL(0.0);
-    pair.deep = pair.overlap > oz_smaller(a.radius, b.radius);
     return pair;
 }
 

@@ -246,7 +246,7 @@ static void test_guards_name_the_grain(void **state)
     Rig rig;
     open_lone(&rig, ", velocity: [0, 0, -8]", floor_wall);
     rig_start(&rig);
-    must_blow_up(&rig, "grain 0 overlaps a wall by more than its radius");
+    must_blow_up(&rig, "grain 0 overlaps a wall so far that its centre lies behind it");
     open_lone(&rig, "", floor_wall);
     rig.grains.position[2] = -1e-3;
     rig_start(&rig);
@@ -256,7 +256,7 @@ static void test_guards_name_the_grain(void **state)
     must_blow_up(&rig, "grain 0 moves an end farther than half its radius");
     open_lone(&rig, ", velocity: [0, 0, -10]", other);
     rig_start(&rig);
-    must_blow_up(&rig, "grain 0 overlaps grain 1 by more than the smaller radius");
+    must_blow_up(&rig, "grain 0 overlaps grain 1 so far that their shafts meet");
     open_lone(&rig, "", "");
     rig.grains.velocity[1] = NAN;
     rig_start(&rig);

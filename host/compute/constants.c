@@ -128,6 +128,9 @@ OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX
     parameters->dt = scene->step;
     memcpy(parameters->gravity, scene->gravity, sizeof scene->gravity);
     parameters->law = oz_constants_law(scene, &scene->contact);
+    parameters->deep_warn = scene->guards.overlap_warn;
+    parameters->deep_stop = scene->guards.overlap_stop;
+    parameters->deep_look = fmin(1, fmin(parameters->deep_warn, parameters->deep_stop));
     fill_walls(parameters, wall_order, scene);
     fill_shapes(parameters, grains);
 done:

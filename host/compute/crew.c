@@ -20,6 +20,8 @@ OzStatus oz_crew_create(OzCrew *crew, const OzMember *members, int member_count)
     OZ_TRY(OZ_NEW(&crew->reached, member_count));
     OZ_TRY(OZ_NEW(&crew->waits, member_count));
     OZ_TRY(OZ_NEW(&crew->stopped, member_count));
+    OZ_TRY(OZ_NEW(&crew->deep_count, member_count));
+    OZ_TRY(OZ_NEW(&crew->deep_told, member_count));
     memcpy(crew->members, members, (size_t)member_count * sizeof *members);
 done:
     return status;
@@ -34,6 +36,8 @@ void oz_crew_free(OzCrew *crew)
     free(crew->reached);
     free(crew->waits);
     free(crew->stopped);
+    free(crew->deep_count);
+    free(crew->deep_told);
     *crew = (OzCrew){0};
 }
 
@@ -106,6 +110,8 @@ void oz_crew_start_clock(OzCrew *crew)
 {
     crew->step = 0;
     memset(crew->reached, 0, (size_t)crew->member_count * sizeof *crew->reached);
+    memset(crew->deep_count, 0, (size_t)crew->member_count * sizeof *crew->deep_count);
+    memset(crew->deep_told, 0, (size_t)crew->member_count * sizeof *crew->deep_told);
     crew->walls_still = false;
     crew->counts = (OzSimCounts){0};
 }

@@ -10,12 +10,14 @@
 typedef struct OzCrew {
     OzMember *members;
     int member_count;
-    int64_t step;     /* made since time 0 (or since settling began) by those that go on */
-    int64_t *reached; /* one a member: steps that it has made itself                     */
-    bool *waits;      /* one a member: makes no steps for now (settled before others)    */
-    char **stopped;   /* one a member: what a guard said; NULL while it goes on          */
-    int launch_steps; /* of the next launch */
-    bool walls_still; /* while settling     */
+    int64_t step;        /* made since time 0 (or since settling began) by those that go on */
+    int64_t *reached;    /* one a member: steps that it has made itself                     */
+    bool *waits;         /* one a member: makes no steps for now (settled before others)    */
+    char **stopped;      /* one a member: what a guard said; NULL while it goes on          */
+    int64_t *deep_count; /* one a member: deep contacts, each counted once a step        */
+    bool *deep_told;     /* one a member: the first of them has been said                */
+    int launch_steps;    /* of the next launch */
+    bool walls_still;    /* while settling     */
     OzSimCounts counts;
 } OzCrew;
 
@@ -47,8 +49,8 @@ OzStatus oz_crew_stop(OzCrew *crew, int member);
  * all are stopped now, upon which it fails as oz_crew_check does. */
 OzStatus oz_crew_end_launch(OzCrew *crew, int steps, int most);
 
-/* Time 0: no steps made, nothing counted, walls free to move. Members that wait or are stopped stay
- * so. */
+/* Time 0: no steps made, nothing counted or said, walls free to move. Members that wait or are
+ * stopped stay so. */
 void oz_crew_start_clock(OzCrew *crew);
 
 #endif

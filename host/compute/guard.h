@@ -4,11 +4,13 @@
 
 #include "base/status.h"
 #include "compute/constants.h"
+#include "observe/snapshot.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Fails with OZ_ERR_BLOWUP, naming grain, step, time and reasons. step is the last one made. */
-OzStatus oz_guard_fail(const OzControl *control, const OzScene *scene, int64_t step, bool settling);
+/* Fails with OZ_ERR_BLOWUP, naming grain, step, time, reasons, and what would help. now: the state
+ * after that step. */
+OzStatus oz_guard_fail(const OzControl *control, const OzSnapshot *now, bool settling);
 
 #endif

@@ -4,7 +4,9 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "compute/capture.h"
 #include "compute/cl_try.h"
+#include "compute/deep.h"
 #include "compute/guard.h"
 #include "compute/host_lists.h"
 #include "compute/pack.h"
@@ -163,12 +165,42 @@ static OzStatus begin_launch(OzSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
     for (int m = 0; m < sim->crew.member_count; m++) {
+        sim->control[m].deep_count = sim->control[m].deep_depth = sim->control[m].deep_kinds = 0;
+        sim->control[m].deep_step = sim->control[m].deep_grain = OZ_NEVER;
         sim->control[m].step = oz_crew_goes_on(&sim->crew, m) ? 0 : steps;
         if (oz_crew_goes_on(&sim->crew, m)) {
             OZ_TRY(write_motion(sim, m, sim->crew.step, steps));
         }
     }
 done:
+    return status;
+}
+
+/* Deep contacts of a member that has not counted the launch's steps yet. */
+static void note_deep(OzSim *sim, int member)
+{
+    const OzControl *control = &sim->control[member];
+    bool at_wall = control->deep_kinds == OZ_DEEP_WALL;
+    OzDeepFound found = {.count = control->deep_count,
+                         .step = sim->crew.reached[member] + control->deep_step + 1,
+                         .grain = control->deep_grain,
+                         .depth = control->deep_depth * (at_wall ? 0.5 : 1) / OZ_DEEP_SHARE,
+                         .at_wall = at_wall};
+    oz_deep_note(&sim->crew, member, &found);
+}
+
+/* Says why a guard stopped a member. */
+static OzStatus tell_stop(OzSim *sim, int member)
+{
+    OzSnapshot now = {0};
+    const OzMember *of = &sim->crew.members[member];
+    OzStatus status = oz_snapshot_create(&now, of->scene, of->grains);
+    status = status == OZ_OK ? oz_capture_snapshot(sim, member, &now, false) : status;
+    if (status == OZ_OK) {
+        oz_guard_fail(&sim->control[member], &now, sim->crew.walls_still);
+        status = oz_crew_stop(&sim->crew, member);
+    }
+    oz_snapshot_free(&now);
     return status;
 }
 
@@ -184,11 +216,10 @@ static OzStatus end_launch(OzSim *sim, int steps)
             continue;
         }
         int own = control->stop_bits ? control->stop_step + 1 : steps;
+        note_deep(sim, m);
         oz_crew_count(&sim->crew, m, own, &most);
         if (control->stop_bits) {
-            oz_guard_fail(control, sim->crew.members[m].scene, sim->crew.reached[m],
-                          sim->crew.walls_still);
-            OZ_TRY(oz_crew_stop(&sim->crew, m));
+            OZ_TRY(tell_stop(sim, m));
         }
     }
     status = oz_crew_end_launch(&sim->crew, steps, most);

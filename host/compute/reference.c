@@ -303,6 +303,7 @@ OzStatus oz_reference_snapshot(const OzReference *reference, OzSnapshot *snapsho
     dialect = reference->physics.switches;
     copy_state(reference, snapshot);
     OZ_TRY(sum_contacts(reference, &touch, snapshot));
+    snapshot->deep_count = reference->deep_count;
     snapshot->has_contacts = true;
     snapshot->contacts = touch.contacts;
     snapshot->has_ledger = reference->scene->observe.ledger;

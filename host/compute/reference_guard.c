@@ -1,31 +1,79 @@
 /* What stops the reference: contacts too deep, bodies too fast or gone. */
 #include "compute/reference_guard.h"
 
+#include "compute/deep.h"
+
+enum { WHAT = 96 };
+
+/* What the guard looks at of a contact. */
+typedef struct DeepContact {
+    double overlap, rate; /* m, m/s                   */
+    double unit, reach;   /* m, see kernels/depth.h   */
+} DeepContact;
+
 static OzStatus blowup(const OzReference *r, int grain, const char *what)
 {
-    return oz_status_fail(OZ_ERR_BLOWUP,
-                          "grain %d %s in step %lld (time %g s); a smaller time.step may help",
-                          grain, what, (long long)r->step, (double)r->step * r->scene->step);
+    return oz_status_fail(OZ_ERR_BLOWUP, "grain %d %s in step %lld (time %g s)", grain, what,
+                          (long long)r->step, (double)r->step * r->scene->step);
 }
 
-static OzStatus check_contacts(const OzReference *r)
+/* As kernels/deep.h: counts a deep contact, *what receives what is wrong with one that stops. at:
+ * m, in units of depth.h; a pair when other is not negative. */
+static void judge(OzReference *r, DeepContact at, int grain, int other, char what[WHAT])
 {
-    for (int64_t p = 0; p < r->near.pairs.count; p++) {
-        if (r->pair_force[p].deep) {
-            char what[96];
-            snprintf(what, sizeof what, "overlaps grain %d by more than the smaller radius",
-                     r->near.pairs.pair[p].b);
-            return blowup(r, r->near.pairs.pair[p].a, what);
+    const OzParameters *p = &r->physics.parameters;
+    bool far = other < 0 && !(at.overlap <= 2 * at.reach);
+    OzDeepFound found = {1, r->step + 1, grain, at.overlap / r->shape[grain].radius, other < 0};
+    char body[32] = "a wall";
+    if (other >= 0) {
+        snprintf(body, sizeof body, "grain %d", other);
+        found.depth = at.overlap / at.unit;
+    }
+    if (oz_depth_beyond(at.overlap, at.unit, p->deep_warn)) {
+        if (r->deep_count++ == 0) {
+            oz_deep_say(r->scene, &found, false);
         }
     }
+    if (far) {
+        snprintf(what, WHAT, "is through a wall");
+    } else if (oz_depth_meets(at.overlap, at.rate, at.reach, r->physics.parameters.dt)) {
+        snprintf(what, WHAT, "overlaps %s so far that %s", body,
+                 other < 0 ? "its centre lies behind it" : "their shafts meet");
+    } else if (oz_depth_beyond(at.overlap, at.unit, p->deep_stop)) {
+        snprintf(what, WHAT, "overlaps %s by more than guards.overlap.stop", body);
+    }
+}
+
+static OzStatus check_pairs(OzReference *r)
+{
+    for (int64_t p = 0; p < r->near.pairs.count; p++) {
+        OzPair pair = r->near.pairs.pair[p];
+        double one = r->shape[pair.a].radius, other = r->shape[pair.b].radius;
+        DeepContact at = {r->pair_force[p].depth, r->pair_force[p].closing, fmin(one, other),
+                          one + other};
+        char what[WHAT] = "";
+        judge(r, at, pair.a, pair.b, what);
+        if (what[0]) {
+            return blowup(r, pair.a, what);
+        }
+    }
+    return OZ_OK;
+}
+
+static OzStatus check_walls(OzReference *r)
+{
     for (int64_t k = 0; k < (int64_t)r->count * r->wall_ends; k++) {
         const OzContact *contact = &r->wall_force[k].contact;
         int i = (int)(k / r->wall_ends);
-        if (contact->touching && contact->overlap > r->shape[i].radius) {
-            return blowup(r, i,
-                          contact->overlap > 2 * r->shape[i].radius
-                              ? "is through a wall"
-                              : "overlaps a wall by more than its radius");
+        double radius = r->shape[i].radius;
+        bool is_twin = k % r->physics.ends > 0 && !(r->shape[i].half_length > 0);
+        DeepContact at = {contact->overlap, contact->rate, 0.5 * radius, radius};
+        char what[WHAT] = "";
+        if (!is_twin) {
+            judge(r, at, i, -1, what);
+        }
+        if (what[0]) {
+            return blowup(r, i, what);
         }
     }
     return OZ_OK;
@@ -52,11 +100,12 @@ static OzStatus check_bodies(const OzReference *r, double dt)
     return OZ_OK;
 }
 
-OzStatus oz_reference_guard_check(const OzReference *reference, double dt)
+OzStatus oz_reference_guard_check(OzReference *reference, double dt)
 {
     OzStatus status = OZ_OK;
     dialect = reference->physics.switches;
-    OZ_TRY(check_contacts(reference));
+    OZ_TRY(check_pairs(reference));
+    OZ_TRY(check_walls(reference));
     OZ_TRY(check_bodies(reference, dt));
 done:
     return status;

@@ -4,8 +4,8 @@
 
 #include "compute/reference_private.h"
 
-/* Whether contacts and bodies are sound after a step of dt (s); else OZ_ERR_BLOWUP, with grain,
- * step and time. */
-OzStatus oz_reference_guard_check(const OzReference *reference, double dt);
+/* Whether contacts and bodies are sound after a step of dt (s), deep contacts being counted; else
+ * OZ_ERR_BLOWUP, with grain, step and time. */
+OzStatus oz_reference_guard_check(OzReference *reference, double dt);
 
 #endif

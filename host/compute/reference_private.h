@@ -35,6 +35,7 @@ struct OzReference {
     double wall_offset[OZ_WALLS_MAX]; /* when the forces act              */
     double wall_speed[OZ_WALLS_MAX];  /* when the forces act              */
     OzWork work;
+    int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */
 };
 
 #endif

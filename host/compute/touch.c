@@ -46,6 +46,7 @@ static void add(OzTouch *touch, OzContact contact, OzContactForce parts, const d
     touch->contacts.overlap_max = oz_larger(touch->contacts.overlap_max, contact.overlap);
     touch->tangential += tangential;
     touch->elastic += tangential + parts.energy;
+    touch->last = (OzTouchLast){contact.overlap, contact.rate, contact.mass, parts.energy};
 }
 
 void oz_touch_pair(OzTouch *touch, int64_t a, int64_t b, const double history[3])

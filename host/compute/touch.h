@@ -8,6 +8,13 @@
 #include "compute/physics.h"
 #include "observe/snapshot.h"
 
+/* One contact. */
+typedef struct OzTouchLast {
+    double overlap, rate; /* m, m/s              */
+    double mass;          /* kg, effective       */
+    double energy;        /* J, stored along the normal */
+} OzTouchLast;
+
 /* Read contacts, elastic and tangential when all contacts were given. */
 typedef struct OzTouch {
     OzPhysics physics;          /* its walls are in the order in which `wall` counts below        */
@@ -15,6 +22,7 @@ typedef struct OzTouch {
     OzContactSums contacts;
     double elastic; /* J, in normal and tangential springs                                      */
     double tangential; /* J, the part of it in tangential springs */
+    OzTouchLast last;  /* the contact that was added last         */
 } OzTouch;
 
 /* Starts sums for a snapshot whose state, axes and walls are filled in. Nothing to free. Fails with

@@ -107,6 +107,12 @@ static bool overlap_mean(const OzObservation *o, double *value)
     return o->snapshot->has_contacts;
 }
 
+static bool deep_count(const OzObservation *o, double *value)
+{
+    *value = (double)o->snapshot->deep_count;
+    return true;
+}
+
 static double dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -315,6 +321,8 @@ static const OzColumn list[] = {
      "in a rise by half of that", FLAT, ALWAYS, true, oz_flat_inclination, 4},
     {"avalanche_size", "degrees", "how far the last of them went down; empty before the first", FLAT,
      ALWAYS, false, oz_flat_inclination, 5},
+    {"deep_count", "1", "contacts deeper than guards.overlap.warn so far, each counted once a step",
+     RODS, ALWAYS, true, deep_count, 0},
     {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},
     {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, ledger_entry, ELASTIC},
     {"energy_dissipated", "J", "lost in dashpots so far", RODS, LEDGER, false, ledger_entry, DISSIPATED},

@@ -92,6 +92,7 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy_words(copy->wall_velocity, snapshot->wall_velocity, walls);
     copy->step = snapshot->step;
     copy->time = snapshot->time;
+    copy->deep_count = snapshot->deep_count;
     copy->has_contacts = snapshot->has_contacts;
     copy->contacts = snapshot->contacts;
     copy->has_ledger = snapshot->has_ledger;

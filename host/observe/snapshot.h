@@ -75,7 +75,8 @@ typedef struct OzSnapshot {
     double *spin;           /* 3 x count, world frame                                       */
     double *wall_offset;    /* wall_count: displacement along z now, m                      */
     double *wall_velocity;  /* wall_count: m/s                                              */
-    bool has_contacts;      /* contacts is filled in                                        */
+    int64_t deep_count; /* contacts beyond guards.overlap.warn so far, each counted once a step */
+    bool has_contacts;  /* contacts is filled in                                        */
     OzContactSums contacts;
     bool has_ledger;
     OzLedger ledger;

@@ -334,6 +334,14 @@ static const OzKey KEYS[] = {
     {"settle.time_max", NUMBER(0, 1e9, "s"), AT(settle.time_max), DEFAULT("2"),
      .help = "longest time with drag"},
 
+    {"guards.overlap.warn", NUMBER(1e-6, 2, "radii"), AT(guards.overlap_warn), DEFAULT("1"), SOLID,
+     .help = "overlaps beyond this times the smaller radius, at a wall half of it, are counted in "
+             "deep_count, and the first is said"},
+    {"guards.overlap.stop", NUMBER(1e-6, 2, "radii"), AT(guards.overlap_stop), DEFAULT("2"), SOLID,
+     .help =
+         "an overlap beyond this ends the run, as do shafts that meet and centres behind walls, "
+         "where a contact has no direction any more"},
+
     {"observe.interval", NUMBER(1e-12, 1e9, "s"), AT(observe.interval), .reload = APPLY,
      .rival = "interval_taps", .write = OZ_WRITE_UNLESS_RIVAL,
      .fallback_help = "a period of the first moving wall, else a hundredth of the duration",

@@ -167,6 +167,13 @@ typedef struct OzSettle {
     double time_max;  /* s, of the part with drag                                           */
 } OzSettle;
 
+/* What overlaps a run is told of, and which end it. In units of the smaller radius, at a wall of
+ * half the radius: kernels/depth.h. */
+typedef struct OzGuards {
+    double overlap_warn; /* deeper contacts are counted, the first one is said */
+    double overlap_stop; /* a deeper contact ends the run                      */
+} OzGuards;
+
 typedef struct OzObserve {
     double interval;        /* s between rows of series.csv; interval_taps x period is put here */
     double interval_taps;   /* as written; 0: interval was, or neither                         */
@@ -251,6 +258,7 @@ typedef struct OzScene {
     OzWall *walls;
     int wall_count;
     OzSettle settle;
+    OzGuards guards;
     OzObserve observe;
     OzMovieSettings movie;
     OzSnapshotSettings snapshots;

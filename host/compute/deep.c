@@ -1,0 +1,28 @@
+/* Counting and naming deep contacts. */
+#include "compute/deep.h"
+
+#include "base/log.h"
+
+#include <inttypes.h>
+
+void oz_deep_say(const OzScene *scene, const OzDeepFound *found, bool settling)
+{
+    oz_log_line("warning: %s, seed %" PRIu64 ": grain %d overlaps %s by %.3g of %s radius at step "
+                "%lld%s, time %.9g s: deeper than guards.overlap.warn; such contacts are counted "
+                "in deep_count",
+                scene->path, scene->seed, found->grain, found->at_wall ? "a wall" : "another grain",
+                found->depth, found->at_wall ? "its" : "the smaller", (long long)found->step,
+                settling ? " of settling" : "", (double)found->step * scene->step);
+}
+
+void oz_deep_note(OzCrew *crew, int member, const OzDeepFound *found)
+{
+    if (found->count == 0) {
+        return;
+    }
+    crew->deep_count[member] += found->count;
+    if (!crew->deep_told[member]) {
+        crew->deep_told[member] = true;
+        oz_deep_say(crew->members[member].scene, found, crew->walls_still);
+    }
+}

@@ -1,0 +1,23 @@
+/* Deep contacts (scene key guards.overlap.warn): counted member by member, and the first one said
+ * in the log. */
+#ifndef OZ_COMPUTE_DEEP_H
+#define OZ_COMPUTE_DEEP_H
+
+#include "compute/crew.h"
+
+/* What one launch met. */
+typedef struct OzDeepFound {
+    int64_t count; /* deep contacts, each counted once a step; 0: none, and the rest is unset   */
+    int64_t step;  /* that the first one was met in, counted from 1 as a member's steps are     */
+    int grain;     /* the lowest id in that step, a pair's first grain                          */
+    double depth;  /* the greatest overlap in that step over the smaller radius                 */
+    bool at_wall;  /* it was at a wall                                                          */
+} OzDeepFound;
+
+/* Adds to the member's count; a line in the log when it is the first since time 0. */
+void oz_deep_note(OzCrew *crew, int member, const OzDeepFound *found);
+
+/* That line, for a simulation without a crew. */
+void oz_deep_say(const OzScene *scene, const OzDeepFound *found, bool settling);
+
+#endif
