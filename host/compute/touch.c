@@ -26,9 +26,11 @@ static OzGrain grain_of(const OzSnapshot *snapshot, int64_t id)
     return grain;
 }
 
-/* Energy of a contact's tangential spring, J. */
+/* Energy of a contact's tangential spring, J: what it would give back at its normal force now. With
+ * `slip: scale` a spring grows beyond what friction lets it push with: at most the limit's force
+ * times the way back. */
 static double tangential_energy(const OzTouch *touch, OzContact contact, OzContactForce parts,
-                                const double history[3])
+                                double friction, const double history[3])
 {
     if (!OZ_HISTORY || !history) {
         return 0;
@@ -36,12 +38,16 @@ static double tangential_energy(const OzTouch *touch, OzContact contact, OzConta
     OzVec3 sliding = oz_scale(oz_along(contact.velocity, contact.rate, contact.normal), -1);
     OzVec3 stretch = oz_along(oz_contact_turn(oz_dialect_load3(history), contact.normal),
                               touch->physics.share * touch->physics.parameters.dt, sliding);
-    return 0.5 * parts.tangential_stiffness * oz_dot(stretch, stretch);
+    double length = sqrt(oz_dot(stretch, stretch)), full = parts.tangential_stiffness * length;
+    double limit = friction * fabs(oz_dot(parts.force, contact.normal));
+    double force = OZ_SLIP_SCALE ? fmin(full, limit) : full;
+    return full > 0 ? force * (length - 0.5 * length * force / full) : 0;
 }
 
-static void add(OzTouch *touch, OzContact contact, OzContactForce parts, const double history[3])
+static void add(OzTouch *touch, OzContact contact, OzContactForce parts, double friction,
+                const double history[3])
 {
-    double tangential = tangential_energy(touch, contact, parts, history);
+    double tangential = tangential_energy(touch, contact, parts, friction, history);
     touch->contacts.overlap_sum += contact.overlap;
     touch->contacts.overlap_max = oz_larger(touch->contacts.overlap_max, contact.overlap);
     touch->tangential += tangential;
@@ -57,7 +63,7 @@ void oz_touch_pair(OzTouch *touch, int64_t a, int64_t b, const double history[3]
                                     touch->physics.parameters.law, &spring, 0, touch->physics.share);
     if (pair.contact.touching) {
         touch->contacts.pair_count++;
-        add(touch, pair.contact, pair.parts, history);
+        add(touch, pair.contact, pair.parts, touch->physics.parameters.law.friction, history);
     }
 }
 
@@ -74,6 +80,6 @@ void oz_touch_wall(OzTouch *touch, int64_t grain, int wall, int end, const doubl
                           &spring, &contact, &arm);
     if (contact.touching) {
         touch->contacts.wall_count++;
-        add(touch, contact, parts, history);
+        add(touch, contact, parts, touch->physics.parameters.wall[wall].law.friction, history);
     }
 }

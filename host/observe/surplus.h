@@ -14,9 +14,11 @@ typedef struct OzSurplus {
 } OzSurplus;
 
 /* Fails with OZ_ERR_BLOWUP, naming step and time, when the mechanical energy has grown by more than
- * the grains and springs held at first sight, and m g d of every grain: integrators that gain a
- * little are left alone, a bed that heats up is not. Silent for snapshots without contacts (their
- * springs are unknown), and where walls move without a ledger of their work. */
+ * the grains and springs held at first sight, m g d of every grain, and what rounding may hold in
+ * contacts and beams: integrators that gain a little are left alone, a bed that heats up is not,
+ * nor one whose energy is no number. What friction gives back with `slip: scale`, the law's doing
+ * and not the step's, is left out. Silent for snapshots without contacts (their springs are
+ * unknown), and without a ledger where walls move or with `slip: scale`. */
 OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot);
 
 #endif

@@ -34,6 +34,17 @@ static void print_restitution(FILE *file, const OzPrediction *row)
     }
 }
 
+/* The one choice with which friction is no loss. */
+static void print_slip(FILE *file, const OzScene *scene, const OzPrediction *row)
+{
+    if (row->values.slip == OZ_SLIP_SCALE && row->values.friction > 0) {
+        fprintf(file,
+                "  friction         slip: scale gives energy back whatever the step; the guard "
+                "against energy from nowhere %s\n",
+                scene->observe.ledger ? "leaves it out" : "needs observe.ledger, and is off");
+    }
+}
+
 static void print_contact(FILE *file, const OzScene *scene, const OzPrediction *row)
 {
     const char *calibration = calibrated[oz_calibrate_outcome(scene, &row->values)];
@@ -53,6 +64,7 @@ static void print_contact(FILE *file, const OzScene *scene, const OzPrediction *
     }
     fprintf(file, "  stable           %s: largest step %.6g s, margin %.3g\n",
             row->stable ? "yes" : "NO", row->largest_step, row->margin);
+    print_slip(file, scene, row);
     if (!row->tangential_stable) {
         fprintf(file, "  warning          a sticking tangential spring is unstable at this step\n");
     }
