@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/stage.h"
+#include "compute/start.h"
 #include "model/beam_limits.h"
 #include "model/place.h"
 #include "model/predict.h"
@@ -96,11 +97,8 @@ static OzStatus check_pieces(const OzScene *scene, const OzGrains *grains, bool 
     return OZ_OK;
 }
 
-OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force)
+static OzStatus check_contacts(const OzScene *scene, const OzGrains *grains, bool force)
 {
-    if (scene->model == OZ_MODEL_TRIGRAINS) {
-        return check_pieces(scene, grains, force);
-    }
     OzPrediction *rows = NULL;
     int count = 0;
     OzStatus status = oz_predict_scene(&rows, &count, scene, grains);
@@ -117,6 +115,16 @@ OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force)
         }
     }
     free(rows);
+    return status;
+}
+
+OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force)
+{
+    OzStatus status = OZ_OK;
+    bool flat = scene->model == OZ_MODEL_TRIGRAINS;
+    OZ_TRY(flat ? check_pieces(scene, grains, force) : check_contacts(scene, grains, force));
+    OZ_TRY(oz_start_judge(scene, grains, force));
+done:
     return status;
 }
 

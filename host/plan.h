@@ -28,12 +28,12 @@ typedef struct OzPlan {
 OzStatus oz_plan_create(OzPlan *plan, const OzOptions *options);
 void oz_plan_free(OzPlan *plan);
 
-/* Refuses a step at which a contact of the scene grows by itself, or warns in the log with force.
- */
+/* Refuses a step at which a contact of the scene grows by itself and a start that is not sound
+ * (compute/start.h), or warns in the log with force. */
 OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force);
 
-/* Member i's scene, without a sweep, and its grains at the start. Refuses a step at which a contact
- * grows by itself, unless --force. The caller frees both, also on failure. */
+/* Member i's scene, without a sweep, and its grains at the start. Refuses as oz_plan_judge
+ * does, unless --force. The caller frees both, also on failure. */
 OzStatus oz_plan_load(const OzPlan *plan, int64_t i, OzScene *scene, OzGrains *grains);
 
 /* The values that member i has of the swept keys, as written, with commas between where there are

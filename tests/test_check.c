@@ -1,6 +1,7 @@
 /* `orzo check` as a user meets it: the verdict first, what it rests on after that, exit statuses as
  * those of `run`. Kernels are those of test_run's bed. ORZO_NEEDS_DEVICE. */
 #include "program.h"
+#include "run_bed.h"
 
 #include "cli.h"
 #include "model/place.h"
@@ -8,20 +9,6 @@
 #include "study/inspect_columns.h"
 
 #include <math.h>
-
-static const char bed[] = "model: rods\n"
-                          "time: {step: 2e-5, taps: 2}\n"
-                          "contact: {contact_time: 6e-4, restitution: 0.5}\n"
-                          "grains:\n"
-                          "  - {kind: random, count: 29, diameter: 1e-3, aspect: 2}\n"
-                          "  - {kind: random, count: 1, diameter: 1e-3, aspect: 1}\n"
-                          "walls:\n"
-                          "  - {kind: plane, motion: {frequency: 50, acceleration_ratio: 2}}\n"
-                          "  - {kind: cylinder, diameter: 8e-3}\n"
-                          "settle: {drag: 70, time_max: 0.02, rest_time: 0.01}\n"
-                          "observe: {interval_taps: 0.5}\n";
-static const char pictures[] = "movie: {size: [320, 240], fps: 10, length: 0.5}\n"
-                               "snapshots: {taps: [0, 1, 50]}\n";
 
 static int make_bed(void **state)
 {
@@ -52,6 +39,19 @@ static void test_check_ends_as_a_run_would(void **state)
            "check bed.yaml --set 'sweep={time.step: [2e-5, 7e-4]}'");
     assert_true(contains("said", "1 of 2 members cannot be run"));
     expect(0, "exit status: 0 done", "--help");
+}
+
+static void test_check_refuses_deep_starts(void **state)
+{
+    (void)state;
+    static const char lattice[] =
+        "--set 'grains=[{kind: lattice, cells: [2, 1, 1], spacing: [2e-4, 1, 1], diameter: 5e-4, "
+        "position: [0, 0, 1e-3]}]' --set settle=false";
+    char command[512];
+    snprintf(command, sizeof command, "run bed.yaml -o deep %s", lattice);
+    expect(2, "bed.yaml: grain 0 overlaps grain 1 at the start by 0.0003 m", command);
+    snprintf(command, sizeof command, "check bed.yaml %s", lattice);
+    expect(2, "bed.yaml: grain 0 overlaps grain 1 at the start by 0.0003 m", command);
 }
 
 static void test_check_is_short(void **state)
@@ -294,6 +294,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_check_ends_as_a_run_would),
+        cmocka_unit_test(test_check_refuses_deep_starts),
         cmocka_unit_test(test_check_is_short),
         cmocka_unit_test(test_verdict_comes_first),
         cmocka_unit_test(test_cost_is_what_a_run_takes),

@@ -1,0 +1,13 @@
+/* How trigrains start: the part of compute/start.h that knows triangles. */
+#ifndef OZ_COMPUTE_PIECE_START_H
+#define OZ_COMPUTE_PIECE_START_H
+
+#include "compute/start.h"
+
+/* Adds what there is to say of the start. The depth of two triangles is twice their contact's
+ * energy over its force: how far two flat edges have gone into each other; of a corner it is two
+ * thirds of that. Two grains are counted once,
+ * however many of their pieces overlap. */
+OzStatus oz_piece_start_look(OzStart *start, const OzScene *scene, const OzGrains *grains);
+
+#endif

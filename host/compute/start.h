@@ -1,0 +1,54 @@
+/* Whether grains start soundly: overlaps with each other and with walls, grains that no wall will
+ * catch. Springs that start compressed throw grains apart at speeds that nobody asked for. */
+#ifndef OZ_COMPUTE_START_H
+#define OZ_COMPUTE_START_H
+
+#include "model/grains.h"
+
+/* Overlaps up to this share of the smaller radius are rounding's. */
+#define OZ_START_ROUNDING 1e-3
+/* Beyond this share a scene is refused. */
+#define OZ_START_MOST 0.5
+/* Grains beyond this number are not looked at: it would take longer than a second. */
+#define OZ_START_COUNT_MOST 200000
+
+/* An overlap; the deepest of several. */
+typedef struct OzStartOverlap {
+    int64_t a;
+    int64_t b;     /* the other grain, -1: a wall                                              */
+    int wall;      /* of the scene                                                             */
+    double depth;  /* m                                                                        */
+    double share;  /* over the smaller radius (trigrains: of the circle of the grain's area)   */
+    double energy; /* J, stored in the two's contacts                                          */
+    bool behind;   /* rods: a centre is behind the wall; trigrains: more than half a triangle is
+                      inside another, where contacts have no law                               */
+} OzStartOverlap;
+
+typedef struct OzStart {
+    int64_t count;   /* overlaps beyond what is left alone                                      */
+    int64_t refused; /* those among them with which no run should begin                         */
+    double energy;   /* J, of all contacts                                                      */
+    OzStartOverlap worst; /* the deepest; of those refused, if any                             */
+    int64_t
+        outside; /* trigrains: grains that no container holds and no wall is below, gravity on */
+    int64_t outside_first; /* the first of them                                                */
+} OzStart;
+
+/* Looks at the start of a scene. Overlaps are left alone that no one asked about: up to rounding,
+ * and up to what a contact of a bed at rest bears, taken as three times the weight of a column of
+ * the heaviest grain as high as the bed. Refused are shares above OZ_START_MOST; among grains that
+ * were all read from a file, which go on as they were, only what guards.overlap.stop would stop.
+ * Grains placed at random have no overlaps: a scene of these alone is not looked at. */
+OzStatus oz_start_look(OzStart *start, const OzScene *scene, const OzGrains *grains);
+
+/* Fails with OZ_ERR_INPUT where no run should begin, naming pair, depth and stored energy, unless
+ * forced; a warning in the log for other overlaps, and for grains that nothing will catch. */
+OzStatus oz_start_judge(const OzScene *scene, const OzGrains *grains, bool force);
+
+/* What a contact of a bed at rest may bear, N. */
+double oz_start_load(const OzScene *scene, const OzGrains *grains);
+
+/* Adds an overlap, the force in which is pushing (N). refuse: whatever its share. */
+void oz_start_add(OzStart *start, const OzStartOverlap *overlap, double most, bool refuse);
+
+#endif
