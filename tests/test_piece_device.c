@@ -370,16 +370,20 @@ static void swallow(Scene *s)
     memcpy(&pieces->position[2 * 4], &pieces->position[0], 2 * sizeof(double));
 }
 
-/* Each guard speaks up by its name within a step. */
+/* Each guard speaks up by its name within a step, and says what is to blame: a step only where it is. */
 static void test_guards(void **state)
 {
     static const struct {
         void (*spoil)(Scene *s);
-        const char *text;
-    } guards[] = {{lose_number, "not a number"},      {fling, "left its container"},
-                  {swallow, "wholly inside another"}, {press, "by more than half"},
-                  {stretch, "shorter than half"},     {bend, "bent by more than 1 rad"},
-                  {fold, "bent by more than 1 rad"},  {speed_up, "more than half its thickness"}};
+        const char *text, *advice;
+    } guards[] = {{lose_number, "not a number", "`orzo check`"},
+                  {fling, "left its container", "try a smaller time.step"},
+                  {swallow, "wholly inside another", "; triangles.stiffness "},
+                  {press, "by more than half", "; triangles.stiffness "},
+                  {stretch, "shorter than half", "; beams.stiffness "},
+                  {bend, "bent by more than 1 rad", "; beams.second_moment "},
+                  {fold, "bent by more than 1 rad", "; beams.second_moment "},
+                  {speed_up, "more than half its thickness", "try a smaller time.step"}};
     (void)state;
     for (size_t k = 0; k < sizeof guards / sizeof guards[0]; k++) {
         Scene s;
@@ -389,8 +393,10 @@ static void test_guards(void **state)
         OzMember member = {&s.scene, &s.grains};
         OzStatus status = oz_drive_create(&drive, &rig_device, &member, 1, NULL);
         status = status == OZ_OK ? oz_drive_advance(drive, 3) : status;
-        if (status != OZ_ERR_BLOWUP || !strstr(oz_status_text(), guards[k].text)) {
-            fail_msg("expected '%s' in: %s", guards[k].text, oz_status_text());
+        if (status != OZ_ERR_BLOWUP || !strstr(oz_status_text(), guards[k].text) ||
+            !strstr(oz_status_text(), guards[k].advice)) {
+            fail_msg("expected '%s' and '%s' in: %s", guards[k].text, guards[k].advice,
+                     oz_status_text());
         }
         oz_drive_free(drive);
         close_scene(&s);

@@ -9,7 +9,7 @@ static const char header[] =
     "step,time,tap,density,density_all,density_tap_mean,density_com,density_slab,angle,"
     "angle_tap_mean,angle_layer1,angle_layer2,angle_layer3,angle_layer4,count_layer1,count_layer2,"
     "count_layer3,count_layer4,nematic_s,contact_count,overlap_max,overlap_mean,speed_max,kinetic,"
-    "rotational";
+    "rotational,deep_count";
 static const char ledger_header[] =
     ",energy_potential,energy_elastic,energy_dissipated,energy_friction,work_walls,energy_residual";
 static const char final_header[] =

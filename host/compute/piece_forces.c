@@ -285,14 +285,18 @@ done:
     return status;
 }
 
-/* What each fault is called; two bodies follow where it takes two. */
-static const char *const fault_names[] = {
-    [OZ_PIECE_NAN] = "feels a force that is no number",
-    [OZ_PIECE_SWALLOWED] = "has a triangle wholly inside one of, or around one of,",
-    [OZ_PIECE_DEEP] = "overlaps by more than half a piece with",
-    [OZ_PIECE_STRETCHED] = "has a beam shorter than half or longer than 1.5 of its length at rest",
-    [OZ_PIECE_FAST] = "moves a piece farther than half its reach",
-    [OZ_PIECE_BENT] = "has a beam bent by more than 1 rad",
+/* What each fault is called, two bodies following where it takes two, and what may help. */
+static const struct {
+    const char *name, *help;
+} faults[] = {
+    [OZ_PIECE_NAN] = {"feels a force that is no number", "a smaller time.step"},
+    [OZ_PIECE_SWALLOWED] = {"has a triangle wholly inside one of, or around one of,",
+                            "a larger triangles.stiffness"},
+    [OZ_PIECE_DEEP] = {"overlaps by more than half a piece with", "stiffer contacts"},
+    [OZ_PIECE_STRETCHED] = {"has a beam shorter than half or longer than 1.5 of its length at rest",
+                            "a larger beams.stiffness"},
+    [OZ_PIECE_FAST] = {"moves a piece farther than half its reach", "a smaller time.step"},
+    [OZ_PIECE_BENT] = {"has a beam bent by more than 1 rad", "a larger beams.second_moment"},
 };
 
 OzStatus oz_piece_forces_check(const OzPieceForces *forces, int64_t step, double time)
@@ -309,9 +313,9 @@ OzStatus oz_piece_forces_check(const OzPieceForces *forces, int64_t step, double
                  wall ? b - (int)pieces->grain_count : b);
     }
     return oz_status_fail(OZ_ERR_BLOWUP,
-                          "grain %d %s%s in step %lld (time %g s); a smaller time.step or a larger "
-                          "stiffness may help",
-                          a, fault_names[forces->fault], other, (long long)step, time);
+                          "grain %d %s%s in step %lld (time %g s); with a stable step, %s may help",
+                          a, faults[forces->fault].name, other, (long long)step, time,
+                          faults[forces->fault].help);
 }
 
 OzStatus oz_piece_forces_create(OzPieceForces *forces, const OzScene *scene, const OzGrains *grains)

@@ -3,10 +3,12 @@
 #define OZ_COMPUTE_PIECE_GUARD_H
 
 #include "compute/piece_arrays.h"
-#include "compute/sim.h"
+#include "observe/snapshot.h"
 
-/* Fails with OZ_ERR_BLOWUP, naming grain, step, time and reasons. step is the last one made. */
-OzStatus oz_piece_guard_fail(const OzPieceControl *control, const OzMember *member, int64_t step,
-                             bool settling);
+#include <stdbool.h>
+
+/* Fails with OZ_ERR_BLOWUP, naming grain, step, time, reasons, and what would help. now: the state
+ * after that step. */
+OzStatus oz_piece_guard_fail(const OzPieceControl *control, const OzSnapshot *now, bool settling);
 
 #endif

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "compute/cl_try.h"
+#include "compute/piece_capture.h"
 #include "compute/piece_guard.h"
 #include "compute/piece_pack.h"
 #include "compute/piece_private.h"
@@ -196,6 +197,21 @@ done:
     return status;
 }
 
+/* Says why a guard stopped a member. */
+static OzStatus tell_stop(OzPieceSim *sim, int member)
+{
+    OzSnapshot now = {0};
+    const OzMember *of = &sim->crew.members[member];
+    OzStatus status = oz_snapshot_create(&now, of->scene, of->grains);
+    status = status == OZ_OK ? oz_piece_capture_snapshot(sim, member, &now, false) : status;
+    if (status == OZ_OK) {
+        oz_piece_guard_fail(&sim->control[member], &now, sim->crew.walls_still);
+        status = oz_crew_stop(&sim->crew, member);
+    }
+    oz_snapshot_free(&now);
+    return status;
+}
+
 /* Counts each member's steps and notes which ones a guard stopped. Fails with
  * OZ_ERR_BLOWUP when none is left. */
 static OzStatus end_launch(OzPieceSim *sim, int steps)
@@ -210,9 +226,7 @@ static OzStatus end_launch(OzPieceSim *sim, int steps)
         int own = control->stop_bits ? control->stop_step + 1 : steps;
         oz_crew_count(&sim->crew, m, own, &most);
         if (control->stop_bits) {
-            oz_piece_guard_fail(control, &sim->crew.members[m], sim->crew.reached[m],
-                                sim->crew.walls_still);
-            OZ_TRY(oz_crew_stop(&sim->crew, m));
+            OZ_TRY(tell_stop(sim, m));
         }
     }
     status = oz_crew_end_launch(&sim->crew, steps, most);

@@ -1,6 +1,8 @@
 /* Printing what trigrains are made of and how large their step may be. */
 #include "study/inspect_pieces.h"
 
+#include "compute/start.h"
+#include "compute/trial.h"
 #include "model/beam_limits.h"
 #include "study/inspect_range.h"
 
@@ -62,6 +64,31 @@ static void print_walls(FILE *file, const OzScene *scene)
     }
 }
 
+/* What hits and the pile's weight do to beams; the weight at rest by the force of the hit. */
+static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    OzTrial trial;
+    char advice[256];
+    OZ_TRY(oz_trial_worst(&trial, scene, grains));
+    if (trial.grain >= 0 && trial.speed > 0) {
+        fprintf(
+            file,
+            "beams              a hit at %.3g m/s bends grain %lld by %.2g rad and stretches it "
+            "by %.2g",
+            trial.speed, (long long)trial.grain, trial.bend, trial.stretch);
+        if (trial.force > 0 && grains->count > 1) {
+            double load = oz_start_load(scene, grains);
+            fprintf(file, "; the weight of the pile by %.2g rad", trial.bend * load / trial.force);
+        }
+        fprintf(file, "\n");
+        oz_trial_advise(advice, sizeof advice, &trial, scene);
+        fprintf(file, advice[0] ? "  warning          %s\n" : "%s", advice);
+    }
+done:
+    return status;
+}
+
 OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrains *grains)
 {
     OzBeamLimit limit;
@@ -71,7 +98,11 @@ OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrain
         fprintf(file, "precision          float: rounds away what a small step moves; energies and "
                       "rest are not to be trusted\n");
     }
-    OzStatus status = oz_beam_limits_find(&limit, scene, grains);
+    OzStatus status = print_softness(file, scene, grains);
+    if (status != OZ_OK) {
+        return status;
+    }
+    status = oz_beam_limits_find(&limit, scene, grains);
     if (status != OZ_OK || isinf(limit.largest_step)) {
         return status;
     }
