@@ -240,14 +240,49 @@ static void test_scene_rows(void **state)
     free(rows);
 }
 
-/* A step longer than the contact: unstable, and the prediction still ends. */
-static void test_absurd_steps_end(void **state)
+/* A sphere that sticks yields along the contact by its turning too: 1/m + r^2/I = 7/2 over m, I =
+ * 2/5 m r^2. An undamped spring kappa_t is then carried by symplectic Euler below 2 / sqrt(7/2
+ * kappa_t). */
+static void test_sticking_sphere(void **state)
 {
     (void)state;
-    for (int i = 0; i < INTEGRATOR_COUNT; i++) {
-        for (double steps = 0.01; steps < 4; steps *= 3) {
-            OzPredictedHits hits = hits_of((OzIntegrator)i, 0.4, OZ_ATTRACTION_ALLOW, steps);
-            assert_true(isnan(hits.mean) || hits.mean >= 0);
+    double mass[1] = {2};
+    OzGrains grains = {.count = 1, .mass = mass};
+    OzScene scene = {.integrator = OZ_INTEGRATOR_SYMPLECTIC_EULER,
+                     .contact = make_values(1, OZ_ATTRACTION_ALLOW)};
+    scene.contact.tangential_stiffness = 1; /* kappa_t = kappa = pi^2 / t_c^2 */
+    double limit = 2 / sqrt(3.5) * 6e-4 / pi;
+    for (int side = -1; side <= 1; side += 2) {
+        OzPrediction *rows;
+        int count;
+        scene.step = (1 + 0.001 * side) * limit;
+        assert_int_equal(oz_predict_scene(&rows, &count, &scene, &grains), OZ_OK);
+        assert_true(rows[0].stable);
+        assert_int_equal(rows[0].tangential_stable, side < 0);
+        free(rows);
+    }
+}
+
+/* Steps longer than the contact. A hit is one look at the overlap s, the share of the step after
+ * touch, which pushes with K s + G: it throws back at K s + G - 1, of s the mean is 1/2. Explicit
+ * Euler goes in for one more step, to 1 + s, before it obeys, and pushes again: at the end with
+ * K (1 + s) - (G - 1) (K s + G - 1), which for steps far too long does not even send it away. */
+static void test_absurd_steps_throw_back(void **state)
+{
+    (void)state;
+    double e = 0.4;
+    for (double steps = 0.01; steps < 0.9; steps *= 3) {
+        double G = 2 * log(1 / e) / steps, K = (pi * pi + log(e) * log(e)) / (steps * steps);
+        bool leaves = 2 * K > (G - 1) * (K + G - 1); /* at s = 1, the hardest */
+        double euler = leaves ? 1.5 * K - (G - 1) * (K / 2 + G - 1) : NAN;
+        double expected[] = {euler, K / 2 + G - 1, K / 2 + G - 1};
+        assert_int_equal(leaves, steps > 0.5);
+        for (int i = 0; i < INTEGRATOR_COUNT; i++) {
+            OzPredictedHits hits = hits_of((OzIntegrator)i, e, OZ_ATTRACTION_ALLOW, steps);
+            bool ends = i != OZ_INTEGRATOR_EULER || leaves;
+            assert_int_equal(!isnan(hits.mean), ends);
+            assert_true(!ends || fabs(hits.mean / expected[i] - 1) < 1e-12); /* rounding */
+            assert_true(!ends || (hits.low < hits.mean && hits.mean < hits.high));
         }
     }
 }
@@ -264,7 +299,8 @@ int main(void)
         cmocka_unit_test(test_closed_form),
         cmocka_unit_test(test_limit_is_where_eigenvalues_leave),
         cmocka_unit_test(test_scene_rows),
-        cmocka_unit_test(test_absurd_steps_end),
+        cmocka_unit_test(test_sticking_sphere),
+        cmocka_unit_test(test_absurd_steps_throw_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,6 +87,25 @@ static void test_start(void **state)
     assert_true(fabs(zero - 2) < 0.3);
 }
 
+/* Motion as the fifth power of time, in steps of 1: what five values cannot hold makes the third
+ * and fourth derivative lag, and with Gear's coefficients by -20/3 and -5 (times dt^n / n!) for
+ * good, while position and velocity stay exact. That is what 19/90 and 3/4 are for: position is as
+ * true as the velocity that forces depend on (Gear 1966). 19/120, for forces that do not, would be
+ * off by 19/6 a step. Whole numbers up to 1e5 and thirds: rounding alone. */
+static void test_fifth_power(void **state)
+{
+    (void)state;
+    OzGear gear = {{0, 0, 0, -20.0 / 3, -5}};
+    for (int n = 1; n <= 10; n++) {
+        double cube = (double)n * n * n;
+        gear = oz_gear_correct(oz_gear_predict(gear), 20 * cube, 0.5);
+        assert_true(fabs(gear.value[0] - cube * n * n) < 1e-9);
+        assert_true(fabs(gear.value[1] - 5 * cube * n) < 1e-9);
+        assert_true(fabs(gear.value[3] - (10.0 * n * n - 20.0 / 3)) < 1e-9);
+        assert_true(fabs(gear.value[4] - (5.0 * n - 5)) < 1e-9);
+    }
+}
+
 /* The derivatives that gear4 starts from, of two triangles' axial vibration: x'' = a, x''' and
  * x'''' follow from the linear equation. Their differences' error is of fourth order in 1e-7 s
  * times 1e4/s; rounding is divided by the step squared. */
@@ -120,6 +139,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_orders),
         cmocka_unit_test(test_start),
+        cmocka_unit_test(test_fifth_power),
         cmocka_unit_test(test_derivatives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -154,29 +154,36 @@ static void test_disc_restitution(void **state)
     rig_close(&rig);
 }
 
-/* Hertz without damping: the deepest overlap (5 m* v^2 / (4 Y))^(2/5). */
+/* Hertz without damping: the deepest overlap (5 m* v^2 / (4 Y))^(2/5). What the discs lose of their
+ * motion on the way is in the contact: 2/5 Y xi^(5/2). */
 static void test_disc_hertz(void **state)
 {
     (void)state;
     PieceRig rig;
-    double deepest = 0;
+    double deepest = 0, stored = 0, start;
     open_discs(&rig,
                "contact: {law: hertz, hertz_stiffness: 1e6, normal_damping_rate: 0, "
                "tangential_damping_rate: 0}",
                2e-7, 0);
+    start = rig_energy(&rig.now);
     for (int64_t step = 1; step < 2000; step += 5) {
         rig_advance(&rig, step);
+        stored = fmax(stored, rig.now.pieces.contact_energy);
+        assert_true(fabs(rig_energy(&rig.now) / start - 1) < 1e-4);
         const double *x = rig.now.piece_position;
         deepest = fmax(deepest, 2e-3 - hypot(x[2] - x[0], x[3] - x[1]));
     }
     double mass = rig.grains.pieces->mass[0] / 2;
     double expected = pow(5 * mass * 0.01 / (4 * 1e6), 0.4);
     assert_true(fabs(deepest / expected - 1) < 1e-4);
+    assert_true(fabs(stored / (0.5 * start) - 1) < 1e-4); /* half is the common motion's */
     assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-6);
     rig_close(&rig);
 }
 
-/* A fast graze slides all the way: the impulse across is friction times that along the normal. */
+/* A fast graze slides all the way: the impulse across is friction times that along the normal,
+ * against the sliding: the second disc, which is passed by on its lower left, is dragged along to
+ * the lower right, and both are turned counter-clockwise, by 2 / (m r) of it. */
 static void test_disc_friction(void **state)
 {
     (void)state;
@@ -186,6 +193,7 @@ static void test_disc_friction(void **state)
                "contact: {law: hertz, hertz_stiffness: 1e9, normal_damping_rate: 0, "
                "tangential_damping_rate: 1e6, friction: 0.01}",
                5e-8, 0.5e-3);
+    double before_energy = rig_energy(&rig.now);
     rig_momentum(&rig.now, before);
     rig_advance(&rig, 16000);
     rig_momentum(&rig.now, after);
@@ -198,8 +206,13 @@ static void test_disc_friction(void **state)
     double along = mass * (v[0] * normal[0] + v[1] * normal[1]);
     double across = mass * (v[1] * normal[0] - v[0] * normal[1]);
     /* the normal turns by 1e-4 during the hit, a hundredth of the friction */
-    assert_true(fabs(fabs(across / along) / 0.01 - 1) < 0.02);
-    assert_true(spin != 0 && rig.now.piece_ledger.disc_friction > 0);
+    assert_true(along > 0 && fabs(across / along / -0.01 - 1) < 0.02);
+    assert_true(fabs(spin / (-2 * across / (mass * 1e-3)) - 1) < 0.02);
+    assert_true(fabs(rig.now.spin[2] / spin - 1) < 1e-9);
+    /* what is not left of the motion went into sliding: its dashpot has nothing to do with the ends
+     */
+    double lost = rig.now.piece_ledger.disc_friction;
+    assert_true(lost > 0 && fabs((before_energy - rig_energy(&rig.now)) / lost - 1) < 0.01);
     rig_close(&rig);
 }
 
