@@ -197,12 +197,30 @@ static void test_turning(void **state)
     rig_close(&rig);
 }
 
+/* A beam is at rest in the state that it is made in, whatever its pieces' angles there. */
+static void test_rest(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    open_pair(&rig, "balanced", 1e-7);
+    OzPieces *pieces = rig.grains.pieces;
+    pieces->angle[0] = 0.4;
+    pieces->angle[1] = -0.3;
+    pieces->position[3] = 1e-3;
+    oz_pieces_rest_beam(pieces, 0);
+    rig_start(&rig);
+    assert_true(rig.now.pieces.bend_max < 1e-15);
+    assert_true(rig.now.pieces.stretch_max == 1 && rig.now.pieces.stretch_min == 1);
+    rig_close(&rig);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_modes),
         cmocka_unit_test(test_momentum),
         cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -220,6 +220,49 @@ static void test_prediction(void **state)
     }
 }
 
+/* What is foreseen of a hit without loss against the hit itself: its duration, and the tangents at
+ * its deepest point. There the motion's energy m v^2 / 2 is the spring's 2/5 F x, so that dF/dx =
+ * 3/2 F / x is 15/8 m (v / x)^2; along the contact it is Mindlin's 2 (1 - nu) / (2 - nu) of that.
+ */
+static void check_tangents(const char *law, bool mindlin)
+{
+    Rig rig;
+    OzPrediction *rows = NULL;
+    int count;
+    double deepest, duration;
+    rig_open(
+        &rig,
+        "model: rods\ntime: {step: 5e-8, duration: 3e-4}\nintegrator: velocity-verlet\n"
+        "gravity: [0, 0, 0]\ncontact: {%s, friction: 0.1}\n"
+        "grains:\n  - {kind: single, diameter: 2e-3, position: [0, 0, 0], velocity: [0, 0, 0.1]}\n"
+        "  - {kind: single, diameter: 2e-3, position: [0, 0, 2e-3], velocity: [0, 0, -0.1]}\n",
+        law);
+    must(oz_predict_scene(&rows, &count, &rig.scene, &rig.grains));
+    rig_start(&rig);
+    follow(&rig, &deepest, &duration);
+    const OzContactConstants *c = &rows[0].constants;
+    double tangent = 15.0 / 8 * 0.04 / (deepest * deepest);
+    assert_true(duration < 0.5 * rig.scene.duration); /* it has ended */
+    /* thousands of steps: both ends of the hit and its deepest point are seen to one of them */
+    assert_true(fabs(c->duration / duration - 1) < 2e-3);
+    assert_true(fabs(rows[0].steps * rig.scene.step / c->duration - 1) < 1e-12);
+    assert_true(fabs(c->stiffness / tangent - 1) < 1e-3);
+    assert_true(!mindlin ||
+                fabs(c->tangential_stiffness / (2 * 0.7 / 1.7 * c->stiffness) - 1) < 1e-12);
+    free(rows);
+    rig_close(&rig);
+}
+
+static void test_tangents_of_a_hit(void **state)
+{
+    (void)state;
+    check_tangents("law: hertz-mindlin, youngs_modulus: 1e8, poisson_ratio: 0.3, restitution: 1",
+                   true);
+    check_tangents("law: hertz, hertz_stiffness: 1e6, normal_damping_rate: 0,"
+                   " tangential_damping_rate: 0",
+                   false);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -230,6 +273,7 @@ int main(void)
         cmocka_unit_test(test_restitution_does_not_depend_on_speed),
         cmocka_unit_test(test_haff_werner_friction),
         cmocka_unit_test(test_prediction),
+        cmocka_unit_test(test_tangents_of_a_hit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
