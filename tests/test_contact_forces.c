@@ -106,6 +106,39 @@ static void test_mindlins_tangential_dashpot(void **state)
     assert_true(fabs(at.tangential_damping / (0.3 * at.dashpot / 0.1) - 1) < 1e-14);
 }
 
+/* Two bodies about a contact at the upper one's end: what they are as one. */
+static OzContact pair_contact(OzGrain a, OzGrain b)
+{
+    OzVec3 arm_a, arm_b, apart = oz_vec3(a.place.x - b.place.x, 0, a.place.z - b.place.z);
+    OzClosest at = {0, -1};
+    mask crossed;
+    return oz_grain_contact(a, b, apart, at, &arm_a, &arm_b, &crossed);
+}
+
+/* 1/m* = 1/m_a + 1/m_b, 1/R* likewise; what a push meets is 1/m_a + 1/m_b + lever^2/I, where a rod
+ * is hit at its end from below, and lightness is the root of that mass over m*. */
+static void test_two_bodies_as_one(void **state)
+{
+    (void)state;
+    OzGrain sphere = {.radius = 1e-3, .mass = 3e-6, .inverse_inertia = 1e6};
+    OzGrain rod = {.place = {2e-3, 0, 2.99e-3}, .radius = 2e-3, .mass = 6e-6};
+    rod.half_shaft = (OzVec3){2e-3, 0, 0};
+    rod.inverse_inertia = 1 / 8e-12;
+    dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .at_contact = 1};
+    OzContact unlike = pair_contact(sphere, rod);
+    assert_true(fabs(unlike.mass / 2e-6 - 1) < 1e-14);
+    assert_true(fabs(unlike.radius / (2e-3 / 3) - 1) < 1e-14);
+    double felt = 1 / (1 / 3e-6 + 1 / 6e-6 + 4e-6 / 8e-12);
+    assert_true(fabs(unlike.lightness / sqrt(felt / 2e-6) - 1) < 1e-14);
+    assert_true(fabs(unlike.overlap / 1e-5 - 1) < 1e-9 && fabs(unlike.normal.z - 1) < 1e-14);
+    dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .equal = 1, .round = 1};
+    OzGrain other = sphere;
+    other.place.z = 1.9e-3;
+    OzContact alike = pair_contact(sphere, other);
+    assert_true(fabs(alike.mass / 1.5e-6 - 1) < 1e-14);
+    assert_true(fabs(alike.radius / 0.5e-3 - 1) < 1e-14 && alike.lightness == 1);
+}
+
 /* A pair that turns as one body turns its spring along: the length stays, and so does the angle to
  * the normal and to the pair's axis of turning. Of one turn by a small angle, the fourth power of
  * it is what the series leaves (3/8 of it in the plane of the turn). */
@@ -127,6 +160,34 @@ static void test_spring_turns_with_the_pair(void **state)
         spring = oz_contact_turn(spring, oz_vec3(cos(angle), 0, sin(angle)));
     }
     assert_true(fabs(spring.x + 1e-6) < 1e-15 && fabs(spring.z) < 1e-15);
+}
+
+/* Cundall & Strack (1979): a contact that slides carries friction's limit and no more, and its
+ * spring is cut to what the dashpot leaves of it; one that sticks keeps spring and dashpot as they
+ * are. Of a step that advances the spring before the force (share 1), that is what is stored. */
+static void test_spring_of_a_sliding_contact(void **state)
+{
+    (void)state;
+    OzLawConstants constants = constants_of(laws[OZ_LAW_HOOKE], OZ_LAW_HOOKE);
+    OzContact contact = contact_at(1e-5, 0);
+    contact.velocity = (OzVec3){-0.3, 0.4, 0}; /* b against a */
+    for (int slides = 0; slides < 2; slides++) {
+        OzVec3 spring = {3e-6, -4e-6, 0}, before = spring;
+        double dt = 1e-6, stiffness = mass * constants.tangential_stiffness;
+        double dashpot = mass * constants.tangential_damping * 0.5;
+        double limit = mass * constants.stiffness * 1e-5 * (constants.friction = slides ? 0.05 : 5);
+        OzContactForce force = oz_contact_force(contact, constants, &spring, dt, 1);
+        /* along (3, -4) / 5, against the sliding */
+        double carried = (0.6 * spring.x - 0.8 * spring.y) * stiffness;
+        double tangential = 0.6 * force.force.x - 0.8 * force.force.y;
+        double stretched = (0.6 * before.x - 0.8 * before.y + dt * 0.5) * stiffness;
+        assert_true(fabs(tangential / (slides ? limit : stretched + dashpot) - 1) < 1e-13);
+        assert_true(fabs(carried + dashpot - tangential) < 1e-13 * tangential);
+        assert_true(fabs(0.8 * spring.x + 0.6 * spring.y) < 1e-20);
+        /* what sliding takes is friction's: no dashpot's, no spring's */
+        double noted = 0.6 * force.dashpot.x - 0.8 * force.dashpot.y;
+        assert_true(fabs(noted - (slides ? 0 : dashpot)) < 1e-13 * dashpot);
+    }
 }
 
 /* A sphere pressed into the floor by a tenth of its radius, sliding: one step of the law. */
@@ -193,7 +254,9 @@ int main(void)
         cmocka_unit_test(test_mindlins_ratio),
         cmocka_unit_test(test_damping_of_the_mass_that_is_felt),
         cmocka_unit_test(test_mindlins_tangential_dashpot),
+        cmocka_unit_test(test_two_bodies_as_one),
         cmocka_unit_test(test_spring_turns_with_the_pair),
+        cmocka_unit_test(test_spring_of_a_sliding_contact),
         cmocka_unit_test(test_where_a_walls_force_acts),
         cmocka_unit_test(test_round_wall_pushes_inward),
     };

@@ -180,6 +180,32 @@ static void test_short_shafts_are_spheres(void **state)
     assert_true(fabs(line.force.x - round.force.x) < 1e-12 * fabs(round.force.x));
 }
 
+/* A rod looks the same from both ends: its axis turned round changes nothing but the order of sums.
+ */
+static void test_rods_have_no_head(void **state)
+{
+    (void)state;
+    int touched = 0;
+    use_line(1);
+    for (int n = 1; n < 200; n++) {
+        Pose pose = {{0, 1e-4 * spread(n, 1), 2e-3 * spread(n, 2)},
+                     {0.02 * spread(n, 3), 0.005 * spread(n, 4), 0},
+                     {0},
+                     half,
+                     n % 4 ? half : half * 0.5};
+        OzPairForce now = touch(&pose, elastic);
+        pose.half_b = -pose.half_b;
+        OzPairForce turned_round = touch(&pose, elastic);
+        OzVec3 force = oz_minus(now.force, turned_round.force);
+        OzVec3 torque = oz_minus(now.torque_b, turned_round.torque_b);
+        double size = sqrt(oz_dot(now.force, now.force));
+        assert_true(sqrt(oz_dot(force, force)) <= 1e-9 * size);
+        assert_true(sqrt(oz_dot(torque, torque)) <= 1e-9 * size * half);
+        touched += now.contact.touching;
+    }
+    assert_true(touched > 50);
+}
+
 static void test_skew_shafts_touch_once(void **state)
 {
     (void)state;
@@ -325,6 +351,7 @@ int main(void)
         cmocka_unit_test(test_force_is_the_gradient),
         cmocka_unit_test(test_no_jump_through_zero),
         cmocka_unit_test(test_short_shafts_are_spheres),
+        cmocka_unit_test(test_rods_have_no_head),
         cmocka_unit_test(test_skew_shafts_touch_once),
         cmocka_unit_test(test_a_slow_loop_gives_no_energy),
         cmocka_unit_test(test_energy_balances),
