@@ -227,6 +227,31 @@ static void test_where_a_walls_force_acts(void **state)
     }
 }
 
+/* How much of the spring's pull on a grain that begins to slide (and sticks) is felt in the first
+ * step: explicit Euler looks before it moves, symplectic Euler at the step just made, and Verlet,
+ * which weights the force at its end by 1/2, at the mean of both. */
+static void test_springs_share_of_the_first_step(void **state)
+{
+    (void)state;
+    static const double shares[INTEGRATORS] = {0, 1, 0.25};
+    const double pi = 4 * atan(1), dt = 1e-6, speed = 1e-3;
+    double pull = 2.0 / 7 * pi * pi / (1e-4 * 1e-4) * dt * dt * speed; /* kappa_t v dt^2 */
+    for (int i = 0; i < INTEGRATORS; i++) {
+        Rig rig;
+        rig_open(&rig,
+                 "model: rods\ntime: {step: 1e-6, duration: 1}\nintegrator: %s\n"
+                 "gravity: [0, 0, 0]\ncontact: {contact_time: 1e-4, restitution: 1, friction: 9}\n"
+                 "grains: [{kind: single, diameter: 1e-3, position: [0, 0, 0.499e-3],"
+                 " velocity: [1e-3, 0, 0]}]\nwalls: [{kind: plane}]\n",
+                 integrator_names[i]);
+        rig_start(&rig);
+        rig_advance(&rig, 1);
+        /* the speed's last digit is 1e-13 of the pull, 3e-4 of the speed */
+        assert_true(fabs((speed - rig.now.velocity[0]) / pull - shares[i]) < 1e-12);
+        rig_close(&rig);
+    }
+}
+
 /* A sphere pressed into a round wall aside of both axes is pushed to the wall's axis. */
 static void test_round_wall_pushes_inward(void **state)
 {
@@ -258,6 +283,7 @@ int main(void)
         cmocka_unit_test(test_spring_turns_with_the_pair),
         cmocka_unit_test(test_spring_of_a_sliding_contact),
         cmocka_unit_test(test_where_a_walls_force_acts),
+        cmocka_unit_test(test_springs_share_of_the_first_step),
         cmocka_unit_test(test_round_wall_pushes_inward),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

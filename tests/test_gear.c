@@ -87,6 +87,20 @@ static void test_start(void **state)
     assert_true(fabs(zero - 2) < 0.3);
 }
 
+/* Motion as the fourth power of time is what five values hold: started from its derivatives at 1,
+ * each prediction is its Taylor series. Halves and quarters: exact in double. */
+static void test_fourth_power(void **state)
+{
+    (void)state;
+    double dt = 0.5;
+    OzGear gear = oz_gear_predict(oz_gear_start(1, 4, 12, 24, 24, dt));
+    assert_true(gear.value[0] == 1.5 * 1.5 * 1.5 * 1.5);
+    assert_true(gear.value[1] == 4 * 1.5 * 1.5 * 1.5 * dt);
+    assert_true(gear.value[2] == 12 * 1.5 * 1.5 * dt * dt / 2);
+    assert_true(gear.value[3] == 24 * 1.5 * dt * dt * dt / 6);
+    assert_true(gear.value[4] == dt * dt * dt * dt);
+}
+
 /* Motion as the fifth power of time, in steps of 1: what five values cannot hold makes the third
  * and fourth derivative lag, and with Gear's coefficients by -20/3 and -5 (times dt^n / n!) for
  * good, while position and velocity stay exact. That is what 19/90 and 3/4 are for: position is as
@@ -137,9 +151,8 @@ static void test_derivatives(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_orders),
-        cmocka_unit_test(test_start),
-        cmocka_unit_test(test_fifth_power),
+        cmocka_unit_test(test_orders),       cmocka_unit_test(test_start),
+        cmocka_unit_test(test_fourth_power), cmocka_unit_test(test_fifth_power),
         cmocka_unit_test(test_derivatives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

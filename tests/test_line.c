@@ -248,6 +248,36 @@ static void test_a_slow_loop_gives_no_energy(void **state)
     assert_true(fabs(work) < 1e-4 * energy(start));
 }
 
+/* What dashpots take in is their force on the centres' motion and their torques on the spins; the
+ * ledger gets it as a force at the mean point and a couple. The law is linear: the dashpots' part
+ * is what the contact gives with them less what it gives without. */
+static void test_power_of_dashpots(void **state)
+{
+    (void)state;
+    OzLawConstants damped = elastic;
+    damped.damping = 1e3;
+    use_line(1);
+    for (int n = 1; n < 50; n++) {
+        OzVec3 u = turned(oz_vec3(0, 0, half), (double[3]){0, 0.002 * spread(n, 0), 0}), none = {0};
+        OzGrain a = {.half_shaft = {0, 0, half}, .radius = radius, .mass = 2e-6};
+        OzGrain b = {.place = {1.97 * radius, 0, 1e-3 * spread(n, 1)}, .half_shaft = u};
+        b.radius = radius;
+        b.mass = 2e-6;
+        b.velocity = oz_vec3(0.01 * spread(n, 2), 0.01 * spread(n, 3), 0);
+        b.rate = oz_vec3(0, 10 * spread(n, 4), 3 * spread(n, 5));
+        a.rate = oz_vec3(0, 7 * spread(n, 3), 0);
+        OzPairForce with = oz_rods_pair(a, b, 1, damped, &none, 1e-6, 0.5);
+        OzPairForce without = oz_rods_pair(a, b, 1, elastic, &none, 1e-6, 0.5);
+        double power = oz_dot(oz_minus(with.force, without.force), b.velocity) +
+                       oz_dot(oz_minus(with.torque_b, without.torque_b), b.rate) +
+                       oz_dot(oz_minus(with.torque_a, without.torque_a), a.rate);
+        double noted =
+            oz_dot(with.parts.dashpot, with.contact.velocity) + oz_dot(with.couple, with.turning);
+        assert_true(with.contact.touching && power < 0);
+        assert_true(fabs(noted / power - 1) < 1e-9);
+    }
+}
+
 /* Two rods that meet flat, spinning a little: energy must balance, with damping by the ledger. */
 static void check_collision(double restitution, double bound)
 {
@@ -354,6 +384,7 @@ int main(void)
         cmocka_unit_test(test_rods_have_no_head),
         cmocka_unit_test(test_skew_shafts_touch_once),
         cmocka_unit_test(test_a_slow_loop_gives_no_energy),
+        cmocka_unit_test(test_power_of_dashpots),
         cmocka_unit_test(test_energy_balances),
         cmocka_unit_test(test_an_aligned_bed_keeps_its_energy),
         cmocka_unit_test(test_the_report_tells_them_apart),

@@ -129,6 +129,30 @@ static void test_areas(void **state)
     }
 }
 
+/* The moment about another origin differs by the push's own there, wherever the force acts. */
+static void test_moment_moves_with_the_origin(void **state)
+{
+    (void)state;
+    int seen[KINDS] = {0};
+    drawn = oz_random_stream(1, 5);
+    for (int i = 0; i < 40000; i++) {
+        OzTriangle a = some_triangle(), b = some_triangle();
+        at_midpoint = i % 2;
+        OzOverlap here = oz_triangle_overlap(&a, &b);
+        a = moved(a, 0.7, -0.4, 0);
+        b = moved(b, 0.7, -0.4, 0);
+        OzOverlap there = oz_triangle_overlap(&a, &b);
+        double expected = here.moment + oz_cross2(oz_vec2(0.7, -0.4), here.push);
+        /* short chords have fewer digits of their direction, as above */
+        assert_true(here.kind != there.kind || fabs(there.moment - expected) < 1e-9);
+        seen[(int)here.kind]++;
+    }
+    for (int k = 0; k < KINDS; k++) {
+        assert_true(seen[k] > 0);
+    }
+    at_midpoint = 0;
+}
+
 /* Pairs that the cheap test throws out are farther apart than its margin. */
 static void test_near(void **state)
 {
@@ -409,15 +433,11 @@ static void test_continuity(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_areas),
-        cmocka_unit_test(test_near),
-        cmocka_unit_test(test_kinds),
-        cmocka_unit_test(test_push),
-        cmocka_unit_test(test_gradient),
-        cmocka_unit_test(test_loop),
-        cmocka_unit_test(test_deep_and_swallowed),
-        cmocka_unit_test(test_touching),
-        cmocka_unit_test(test_continuity),
+        cmocka_unit_test(test_areas),    cmocka_unit_test(test_moment_moves_with_the_origin),
+        cmocka_unit_test(test_near),     cmocka_unit_test(test_kinds),
+        cmocka_unit_test(test_push),     cmocka_unit_test(test_gradient),
+        cmocka_unit_test(test_loop),     cmocka_unit_test(test_deep_and_swallowed),
+        cmocka_unit_test(test_touching), cmocka_unit_test(test_continuity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
