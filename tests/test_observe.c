@@ -165,19 +165,20 @@ static void test_layers(void **state)
 {
     (void)state;
     Bed bed;
-    bed_create(&bed, 5, 1e-3, 3e-3);
+    bed_create(&bed, 6, 1e-3, 3e-3);
     put(&bed, 0, 1e-3 + 0.1e-3, 0, 0, 1);
     put(&bed, 1, 1e-3 + 3.9e-3, 1, 0, 0);
     put(&bed, 2, 1e-3 + 4.1e-3, 0, 0.6, 0.8);
     put(&bed, 3, 1e-3 + 15.9e-3, 0, 1, 0);
     put(&bed, 4, 1e-3 + 16.1e-3, 0, 0, 1); /* above the fourth */
     bed.snapshot.wall_offset[0] = 0.3e-3;  /* layers stay in the laboratory */
-    bed.grains.length[3] = 0;              /* a sphere counts, but has no angle */
+    put(&bed, 5, 1e-3 + 2e-3, 0, 0, 1);
+    bed.grains.length[3] = bed.grains.length[5] = 0; /* spheres count, but have no angle */
     assert_near(value_of(&bed, "angle_layer1"), 45, 1e-6);
     assert_near(value_of(&bed, "angle_layer2"), asin(0.8) * 180 / PI, 1e-6);
     assert_empty(&bed, "angle_layer3");
     assert_empty(&bed, "angle_layer4");
-    assert_near(value_of(&bed, "count_layer1"), 2, 0);
+    assert_near(value_of(&bed, "count_layer1"), 3, 0);
     assert_near(value_of(&bed, "count_layer3"), 0, 0);
     assert_near(value_of(&bed, "count_layer4"), 1, 0);
     bed_free(&bed);
@@ -264,6 +265,13 @@ static void test_tap_means(void **state)
     }
     read_cell(in_folder("t.csv"), 1, "density_tap_mean", cell);
     assert_string_equal(cell, "");
+    double mean = 0;
+    for (int row = 4; row <= 7; row++) {
+        read_cell(in_folder("t.csv"), row, "density", cell);
+        mean += number_in(cell) / 4;
+    }
+    read_cell(in_folder("t.csv"), 7, "density_tap_mean", cell);
+    assert_near(number_in(cell), mean, 1e-8 * mean); /* nine digits are written */
     read_cell(in_folder("t.csv"), 7, "tap", cell);
     assert_string_equal(cell, "1.5");
     read_cell(in_folder("t.csv"), 7, "step", cell);

@@ -47,6 +47,25 @@ static void test_stops_what_heats_up(void **state)
     assert_true(rows > 40 && rows < 110);
 }
 
+/* What a sphere at rest held: nothing, whatever its height, and so much counts as given that it
+ * could fall a diameter. */
+static void test_height_is_no_energy_to_gain_by(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        Rig rig;
+        OzSurplus surplus = {0};
+        rig_open(&rig, "model: rods\ntime: {step: 1e-4, duration: 1}\ngravity: [0, 0, -10]\n"
+                       "contact: {contact_time: 1e-3, restitution: 1}\n"
+                       "grains: [{kind: single, diameter: 1e-2, position: [0, 0, 7]}]\n");
+        rig_start(&rig);
+        must(oz_surplus_check(&surplus, &rig.now));
+        rig.now.velocity[0] = sqrt(2 * 10 * 1e-2 * (k ? 1.01 : 0.99));
+        assert_int_equal(oz_surplus_check(&surplus, &rig.now), k ? OZ_ERR_BLOWUP : OZ_OK);
+        rig_close(&rig);
+    }
+}
+
 static void test_leaves_alone_what_does_not(void **state)
 {
     (void)state;
@@ -154,6 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stops_what_heats_up),
+        cmocka_unit_test(test_height_is_no_energy_to_gain_by),
         cmocka_unit_test(test_leaves_alone_what_does_not),
         cmocka_unit_test(test_is_silent_where_input_is_unknown),
         cmocka_unit_test(test_leaves_rounding_alone),
