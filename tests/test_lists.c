@@ -167,14 +167,19 @@ static void test_full_lists_grow(void **state)
 }
 
 /* Looking at the bed in between changes nothing. */
+static void look_often(Bed *b)
+{
+    for (int64_t step = 0; step < STEPS; step += 37) {
+        OzSnapshot now = state_at(&b->rig, b->sim, step);
+        oz_snapshot_free(&now);
+    }
+}
+
 static void check_launches(const OzDevice *device)
 {
     Bed b;
     open_bed(&b, "hash", 0, device);
-    for (int64_t step = 0; step < STEPS; step += 37) {
-        OzSnapshot now = state_at(&b.rig, b.sim, step);
-        oz_snapshot_free(&now);
-    }
+    look_often(&b);
     check_bed(&b);
 }
 
@@ -183,6 +188,29 @@ static void test_many_launches(void **state)
     (void)state;
     check_launches(&rig_device);
     check_launches(&large_device);
+}
+
+/* The same of a small scene, whose one launch makes lists in between: lists that are full, and
+ * launches that end, when places are moved and forces are not yet felt must not add a force twice
+ * or lose one. */
+static void test_moves_first(void **state)
+{
+    (void)state;
+    Bed whole, full, looked_at;
+    open_bed_by(&whole, "velocity-verlet", "hash", 2e-2, &rig_device);
+    whole.end = state_at(&whole.rig, whole.sim, STEPS);
+    open_bed_by(&full, "velocity-verlet", "hash", 0, &rig_device);
+    shrink_lists(full.sim);
+    run_bed(&full);
+    assert_true(oz_sim_counts(full.sim).growths >= 3);
+    assert_same_bits(&full.end, &whole.end);
+    open_bed_by(&looked_at, "velocity-verlet", "hash", 0, &rig_device);
+    look_often(&looked_at);
+    run_bed(&looked_at);
+    assert_same_bits(&looked_at.end, &whole.end);
+    close_bed(&looked_at);
+    close_bed(&full);
+    close_bed(&whole);
 }
 
 static int open_all(void **state)
@@ -210,6 +238,7 @@ int main(void)
         cmocka_unit_test(test_sort_axis),       cmocka_unit_test(test_other_skins),
         cmocka_unit_test(test_large),           cmocka_unit_test(test_large_moves_first),
         cmocka_unit_test(test_full_lists_grow), cmocka_unit_test(test_many_launches),
+        cmocka_unit_test(test_moves_first),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);
 }

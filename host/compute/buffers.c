@@ -1,6 +1,7 @@
 /* Making, filling and reading a device's buffers. */
 #include "compute/buffers.h"
 
+#include "base/memory.h"
 #include "compute/cl_try.h"
 
 OzStatus oz_buffers_make(cl_mem *buffer, const OzDevice *device, const char *name, size_t bytes)
@@ -54,6 +55,46 @@ OzStatus oz_buffers_read(const OzDevice *device, cl_mem buffer, size_t offset, v
     if (buffer && bytes > 0) {
         CL_TRY(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, data, 0, NULL,
                                    NULL));
+    }
+done:
+    return status;
+}
+
+static OzStatus size_of(cl_mem buffer, size_t *bytes)
+{
+    OzStatus status = OZ_OK;
+    CL_TRY(clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof *bytes, bytes, NULL));
+done:
+    return status;
+}
+
+OzStatus oz_buffers_save(const OzDevice *device, const cl_mem *buffers, int count, void **copies)
+{
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < count; i++) {
+        size_t bytes = 0;
+        if (!buffers[i]) {
+            continue;
+        }
+        OZ_TRY(size_of(buffers[i], &bytes));
+        OZ_TRY(oz_memory_new(&copies[i], bytes, 1, "copy of a buffer"));
+        OZ_TRY(oz_buffers_read(device, buffers[i], 0, copies[i], bytes));
+    }
+done:
+    return status;
+}
+
+OzStatus oz_buffers_restore(const OzDevice *device, const cl_mem *buffers, int count,
+                            void *const *copies)
+{
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < count; i++) {
+        size_t bytes = 0;
+        if (!copies[i]) {
+            continue;
+        }
+        OZ_TRY(size_of(buffers[i], &bytes));
+        OZ_TRY(oz_buffers_write(device, buffers[i], 0, copies[i], bytes));
     }
 done:
     return status;

@@ -18,6 +18,14 @@ OzStatus oz_buffers_write(const OzDevice *device, cl_mem buffer, size_t offset, 
 OzStatus oz_buffers_read(const OzDevice *device, cl_mem buffer, size_t offset, void *data,
                          size_t bytes);
 
+/* Copies every buffer into host memory, copies[i] of buffers[i], NULL of NULL; the caller frees
+ * each, after a failure too. copies must be zeroed. */
+OzStatus oz_buffers_save(const OzDevice *device, const cl_mem *buffers, int count, void **copies);
+
+/* Puts back what oz_buffers_save has copied; a NULL copy leaves its buffer as it is. */
+OzStatus oz_buffers_restore(const OzDevice *device, const cl_mem *buffers, int count,
+                            void *const *copies);
+
 /* Makes the buffers a kernel's first arguments. */
 OzStatus oz_buffers_bind(const cl_mem *buffers, int count, cl_kernel kernel);
 

@@ -37,10 +37,10 @@ done:
     return status;
 }
 
-/* Offset and velocity of every wall of a member at each step of the launch, and at its end. */
-static OzStatus write_motion(OzSim *sim, int member, int64_t first, int steps)
+OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps)
 {
     OzStatus status = OZ_OK;
+    int64_t first = sim->crew.step;
     const OzScene *scene = sim->crew.members[member].scene;
     int walls = sim->arrays.switches.planes + sim->arrays.switches.cylinders;
     size_t count = 2 * (size_t)(steps + 1) * (size_t)walls;
@@ -169,7 +169,7 @@ static OzStatus begin_launch(OzSim *sim, int steps)
         sim->control[m].deep_step = sim->control[m].deep_grain = OZ_NEVER;
         sim->control[m].step = oz_crew_goes_on(&sim->crew, m) ? 0 : steps;
         if (oz_crew_goes_on(&sim->crew, m)) {
-            OZ_TRY(write_motion(sim, m, sim->crew.step, steps));
+            OZ_TRY(oz_launch_move_walls(sim, m, steps));
         }
     }
 done:

@@ -9,4 +9,9 @@
  * when none is left. */
 OzStatus oz_launch_steps(OzSim *sim, int steps);
 
+/* Writes offset and velocity of every wall of a member for so many steps (at most
+ * sizes.motion_steps) from the present one on, and for their end; all the present one's while the
+ * step has no length. A launch does so by itself. */
+OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps);
+
 #endif

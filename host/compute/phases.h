@@ -14,8 +14,9 @@ typedef struct OzPhases {
     double rebuild; /* what that takes longer with the outer list anew, and a re-sort     */
 } OzPhases;
 
-/* Repeats each part many times at the state as it is, with a step of no length: the state is the
- * same afterwards but for rounding, and the simulation can go on. One member only. */
+/* Repeats each part many times at the state as it is, with a step of no length. Afterwards every
+ * array of the device holds the same bits as before, and the simulation can go on. One member only.
+ */
 OzStatus oz_phases_measure(OzPhases *phases, OzSim *sim, const char *source_dir);
 
 #endif

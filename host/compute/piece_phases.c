@@ -2,7 +2,7 @@
 #include "compute/piece_phases.h"
 
 #include "base/clock.h"
-#include "base/memory.h"
+#include "compute/buffers.h"
 #include "compute/cl_try.h"
 #include "compute/piece_private.h"
 #include "compute/program.h"
@@ -105,19 +105,21 @@ done:
     return status;
 }
 
-/* The state from before, nothing felt, lists to be made anew, nothing stopped. */
-static OzStatus put_back(OzPieceSim *sim, const void *state, size_t bytes)
+/* Times everything and puts every array back. */
+static OzStatus time_standing(double seconds[OZ_PIECE_PHASE_COUNT], OzPieceSim *sim,
+                              cl_program program)
 {
     OzStatus status = OZ_OK;
-    const OzPieceArrays *arrays = &sim->arrays;
-    size_t load = oz_piece_arrays_bytes(OZ_PIECE_FIELD_load, &arrays->switches, &arrays->sizes);
-    void *zero = NULL;
-    OZ_TRY(oz_memory_new(&zero, load, 1, "loads"));
-    OZ_TRY(oz_piece_arrays_write(&sim->arrays, OZ_PIECE_FIELD_state, 0, state, bytes));
-    OZ_TRY(oz_piece_arrays_write(&sim->arrays, OZ_PIECE_FIELD_load, 0, zero, load));
-    sim->control[0].outer_holds = sim->control[0].inner_holds = 0;
+    void *copies[OZ_PIECE_FIELD_COUNT] = {0};
+    const cl_mem *buffers = sim->arrays.buffer;
+    OZ_TRY(oz_buffers_save(sim->device, buffers, OZ_PIECE_FIELD_COUNT, copies));
+    status = time_all(seconds, sim, program);
+    OzStatus back = oz_buffers_restore(sim->device, buffers, OZ_PIECE_FIELD_COUNT, copies);
+    status = status == OZ_OK ? back : status;
 done:
-    free(zero);
+    for (int f = 0; f < OZ_PIECE_FIELD_COUNT; f++) {
+        free(copies[f]);
+    }
     return status;
 }
 
@@ -126,19 +128,11 @@ OzStatus oz_piece_phases_measure(double seconds[OZ_PIECE_PHASE_COUNT], OzPieceSi
 {
     OzStatus status = OZ_OK;
     cl_program program = NULL;
-    void *state = NULL;
     char options[1024];
-    const OzPieceArrays *arrays = &sim->arrays;
-    size_t bytes = oz_piece_arrays_bytes(OZ_PIECE_FIELD_state, &arrays->switches, &arrays->sizes);
-    oz_piece_switches_options(&arrays->switches, options, sizeof options);
+    oz_piece_switches_options(&sim->arrays.switches, options, sizeof options);
     OZ_TRY(oz_program_build(&program, sim->device, source_dir, "kernels/piece_phases.cl", options));
-    OZ_TRY(oz_memory_new(&state, bytes, 1, "state"));
-    OZ_TRY(oz_piece_arrays_read(arrays, OZ_PIECE_FIELD_state, 0, state, bytes));
-    status = time_all(seconds, sim, program);
-    OzStatus back = put_back(sim, state, bytes);
-    status = status == OZ_OK ? back : status;
+    OZ_TRY(time_standing(seconds, sim, program));
 done:
-    free(state);
     if (program) {
         clReleaseProgram(program);
     }

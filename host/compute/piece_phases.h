@@ -26,8 +26,9 @@ typedef enum OzPiecePhase {
 /* "classifying" */
 const char *oz_piece_phases_name(OzPiecePhase phase);
 
-/* Seconds (of a CPU: processor time) of doing each once for all pieces of the first member. The
- * state is the same afterwards, and the simulation can go on. */
+/* Seconds (of a CPU: processor time) of doing each once for all pieces of the first member.
+ * Afterwards every array of the device holds the same bits as before, and the simulation can go on.
+ */
 OzStatus oz_piece_phases_measure(double seconds[OZ_PIECE_PHASE_COUNT], OzPieceSim *sim,
                                  const char *source_dir);
 
