@@ -26,7 +26,7 @@ static const struct {
     {"bench", "[SCENE]...", "oQFzbysdtS",
      "speed on this machine: an6 and a ladder of beds, or scenes", 0, OZ_CLI_PATHS_MAX,
      "orzo bench --quick --threads 2"},
-    {"report", "[SCENE]...", "oQTXMBEHefsdtS", "what accuracy costs: error against run time", 0,
+    {"report", "[SCENE]...", "oQTXMBEHxefsdtS", "what accuracy costs: error against run time", 0,
      OZ_CLI_PATHS_MAX, "orzo report scenes/report/normal_hit.yaml --tolerance 0.01"},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0, "orzo devices"},
 };
@@ -62,6 +62,7 @@ static const struct {
     {'H', "--hits", NULL,
      "how often two grains hit and how they spin then, for each value, instead"},
     {'v', "--verbose", NULL, "kernel switches, what is left out, device memory, too"},
+    {'x', "--share", "X", "of --hits: from which share of the impulse a hit counts (default 0.05)"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
 };
 
@@ -201,6 +202,17 @@ static OzStatus parse_tolerance(OzOptions *options, const char *value)
     return OZ_OK;
 }
 
+/* Below a hundredth more spans of touching could count than are kept. */
+static OzStatus parse_share(OzOptions *options, const char *value)
+{
+    char *end = NULL;
+    options->share = strtod(value, &end);
+    if (*value == '\0' || *end || !(options->share >= 0.01 && options->share <= 1)) {
+        return wrong(value, "--share with a number from 0.01 to 1, as in 0.05");
+    }
+    return OZ_OK;
+}
+
 static OzStatus add_setting(OzOptions *options, const char *value)
 {
     if (options->setting_count == OZ_CLI_SETTINGS_MAX) {
@@ -253,6 +265,8 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return parse_budget(options, value);
     case 'T':
         return parse_tolerance(options, value);
+    case 'x':
+        return parse_share(options, value);
     case 'z':
         options->sizes = value;
         return OZ_OK;

@@ -28,6 +28,7 @@ typedef struct OzOptions {
     bool features, quick;                 /* bench                            */
     double budget;                        /* --budget, s; 0: not given        */
     double tolerance;                     /* --tolerance of report; 0: not given */
+    double share;                         /* --share of report --hits; 0: not given */
     bool extreme, map, stability, ensemble, hits; /* report                   */
     const char *sizes;                    /* --sizes, as written              */
     const char *yardstick;                /* --yardstick                      */

@@ -83,9 +83,9 @@ static void test_hits_by_speed(void **state)
         spin[i] = fabs(m.spin);
         print_message("%g m/s: %d hits; spin x edge / speed %.3f; left of the energy %.3f, "
                       "residual %.1e\n",
-                      rows[i].speed, oz_hits_count(&m.hits), m.spin, 1 + m.energy_change,
-                      m.residual);
-        assert_int_equal(oz_hits_count(&m.hits), rows[i].hits);
+                      rows[i].speed, oz_hits_count(&m.hits, OZ_HITS_SHARE), m.spin,
+                      1 + m.energy_change, m.residual);
+        assert_int_equal(oz_hits_count(&m.hits, OZ_HITS_SHARE), rows[i].hits);
     }
     assert_true(spin[0] < 0.05);
     assert_true(spin[1] < 0.6 * spin[4]);

@@ -42,10 +42,14 @@ static void test_spans(void **state)
     assert_true(fabs(hits.impulse[0] - 1.5 * 6) < 1e-12);
     assert_true(fabs(hits.impulse[1] - 1.5 * 0.1) < 1e-12);
     assert_true(fabs(oz_hits_share(&hits, 2) - 2.9 / 9) < 1e-12);
-    assert_int_equal(oz_hits_count(&hits), 2);
+    /* shares 2/3, 1/90, 29/90 */
+    assert_int_equal(oz_hits_count(&hits, 0.5), 1);
+    assert_int_equal(oz_hits_count(&hits, OZ_HITS_SHARE), 2);
+    assert_int_equal(oz_hits_count(&hits, 0.012), 2);
+    assert_int_equal(oz_hits_count(&hits, 0.01), 3);
 }
 
-/* One strong hit between fifty grazes, more than are kept: it is still there, and nothing of the
+/* One strong hit between 150 grazes, more than are kept: it is still there, and nothing of the
  * total is lost. */
 static void test_many_grazes(void **state)
 {
@@ -53,13 +57,13 @@ static void test_many_grazes(void **state)
     OzHits hits = {0};
     double speed = 0;
     look(&hits, false, speed);
-    for (int i = 0; i < 50; i++) {
+    for (int i = 0; i < 150; i++) {
         look(&hits, true, 0);
-        speed += i == 5 ? 100 : 0.01 * (i + 1);
+        speed += i == 5 ? 100 : 0.003 * (i + 1);
         look(&hits, false, speed);
     }
     assert_int_equal(hits.span_count, OZ_HITS_SPANS);
-    assert_int_equal(oz_hits_count(&hits), 1);
+    assert_int_equal(oz_hits_count(&hits, OZ_HITS_SHARE), 1);
     assert_true(fabs(hits.total / (1.5 * speed) - 1) < 1e-12);
     int greatest = 0;
     for (int i = 0; i < OZ_HITS_SPANS; i++) {
@@ -96,6 +100,31 @@ static void test_command(void **state)
     assert_true(fabs(spin[0][1]) < 0.05 && fabs(spin[1][1]) > 0.3);
 }
 
+/* Slow dice share the impulse of two hits as 5 to 3 or so: counted from 45 % on only one is left.
+ */
+static void test_share(void **state)
+{
+    (void)state;
+    write_file("share.yaml", DICE, "1", "sweep: {grains.0.velocity.0: [0.2, 1.0]}\n");
+    expect(0, "counted from 45 % of the impulse: hits do not change over grains.0.velocity.0",
+           "report --hits share.yaml -o share --share 0.45");
+    char *said = read_file("said", NULL);
+    const char *const others[] = {"from 3 %", "from 5 %", "from 10 %"};
+    for (int k = 0; k < 3; k++) {
+        char line[128];
+        snprintf(line, sizeof line,
+                 "counted %s of the impulse: hits change from 2 to 1 between "
+                 "grains.0.velocity.0 = 0.2 and 1.0, 0.2 and 1 m/s",
+                 others[k]);
+        assert_non_null(strstr(said, line));
+    }
+    free(said);
+    expect(2, "expected --share with a number from 0.01 to 1",
+           "report --hits share.yaml --share 0.001");
+    expect(2, "expected --share with a number from 0.01 to 1",
+           "report --hits share.yaml --share nan");
+}
+
 static void test_ends_too_early(void **state)
 {
     (void)state;
@@ -119,7 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_spans),    cmocka_unit_test(test_many_grazes),
         cmocka_unit_test(test_command),  cmocka_unit_test(test_ends_too_early),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_share),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
 }

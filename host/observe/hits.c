@@ -43,11 +43,11 @@ double oz_hits_share(const OzHits *hits, int span)
     return hits->total > 0 ? hits->impulse[span] / hits->total : 0;
 }
 
-int oz_hits_count(const OzHits *hits)
+int oz_hits_count(const OzHits *hits, double share)
 {
     int count = 0;
     for (int i = 0; i < hits->span_count; i++) {
-        count += oz_hits_share(hits, i) >= OZ_HITS_SHARE;
+        count += oz_hits_share(hits, i) >= share;
     }
     return count;
 }

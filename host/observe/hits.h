@@ -5,13 +5,15 @@
 
 #include "observe/snapshot.h"
 
-/* Of the impulse of all spans: a hit has at least this much. The second hit of two dice shrinks
- * with their speed from three tenths to nothing, so this decides at which speed it is lost; grazes
- * have hundred-thousandths. */
+/* Of the impulse of all spans: by default a hit has at least this much. The second hit of two dice
+ * shrinks with their speed from three tenths to nothing, so this decides at which speed it is lost;
+ * grazes have hundred-thousandths. */
 #define OZ_HITS_SHARE 0.05
 
-/* No more than 1 / OZ_HITS_SHARE spans can count, so keeping the greatest 32 loses none. */
-enum { OZ_HITS_SPANS = 32 };
+/* No more than 1 / share spans can count: keeping so many greatest loses none at shares from
+ * OZ_HITS_SHARE_LEAST on. */
+#define OZ_HITS_SHARE_LEAST 0.01
+enum { OZ_HITS_SPANS = 100 };
 
 /* Zeroed is valid: nothing seen yet. */
 typedef struct OzHits {
@@ -31,7 +33,7 @@ void oz_hits_look(OzHits *hits, const OzSnapshot *snapshot);
 /* Impulse of a kept span over that of all. */
 double oz_hits_share(const OzHits *hits, int span);
 
-/* How many spans have at least OZ_HITS_SHARE. */
-int oz_hits_count(const OzHits *hits);
+/* How many spans have at least this share, OZ_HITS_SHARE_LEAST to 1. */
+int oz_hits_count(const OzHits *hits, double share);
 
 #endif

@@ -15,7 +15,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOOKS = 25, PATH_SIZE = 1024, NAME_SIZE = 256 };
+enum { LOOKS = 25, PATH_SIZE = 1024, SHARES_SIZE = 12 * OZ_HITS_SPANS };
+
+/* From which the number of hits is always told too: where it changes hangs on the rule. */
+static const double shares_told[] = {0.03, 0.05, 0.1};
+
+static double share_of(const OzOptions *options)
+{
+    return options->share > 0 ? options->share : OZ_HITS_SHARE;
+}
 
 static OzStatus refuse(const OzScene *scene, const OzGrains *grains)
 {
@@ -110,16 +118,17 @@ static void list_shares(const OzHits *hits, char *text, size_t size)
 
 static void write_row(FILE *csv, const OzPlan *plan, int64_t i, const OzReportHits *m)
 {
-    char shares[NAME_SIZE];
+    char shares[SHARES_SIZE];
     const char *value = oz_plan_value(plan, i);
+    int count = oz_hits_count(&m->hits, share_of(plan->options));
     list_shares(&m->hits, shares, sizeof shares);
-    printf("  %12s %8.4g %5d %9.3f %9.3f  %s%s\n", value ? value : "-", m->speed,
-           oz_hits_count(&m->hits), m->spin[0], m->spin[1], shares,
+    printf("  %12s %8.4g %5d %9.3f %9.3f  %s%s\n", value ? value : "-", m->speed, count, m->spin[0],
+           m->spin[1], shares,
            m->hits.touching ? " (still touching at the end: a longer time.duration is needed)"
                             : "");
     fprintf(csv, "%s,%" PRIu64 ",%.9g,%d,%d,%.9g,%.9g,%s\n", value ? value : "",
-            oz_plan_seed(plan, i), m->speed, oz_hits_count(&m->hits), m->hits.touching, m->spin[0],
-            m->spin[1], shares);
+            oz_plan_seed(plan, i), m->speed, count, m->hits.touching, m->spin[0], m->spin[1],
+            shares);
     fflush(stdout);
 }
 
@@ -131,8 +140,8 @@ static OzStatus follow_all(OzReportHits *meetings, const OzPlan *plan, FILE *csv
     const char *key = plan->scene.sweep.key;
     printf("%s: hits of two grains; one counts from %g %% of the impulse of all on\n"
            "  %12.12s %8s %5s %9s %9s  shares of the impulse, in order of time\n",
-           plan->scene.path, 100 * OZ_HITS_SHARE, key ? "value" : "", "m/s", "hits", "spin 0",
-           "spin 1");
+           plan->scene.path, 100 * share_of(plan->options), key ? "value" : "", "m/s", "hits",
+           "spin 0", "spin 1");
     fprintf(csv, "%s,seed,speed,hits,touching,spin_0,spin_1,shares\n", key ? key : "value");
     for (int64_t i = 0; i < plan->count; i++) {
         OZ_TRY(oz_plan_load(plan, i, &scene, &grains));
@@ -148,34 +157,46 @@ done:
 }
 
 /* Neighbours in the order written, of one seed. */
-static void say_changes(const OzReportHits *meetings, const OzPlan *plan)
+static void say_changes(const OzReportHits *meetings, const OzPlan *plan, double share)
 {
+    const char *key = plan->scene.sweep.key;
     bool changed = false;
     for (int64_t i = 0; i + plan->seed_count < plan->count; i++) {
         const OzReportHits *one = &meetings[i], *next = &meetings[i + plan->seed_count];
-        int before = oz_hits_count(&one->hits), after = oz_hits_count(&next->hits);
+        int before = oz_hits_count(&one->hits, share), after = oz_hits_count(&next->hits, share);
         if (before != after) {
-            printf("hits change from %d to %d between %s = %s and %s, %.4g and %.4g m/s (seed "
-                   "%" PRIu64 ")\n",
-                   before, after, plan->scene.sweep.key, oz_plan_value(plan, i),
+            printf("counted from %g %% of the impulse: hits change from %d to %d between %s = %s "
+                   "and %s, %.4g and %.4g m/s (seed %" PRIu64 ")\n",
+                   100 * share, before, after, key, oz_plan_value(plan, i),
                    oz_plan_value(plan, i + plan->seed_count), one->speed, next->speed,
                    oz_plan_seed(plan, i));
             changed = true;
         }
     }
     if (!changed && plan->scene.sweep.count > 1) {
-        printf("hits do not change over %s\n", plan->scene.sweep.key);
+        printf("counted from %g %% of the impulse: hits do not change over %s\n", 100 * share, key);
+    }
+}
+
+static void say_all_changes(const OzReportHits *meetings, const OzPlan *plan)
+{
+    double asked = share_of(plan->options);
+    say_changes(meetings, plan, asked);
+    for (size_t k = 0; k < sizeof shares_told / sizeof shares_told[0]; k++) {
+        if (shares_told[k] != asked) {
+            say_changes(meetings, plan, shares_told[k]);
+        }
     }
     printf("spin: at the end, x edge / speed\n");
 }
 
-static void send_points(FILE *gnuplot, const OzReportHits *meetings, int64_t count)
+static void send_points(FILE *gnuplot, const OzReportHits *meetings, int64_t count, double share)
 {
     fprintf(gnuplot, "$spins << EOD\n");
     for (int64_t i = 0; i < count; i++) {
         const OzReportHits *m = &meetings[i];
         fprintf(gnuplot, "%.9g %.9g %.9g %d\n", m->speed, fabs(m->spin[0]), fabs(m->spin[1]),
-                oz_hits_count(&m->hits));
+                oz_hits_count(&m->hits, share));
     }
     fprintf(gnuplot, "EOD\n$shares << EOD\nNaN NaN\n");
     for (int64_t i = 0; i < count; i++) {
@@ -186,7 +207,7 @@ static void send_points(FILE *gnuplot, const OzReportHits *meetings, int64_t cou
     fprintf(gnuplot, "EOD\n");
 }
 
-static OzStatus draw(const char *folder, const OzReportHits *meetings, int64_t count)
+static OzStatus draw(const char *folder, const OzReportHits *meetings, int64_t count, double share)
 {
     if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
         oz_log_line("no %s/hits.png: gnuplot is not installed", folder);
@@ -196,7 +217,7 @@ static OzStatus draw(const char *folder, const OzReportHits *meetings, int64_t c
     if (!gnuplot) {
         return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
     }
-    send_points(gnuplot, meetings, count);
+    send_points(gnuplot, meetings, count, share);
     fprintf(gnuplot,
             "set terminal pngcairo size 1300,560 noenhanced font 'DejaVu Sans,11'\n"
             "set output '%s/hits.png'\nset multiplot layout 1,2\nset key below\nset bmargin 6\n"
@@ -213,7 +234,7 @@ static OzStatus draw(const char *folder, const OzReportHits *meetings, int64_t c
             "grain', "
             "$spins using 1:3 with linespoints pt 6 ps 1.8 dt 2 lc rgb '#e69f00' title 'second "
             "grain'\n",
-            folder, OZ_HITS_SHARE);
+            folder, share);
     if (pclose(gnuplot) != 0) {
         return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s/hits.png", folder);
     }
@@ -244,8 +265,8 @@ OzStatus oz_report_hits_run(const OzOptions *options, const char *folder)
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
     }
     OZ_TRY(status);
-    say_changes(meetings, &plan);
-    OZ_TRY(draw(folder, meetings, plan.count));
+    say_all_changes(meetings, &plan);
+    OZ_TRY(draw(folder, meetings, plan.count, share_of(options)));
     oz_log_line("%s and hits.png", path);
 done:
     free(meetings);

@@ -21,7 +21,8 @@ typedef struct OzReportHits {
 OzStatus oz_report_hits_follow(OzReportHits *meeting, const OzScene *scene, const OzGrains *grains);
 
 /* Prints a row for every value of the sweep and each seed of options->paths[0], and between which
- * values the number of hits changes; leaves folder/hits.csv and, with gnuplot, folder/hits.png. */
+ * values the number of hits changes, counted from options->share (0: OZ_HITS_SHARE) of the impulse
+ * and from 3, 5 and 10 % of it; leaves folder/hits.csv and, with gnuplot, folder/hits.png. */
 OzStatus oz_report_hits_run(const OzOptions *options, const char *folder);
 
 #endif
