@@ -6,7 +6,8 @@
 #include <math.h>
 
 static const char header[] =
-    "step,time,tap,density,density_all,density_tap_mean,density_com,density_slab,angle,"
+    "step,time,tap,density,density_all,density_tap_mean,density_all_tap_mean,density_com,"
+    "density_com_tap_mean,density_slab,density_slab_tap_mean,angle,"
     "angle_tap_mean,angle_layer1,angle_layer2,angle_layer3,angle_layer4,count_layer1,count_layer2,"
     "count_layer3,count_layer4,nematic_s,contact_count,overlap_max,overlap_mean,speed_max,kinetic,"
     "rotational,deep_count";

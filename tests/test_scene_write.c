@@ -128,6 +128,7 @@ static void assert_same_outputs(const OzScene *a, const OzScene *b)
     SAME(settle.time_max);
     SAME(observe.interval);
     SAME(observe.samples_per_tap);
+    SAME(observe.at);
     SAME(observe.layer_thickness);
     SAME(observe.ledger);
     SAME(observe.outlet);

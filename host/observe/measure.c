@@ -132,11 +132,16 @@ bool oz_measure_density_all(OzMeasure *measure, const OzSnapshot *snapshot, doub
            fill_fraction(measure, height, value);
 }
 
+double oz_measure_density_of_all(double all)
+{
+    return (1 - OUTLIERS) * all;
+}
+
 bool oz_measure_density(OzMeasure *measure, const OzSnapshot *snapshot, double *value)
 {
     double all = 0;
     bool present = oz_measure_density_all(measure, snapshot, &all);
-    *value = (1 - OUTLIERS) * all;
+    *value = oz_measure_density_of_all(all);
     return present;
 }
 

@@ -39,6 +39,9 @@ bool oz_measure_height(OzMeasure *measure, const OzSnapshot *snapshot, double *v
 bool oz_measure_density_all(OzMeasure *measure, const OzSnapshot *snapshot, double *value);
 bool oz_measure_density(OzMeasure *measure, const OzSnapshot *snapshot, double *value);
 
+/* The second from the first, which takes time. */
+double oz_measure_density_of_all(double all);
+
 /* All volume / (area x twice the height of the centre of mass above the moving floor). */
 bool oz_measure_density_com(const OzMeasure *measure, const OzSnapshot *snapshot, double *value);
 

@@ -36,10 +36,10 @@ static bool density_all(const OzObservation *o, double *value)
     return oz_measure_density_all(o->measure, o->snapshot, value);
 }
 
-static bool density_tap_mean(const OzObservation *o, double *value)
+static bool tap_mean(const OzObservation *o, double *value)
 {
-    *value = o->density_mean;
-    return o->has_density_mean;
+    *value = o->mean[o->index];
+    return o->has_mean[o->index];
 }
 
 static bool density_com(const OzObservation *o, double *value)
@@ -55,12 +55,6 @@ static bool density_slab(const OzObservation *o, double *value)
 static bool angle(const OzObservation *o, double *value)
 {
     return oz_measure_angle(o->snapshot, value);
-}
-
-static bool angle_tap_mean(const OzObservation *o, double *value)
-{
-    *value = o->angle_mean;
-    return o->has_angle_mean;
 }
 
 static bool angle_layer(const OzObservation *o, double *value)
@@ -79,6 +73,22 @@ static bool count_layer(const OzObservation *o, double *value)
 static bool nematic(const OzObservation *o, double *value)
 {
     return oz_measure_nematic(o->snapshot, value);
+}
+
+OzTapSample oz_observables_sample(OzMeasure *measure, const OzSnapshot *snapshot)
+{
+    OzTapSample s = {0};
+    double *value = s.value;
+    s.present[OZ_TAP_DENSITY_ALL] =
+        oz_measure_density_all(measure, snapshot, &value[OZ_TAP_DENSITY_ALL]);
+    s.present[OZ_TAP_DENSITY] = s.present[OZ_TAP_DENSITY_ALL];
+    value[OZ_TAP_DENSITY] = oz_measure_density_of_all(value[OZ_TAP_DENSITY_ALL]);
+    s.present[OZ_TAP_DENSITY_COM] =
+        oz_measure_density_com(measure, snapshot, &value[OZ_TAP_DENSITY_COM]);
+    s.present[OZ_TAP_DENSITY_SLAB] =
+        oz_measure_density_slab(measure, snapshot, &value[OZ_TAP_DENSITY_SLAB]);
+    s.present[OZ_TAP_ANGLE] = oz_measure_angle(snapshot, &value[OZ_TAP_ANGLE]);
+    return s;
 }
 
 static bool is_flat(const OzSnapshot *snapshot)
@@ -236,16 +246,22 @@ static const OzColumn list[] = {
     {"density", "1", "0.95 V/(area H): H above the moving floor, without the top 5 % of the volume; "
      "this and every density is empty without cylinder or floor", RODS, ALWAYS, false, density, 0},
     {"density_all", "1", "V/(area H), the same H", RODS, ALWAYS, false, density_all, 0},
-    {"density_tap_mean", "1", "mean of density over the samples of the last two periods", RODS, ALWAYS,
-     false, density_tap_mean, 0},
+    {"density_tap_mean", "1", "mean of density over the samples of the last two periods of the first moving "
+     "wall: samples_per_tap a period, or one at the phase of observe.at", RODS, ALWAYS, false, tap_mean,
+     OZ_TAP_DENSITY},
+    {"density_all_tap_mean", "1", "the same mean of density_all", RODS, ALWAYS, false, tap_mean,
+     OZ_TAP_DENSITY_ALL},
     {"density_com", "1", "V/(area x twice the centre of mass's height above the moving floor)",
      RODS, ALWAYS, false, density_com, 0},
+    {"density_com_tap_mean", "1", "the same mean of density_com", RODS, ALWAYS, false, tap_mean,
+     OZ_TAP_DENSITY_COM},
     {"density_slab", "1", "share of the cylinder filled from 2 to 10 mm above the moving floor",
      RODS, ALWAYS, false, density_slab, 0},
+    {"density_slab_tap_mean", "1", "the same mean of density_slab", RODS, ALWAYS, false, tap_mean,
+     OZ_TAP_DENSITY_SLAB},
     {"angle", "degrees", "mean angle between shaft and floor, rods only: 0 flat, 90 upright", RODS, ALWAYS,
      false, angle, 0},
-    {"angle_tap_mean", "degrees", "mean of angle over the samples of the last two periods", RODS, ALWAYS,
-     false, angle_tap_mean, 0},
+    {"angle_tap_mean", "degrees", "the same mean of angle", RODS, ALWAYS, false, tap_mean, OZ_TAP_ANGLE},
     {"angle_layer1", "degrees", "angle in the layer on the floor's place at rest, by grain centre; "
      "empty without rods", RODS, ALWAYS, false, angle_layer, 0},
     {"angle_layer2", "degrees", "the same in the second layer", RODS, ALWAYS, false, angle_layer, 1},

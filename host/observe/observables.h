@@ -6,6 +6,24 @@
 #include "observe/flow.h"
 #include "observe/measure.h"
 
+/* What tap means are made of, in the order of OzObservation.mean. */
+typedef enum OzTapMean {
+    OZ_TAP_DENSITY,
+    OZ_TAP_DENSITY_ALL,
+    OZ_TAP_DENSITY_COM,
+    OZ_TAP_DENSITY_SLAB,
+    OZ_TAP_ANGLE,
+    OZ_TAP_MEANS
+} OzTapMean;
+
+/* One sample of each. */
+typedef struct OzTapSample {
+    bool present[OZ_TAP_MEANS]; /* false where the scene or the bed has no such value */
+    double value[OZ_TAP_MEANS];
+} OzTapSample;
+
+OzTapSample oz_observables_sample(OzMeasure *measure, const OzSnapshot *snapshot);
+
 /* Everything that a value of one row may depend on. */
 typedef struct OzObservation {
     OzMeasure *measure;
@@ -13,10 +31,10 @@ typedef struct OzObservation {
     const OzFlow *flow; /* of flat grains, the snapshot seen */
     int index;          /* of the column asked for                */
     OzLayer layers[OZ_MEASURE_LAYERS];
-    bool has_density_mean, has_angle_mean;
-    double density_mean, angle_mean; /* tap means, by the series               */
-    bool has_start;                  /* energy_start is that of an earlier row */
-    double energy_start;             /* J, oz_observables_energy of the first row */
+    bool has_mean[OZ_TAP_MEANS];
+    double mean[OZ_TAP_MEANS]; /* tap means, by the series                  */
+    bool has_start;            /* energy_start is that of an earlier row    */
+    double energy_start;       /* J, oz_observables_energy of the first row */
 } OzObservation;
 
 typedef enum OzColumnNeed { OZ_COLUMN_ALWAYS, OZ_COLUMN_LEDGER } OzColumnNeed;

@@ -24,21 +24,49 @@ static double frame_interval(const OzScene *scene, double duration)
     return fmax(interval, scene->step);
 }
 
+static double phase_of(const OzScene *scene)
+{
+    static const double share[] = {
+        [OZ_OBSERVE_MEAN] = 0, [OZ_OBSERVE_TOP] = 0.25, [OZ_OBSERVE_BOTTOM] = 0.75};
+    return share[scene->observe.at] * scene->period;
+}
+
 OzSchedule oz_schedule_create(const OzScene *scene, double until)
 {
     OzSchedule s = {.scene = scene};
     double duration = until >= 0 && until < scene->duration ? until : scene->duration;
     s.last_step = llround(duration / scene->step);
     s.row = scene->observe.interval;
-    s.sample = scene->period > 0 ? scene->period / (double)scene->observe.samples_per_tap : 0;
+    s.phase = phase_of(scene);
+    s.sample = s.phase > 0         ? scene->period
+               : scene->period > 0 ? scene->period / (double)scene->observe.samples_per_tap
+                                   : 0;
     s.frame = frame_interval(scene, duration);
     s.strobe = scene->snapshots.strobe;
     return s;
 }
 
+/* Event `index` of a kind, the first at time `from`. */
+static int64_t step_from(const OzSchedule *s, double from, double interval, int64_t index)
+{
+    return interval > 0 ? llround((from + (double)index * interval) / s->scene->step) : INT64_MAX;
+}
+
 static int64_t step_of(const OzSchedule *s, double interval, int64_t index)
 {
-    return interval > 0 ? llround((double)index * interval / s->scene->step) : INT64_MAX;
+    return step_from(s, 0, interval, index);
+}
+
+/* Row 0 is the start whatever the phase. */
+static int64_t row_step(const OzSchedule *s)
+{
+    return s->phase > 0 && s->rows > 0 ? step_from(s, s->phase, s->row, s->rows - 1)
+                                       : step_of(s, s->row, s->rows);
+}
+
+static int64_t sample_step(const OzSchedule *s)
+{
+    return step_from(s, s->phase, s->sample, s->samples);
 }
 
 static int64_t earlier(int64_t a, int64_t b)
@@ -64,23 +92,40 @@ static int64_t snapshot_step(const OzSchedule *s)
                                        : INT64_MAX;
 }
 
+/* Counts rows and samples that are due by a step, likewise. */
+static bool pass_rows(OzSchedule *s, int64_t step)
+{
+    bool any = false;
+    for (; row_step(s) <= step; s->rows++) {
+        any = true;
+    }
+    return any;
+}
+
+static bool pass_samples(OzSchedule *s, int64_t step)
+{
+    bool any = false;
+    for (; sample_step(s) <= step; s->samples++) {
+        any = true;
+    }
+    return any;
+}
+
 bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
 {
-    int64_t next = earlier(step_of(s, s->row, s->rows), step_of(s, s->sample, s->samples));
+    int64_t next = earlier(row_step(s), sample_step(s));
     next = earlier(next, step_of(s, s->frame, s->frames));
     next = earlier(next, step_of(s, s->strobe, s->strobes));
     next = earlier(next, snapshot_step(s));
-    if (next > s->last_step) {
-        next = s->last_step;
-    }
-    bool again = *due != 0 && *step >= s->last_step;
-    if (again) {
+    if (s->over) {
         return false;
     }
+    s->over = next >= s->last_step;
+    next = s->over ? s->last_step : next;
     *step = next;
-    *due = next == s->last_step ? OZ_DUE_ROW : 0;
-    *due |= pass(s, s->row, &s->rows, next) ? OZ_DUE_ROW : 0;
-    *due |= pass(s, s->sample, &s->samples, next) ? OZ_DUE_SAMPLE : 0;
+    *due = s->over && s->phase == 0 ? OZ_DUE_ROW : 0;
+    *due |= pass_rows(s, next) ? OZ_DUE_ROW : 0;
+    *due |= pass_samples(s, next) ? OZ_DUE_SAMPLE : 0;
     *due |= pass(s, s->frame, &s->frames, next) ? OZ_DUE_MOVIE : 0;
     *due |= pass(s, s->strobe, &s->strobes, next) ? OZ_DUE_STROBE : 0;
     while (snapshot_step(s) <= next) {
@@ -122,6 +167,7 @@ bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
 {
     const OzSnapshotSettings *x = &a->scene->snapshots, *y = &b->scene->snapshots;
     return a->last_step == b->last_step && a->row == b->row && a->sample == b->sample &&
-           a->frame == b->frame && a->strobe == b->strobe && x->count == y->count &&
+           a->phase == b->phase && a->frame == b->frame && a->strobe == b->strobe &&
+           x->count == y->count &&
            (x->count == 0 || memcmp(x->times, y->times, (size_t)x->count * sizeof *x->times) == 0);
 }

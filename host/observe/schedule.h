@@ -20,16 +20,23 @@ enum {
 typedef struct OzSchedule {
     const OzScene *scene; /* borrowed */
     int64_t last_step;
-    double row, sample, frame, strobe;      /* s between events; 0: there are none */
+    double row, sample, frame, strobe; /* s between events; 0: there are none */
+    double phase; /* s after whole periods: rows and samples at observe.at; 0: at whole ones too */
+    bool over;    /* the last step has been given                                   */
     int64_t rows, samples, frames, strobes; /* events of each kind that have been due */
     int snapshots;
 } OzSchedule;
 
-/* The schedule of a scene, ending at the time `until` if that is earlier (negative: not given). */
+/* The schedule of a scene, ending at the time `until` if that is earlier (negative: not given). Row
+ * 0 is at time 0. With observe.at: mean, rows follow each `row` seconds and at the last step,
+ * samples samples_per_tap times a period. With top or bottom, there is a sample in every period
+ * where the first moving wall is highest or lowest, and rows at such moments only, the first in the
+ * first period, the others each `row` seconds after. */
 OzSchedule oz_schedule_create(const OzScene *scene, double until);
 
 /* The next step at which something is due, and what; events at one step come together. False when
- * there is nothing more up to the last step; the last step itself is always an event. */
+ * there is nothing more up to the last step; the last step itself always comes, if
+ * with nothing due. */
 bool oz_schedule_next(OzSchedule *schedule, int64_t *step, int *due);
 
 /* The snapshots that lie beyond the last step and are never due, in words; false without any. */

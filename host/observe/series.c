@@ -1,4 +1,4 @@
-/* series.csv and the two tap means. Walks the list of observables and knows none of them by name.
+/* series.csv and the tap means. Walks the list of observables and knows none of them by name.
  */
 #include "observe/series.h"
 
@@ -24,7 +24,7 @@ struct OzSeries {
     int64_t whole; /* bytes of whole rows */
     const OzScene *scene;
     OzMeasure measure;
-    Ring density, angle;
+    Ring mean[OZ_TAP_MEANS];
     bool has_start;
     double energy_start; /* J, of the first row */
     OzSurplus surplus;
@@ -88,13 +88,15 @@ OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *sc
                           const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
-    int64_t samples = scene->observe.samples_per_tap > 0 ? scene->observe.samples_per_tap : 1;
+    bool all_phases = scene->observe.at == OZ_OBSERVE_MEAN && scene->observe.samples_per_tap > 0;
+    int64_t samples = all_phases ? scene->observe.samples_per_tap : 1;
     OZ_TRY(OZ_NEW(series, 1));
     (*series)->scene = scene;
     OZ_TRY(oz_memory_text(&(*series)->path, path));
     OZ_TRY(oz_measure_create(&(*series)->measure, scene, grains));
-    OZ_TRY(ring_create(&(*series)->density, 2 * samples));
-    OZ_TRY(ring_create(&(*series)->angle, 2 * samples));
+    for (int k = 0; k < OZ_TAP_MEANS; k++) {
+        OZ_TRY(ring_create(&(*series)->mean[k], 2 * samples));
+    }
     (*series)->file = fopen(path, "w");
     if (!(*series)->file) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
@@ -111,12 +113,11 @@ done:
 
 void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot)
 {
-    double value = 0;
-    if (oz_measure_density(&series->measure, snapshot, &value)) {
-        ring_add(&series->density, value);
-    }
-    if (oz_measure_angle(snapshot, &value)) {
-        ring_add(&series->angle, value);
+    OzTapSample sample = oz_observables_sample(&series->measure, snapshot);
+    for (int k = 0; k < OZ_TAP_MEANS; k++) {
+        if (sample.present[k]) {
+            ring_add(&series->mean[k], sample.value[k]);
+        }
     }
 }
 
@@ -125,8 +126,9 @@ static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
     OzObservation observation = {
         .measure = &series->measure, .snapshot = snapshot, .flow = &series->flow};
     oz_measure_layers(&series->measure, snapshot, observation.layers);
-    observation.has_density_mean = ring_mean(&series->density, &observation.density_mean);
-    observation.has_angle_mean = ring_mean(&series->angle, &observation.angle_mean);
+    for (int k = 0; k < OZ_TAP_MEANS; k++) {
+        observation.has_mean[k] = ring_mean(&series->mean[k], &observation.mean[k]);
+    }
     observation.has_start = series->has_start;
     observation.energy_start = series->energy_start;
     return observation;
@@ -185,8 +187,9 @@ OzStatus oz_series_free(OzSeries *series)
     }
     oz_measure_free(&series->measure);
     oz_flow_free(&series->flow);
-    free(series->density.value);
-    free(series->angle.value);
+    for (int k = 0; k < OZ_TAP_MEANS; k++) {
+        free(series->mean[k].value);
+    }
     free(series->path);
     free(series);
     return status;

@@ -16,8 +16,9 @@ OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *sc
                           const OzGrains *grains);
 
 /* Takes one sample for the tap means (positions, axes and wall offsets of the snapshot are read;
- * called samples_per_tap times a period). Cheap: no contacts needed. The means run over the last
- * two periods, over what there is before that, and are empty before the first sample. */
+ * called samples_per_tap times a period, or once, at the phase of observe.at). Cheap: no contacts
+ * needed. The means run over the last two periods, over what there is before that, and are empty
+ * before the first sample. */
 void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot);
 
 /* Writes one row and flushes. Needs contacts and, with the ledger on, the ledger: their cells are

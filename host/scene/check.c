@@ -88,7 +88,8 @@ static bool check_taps(Checker *checker, const char *path)
     if (checker->scene->period > 0 || !is_written(checker, path)) {
         return true;
     }
-    fault(checker, path, "%s without a moving wall; expected a wall with motion, or seconds", path);
+    fault(checker, path, "%s without a moving wall; expected a wall with motion, or %s", path,
+          strcmp(path, "observe.at") == 0 ? "mean" : "seconds");
     return false;
 }
 
@@ -211,6 +212,23 @@ static void check_run_length(Checker *checker)
     if (is_written(checker, "observe.interval") && scene->observe.interval < scene->step) {
         fault(checker, "observe.interval",
               "observe.interval is shorter than a time step; expected at least %g s", scene->step);
+    }
+}
+
+/* Rows at one phase lie whole periods apart. */
+static void check_phase(Checker *checker)
+{
+    const OzScene *scene = checker->scene;
+    double periods = scene->period > 0 ? scene->observe.interval / scene->period : 1;
+    if (scene->observe.at == OZ_OBSERVE_MEAN || !check_taps(checker, "observe.at")) {
+        return;
+    }
+    if (round(periods) < 1 || fabs(periods - round(periods)) > 1e-6 * periods) {
+        fault(checker, "observe.at",
+              "observe.at with rows %.6g periods apart, which are not all at one phase; expected a "
+              "whole "
+              "observe.interval_taps",
+              periods);
     }
 }
 
@@ -418,6 +436,7 @@ OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
     OzStatus status = derive_snapshots(&checker);
     check_grain_count(&checker);
     check_run_length(&checker);
+    check_phase(&checker);
     check_movie(&checker);
     if (scene->model == OZ_MODEL_TRIGRAINS) {
         oz_check_flat_scene(scene, root, faults);

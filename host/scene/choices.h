@@ -70,6 +70,8 @@ static const char *const FORCE_POINTS[] = {
     [OZ_FORCE_CENTROID] = "centroid", [OZ_FORCE_MIDPOINT] = "midpoint", NULL};
 static const char *const DAMPING_SHEARS[] = {
     [OZ_SHEAR_NONE] = "none", [OZ_SHEAR_BALANCED] = "balanced", NULL};
+static const char *const OBSERVE_AT[] = {
+    [OZ_OBSERVE_MEAN] = "mean", [OZ_OBSERVE_TOP] = "top", [OZ_OBSERVE_BOTTOM] = "bottom", NULL};
 static const char *const FLAT_VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", NULL};
 static const char *const VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", [OZ_VIEW_CUT] = "cut", NULL};
 static const char *const COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",

@@ -351,6 +351,9 @@ static const OzKey KEYS[] = {
      .help = "the same in periods of the first moving wall"},
     {"observe.samples_per_tap", INTEGER(1, 1e4), AT(observe.samples_per_tap), .reload = APPLY,
      DEFAULT("16"), .help = "of the means over taps"},
+    {"observe.at", CHOICE(OBSERVE_AT), AT(observe.at), .reload = APPLY, DEFAULT("mean"),
+     .help = "top, bottom: rows and tap means only where the first moving wall is highest, lowest; "
+             "mean: means over all its phases"},
     {"observe.layer_thickness", NUMBER(1e-9, 1e6, "m"), AT(observe.layer_thickness),
      .reload = APPLY, DEFAULT("0.004"), SOLID, .help = "of the layers counted from the floor"},
     {"observe.ledger", OF(BOOL), AT(observe.ledger), .reload = REBUILD, DEFAULT("false"),

@@ -174,10 +174,18 @@ typedef struct OzGuards {
     double overlap_stop; /* a deeper contact ends the run                      */
 } OzGuards;
 
+/* Phases of the first moving wall, whose offset is A sin(2 pi f t). */
+typedef enum OzObserveAt {
+    OZ_OBSERVE_MEAN,  /* tap means run over all phases; rows begin at time 0                   */
+    OZ_OBSERVE_TOP,   /* offset A, a quarter of a period after 0: rows and tap means           */
+    OZ_OBSERVE_BOTTOM /* offset -A, three quarters                                             */
+} OzObserveAt;
+
 typedef struct OzObserve {
     double interval;        /* s between rows of series.csv; interval_taps x period is put here */
     double interval_taps;   /* as written; 0: interval was, or neither                         */
-    int64_t samples_per_tap; /* for the tap means                                          */
+    int64_t samples_per_tap; /* for the tap means over all phases                          */
+    OzObserveAt at;         /* when rows are written, and of which phase tap means are     */
     double layer_thickness; /* m; default 4e-3                                             */
     bool ledger;            /* energy columns                                              */
     double outlet;          /* m, trigrains: grains below this height have flowed out      */
