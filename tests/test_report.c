@@ -313,6 +313,46 @@ static void test_ensemble_of_a_tiny_bed(void **state)
     assert_int_equal(0, system(command));
 }
 
+/* Four planes instead of a cylinder: there is no density, and everything else is told all the same.
+ */
+static void test_ensemble_without_a_density(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/orzo_test_report_XXXXXX", command[1024], path[128];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/box.yaml", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "model: rods\ntime: {step: 2e-5, taps: 2}\n"
+                  "contact: {contact_time: 6e-4, restitution: 0.4, friction: 0.1}\n"
+                  "grains:\n  - {kind: random, count: 12, diameter: 0.5e-3, aspect: 2}\n"
+                  "walls:\n  - {kind: plane, motion: {frequency: 30, acceleration_ratio: 2}}\n"
+                  "  - {kind: plane, point: [-1.5e-3, 0, 0], normal: [1, 0, 0]}\n"
+                  "  - {kind: plane, point: [1.5e-3, 0, 0], normal: [-1, 0, 0]}\n"
+                  "  - {kind: plane, point: [0, -1.5e-3, 0], normal: [0, 1, 0]}\n"
+                  "  - {kind: plane, point: [0, 1.5e-3, 0], normal: [0, -1, 0]}\n"
+                  "settle: {drag: 70, rest_time: 0.02}\n");
+    fclose(file);
+    snprintf(command, sizeof command,
+             "'%s' report --ensemble %s --quick --seeds 1..2 --set integrator=velocity-verlet "
+             "-o %s/out >%s/said 2>&1",
+             ORZO_PROGRAM, path, folder, folder);
+    assert_int_equal(0, system(command));
+    snprintf(path, sizeof path, "%s/said", folder);
+    assert_int_equal(1,
+                     count_lines(path, "density is left out: this scene has no density_tap_mean"));
+    assert_int_equal(0, count_lines(path, "angle is left out"));
+    snprintf(path, sizeof path, "%s/out/ensemble.csv", folder);
+    assert_int_equal(3, count_lines(path, ","));
+    assert_int_equal(0, count_lines(path, "density"));
+    assert_int_equal(1,
+                     count_lines(path, ",angle_mean,angle_spread,angle_ci95,contacts_per_grain"));
+    assert_int_equal(0, count_lines(path, ",,"));
+    assert_int_equal(0, count_lines(path, "nan"));
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    assert_int_equal(0, system(command));
+}
+
 /* Means over the later half: rows of tap 2 and later. */
 static void test_a_member_counts_its_later_half(void **state)
 {
@@ -384,6 +424,7 @@ int main(void)
         cmocka_unit_test(test_an_end_is_stiffer_than_a_centre),
         cmocka_unit_test(test_check_and_run_warn_of_the_bed),
         cmocka_unit_test(test_ensemble_of_a_tiny_bed),
+        cmocka_unit_test(test_ensemble_without_a_density),
         cmocka_unit_test(test_a_member_counts_its_later_half),
         cmocka_unit_test(test_the_map_meets_theory),
     };

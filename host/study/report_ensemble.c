@@ -23,7 +23,7 @@ enum {
     TAPS = 20,
     TAPS_QUICK = 2,
     SEEDS = 4,
-    OWN_SETTINGS = 5,
+    OWN_SETTINGS = 6,
     SETTING_SIZE = 64,
     PATH_SIZE = 1024
 };
@@ -72,8 +72,9 @@ static OzStatus choose(Setting *setting, const OzOptions *options, const char *f
     set_number(setting, 1, "time.step", contact_time / point->steps);
     set(setting, 2, "observe.ledger", "true");
     set_number(setting, 3, "observe.interval_taps", 0.25);
+    set(setting, 4, "observe.at", "mean"); /* rows lie closer than a period */
     if (!is_set(options, "time.taps")) {
-        set_number(setting, 4, "time.taps", options->quick ? TAPS_QUICK : TAPS);
+        set_number(setting, 5, "time.taps", options->quick ? TAPS_QUICK : TAPS);
     }
     snprintf(setting->folder, PATH_SIZE, "%s/%s_%d", folder, integrator, point->steps);
     setting->options.out = setting->folder;

@@ -27,47 +27,105 @@ OzEnsembleMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point,
     return m;
 }
 
+bool oz_report_ensemble_table_has(const OzEnsemblePoint *points, int count, int quantity)
+{
+    for (int i = 0; i < count; i++) {
+        for (int m = 0; m < points[i].members; m++) {
+            if (isfinite(points[i].value[quantity][m])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* Which quantities a table shows. */
+typedef struct Shown {
+    bool shown[OZ_MEMBER_QUANTITIES];
+} Shown;
+
+/* All, where no member reached the end: nothing is known of the scene then. */
+static Shown choose_shown(const OzEnsemblePoint *points, int count)
+{
+    Shown shown;
+    bool any = false;
+    for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
+        shown.shown[q] = oz_report_ensemble_table_has(points, count, q);
+        any |= shown.shown[q];
+    }
+    for (int q = 0; q < OZ_MEMBER_QUANTITIES && !any; q++) {
+        shown.shown[q] = true;
+    }
+    return shown;
+}
+
 static const char *name_of(const OzEnsemblePoint *point)
 {
     return oz_keys_choice_name("integrator", (int)point->integrator);
 }
 
+static void print_cell(FILE *file, OzEnsembleMoments m)
+{
+    if (isfinite(m.mean)) {
+        fprintf(file, "  %8.4g +- %-12.2g", m.mean, m.interval);
+    } else {
+        fprintf(file, "  %8s    %-12s", "-", "");
+    }
+}
+
+static void say_left_out(FILE *file, Shown shown)
+{
+    for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
+        if (!shown.shown[q]) {
+            fprintf(file, "%s is left out: this scene has no %s\n",
+                    oz_report_member_quantities[q].name, oz_report_member_quantities[q].column);
+        }
+    }
+}
+
 void oz_report_ensemble_table_print(FILE *file, const OzEnsemblePoint *points, int count)
 {
+    Shown shown = choose_shown(points, count);
     fprintf(file, "%-17s %5s %5s %7s", "mean +- 95 %", "steps", "seeds", "wall, s");
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
-        fprintf(file, "  %-24s", oz_report_member_quantities[q].name);
+        if (shown.shown[q]) {
+            fprintf(file, "  %-24s", oz_report_member_quantities[q].name);
+        }
     }
     fprintf(file, "\n");
     for (int i = 0; i < count; i++) {
         const OzEnsemblePoint *p = &points[i];
         fprintf(file, "%-17s %5d %5d %7.1f", name_of(p), p->steps, p->members, p->seconds);
         for (int q = 0; q < OZ_MEMBER_QUANTITIES && p->members > 0; q++) {
-            OzEnsembleMoments m = oz_report_ensemble_table_moments(p, q);
-            fprintf(file, "  %8.4g +- %-12.2g", m.mean, m.interval);
+            if (shown.shown[q]) {
+                print_cell(file, oz_report_ensemble_table_moments(p, q));
+            }
         }
         fprintf(file, "%s%s\n", p->reason[0] ? "  " : "", p->reason);
     }
+    say_left_out(file, shown);
 }
 
-static void write_header(FILE *file)
+static void write_header(FILE *file, Shown shown)
 {
     fprintf(file, "integrator,steps_per_contact,members,wall_seconds");
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
         const char *name = oz_report_member_quantities[q].name;
-        fprintf(file, ",%s_mean,%s_spread,%s_ci95", name, name, name);
+        if (shown.shown[q]) {
+            fprintf(file, ",%s_mean,%s_spread,%s_ci95", name, name, name);
+        }
     }
     fprintf(file, ",reason\n");
 }
 
-static void write_row(FILE *file, const OzEnsemblePoint *p)
+static void write_row(FILE *file, const OzEnsemblePoint *p, Shown shown)
 {
     fprintf(file, "%s,%d,%d,%.6g", name_of(p), p->steps, p->members, p->seconds);
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
         OzEnsembleMoments m = oz_report_ensemble_table_moments(p, q);
-        if (p->members > 1) {
+        if (shown.shown[q] && p->members > 1 && isfinite(m.mean)) {
             fprintf(file, ",%.9g,%.6g,%.6g", m.mean, m.spread, m.interval);
-        } else {
+        } else if (shown.shown[q]) {
             fprintf(file, ",,,");
         }
     }
@@ -83,7 +141,7 @@ static void send_curves(FILE *gnuplot, const OzEnsemblePoint *points, int count,
                     (int)points[i].integrator);
         }
         OzEnsembleMoments m = oz_report_ensemble_table_moments(&points[i], quantity);
-        if (points[i].members > 1) {
+        if (points[i].members > 1 && isfinite(m.mean)) {
             double beside = 1 + 0.02 * ((int)points[i].integrator - 1);
             fprintf(gnuplot, "%.6g %.9g %.6g\n", beside * points[i].steps, m.mean, m.interval);
         }
@@ -118,6 +176,7 @@ static OzStatus draw(const char *folder, const char *title, const OzEnsemblePoin
     if (!gnuplot) {
         return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
     }
+    Shown shown = choose_shown(points, count);
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
         send_curves(gnuplot, points, count, q);
     }
@@ -131,7 +190,9 @@ static OzStatus draw(const char *folder, const char *title, const OzEnsemblePoin
             "set offsets graph 0.05, graph 0.05, graph 0.25, graph 0.05\n",
             folder, title);
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
-        send_panel(gnuplot, points, count, q);
+        if (shown.shown[q]) {
+            send_panel(gnuplot, points, count, q);
+        }
     }
     if (pclose(gnuplot) != 0) {
         return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s/ensemble.png", folder);
@@ -150,9 +211,10 @@ OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
         goto done;
     }
-    write_header(file);
+    Shown shown = choose_shown(points, count);
+    write_header(file, shown);
     for (int i = 0; i < count; i++) {
-        write_row(file, &points[i]);
+        write_row(file, &points[i], shown);
     }
     bool whole = !ferror(file);
     if (fclose(file) != 0 || !whole) {

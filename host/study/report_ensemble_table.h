@@ -23,8 +23,14 @@ typedef struct OzEnsembleMoments {
     double mean, spread, interval;
 } OzEnsembleMoments;
 
+/* Whether any member of any point has a number of this quantity: what a scene has none of is left
+ * out of tables and pictures. */
+bool oz_report_ensemble_table_has(const OzEnsemblePoint *points, int count, int quantity);
+
+/* Not finite where a member has no number. */
 OzEnsembleMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity);
 
+/* Ends with a line about what is left out. */
 void oz_report_ensemble_table_print(FILE *file, const OzEnsemblePoint *points, int count);
 
 /* Writes folder/ensemble.csv and, where there is gnuplot, folder/ensemble.png. */

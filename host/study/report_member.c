@@ -106,11 +106,6 @@ OzStatus oz_report_member_read(double values[OZ_MEMBER_QUANTITIES], const char *
         int column = column_of(text, quantity->column);
         values[q] = tap < 0 || column < 0 ? NAN : value_of(text, tap, column, quantity->per_tap);
         values[q] /= quantity->unit_of ? quantity->unit_of(scene, grains) : 1;
-        if (!isfinite(values[q])) {
-            status = oz_status_fail(OZ_ERR_FILE, "%s: no %s in the later half of the taps", path,
-                                    quantity->column);
-            goto done;
-        }
     }
 done:
     free(text);

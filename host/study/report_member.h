@@ -17,8 +17,9 @@ enum { OZ_MEMBER_QUANTITIES = 4 };
 /* THE list: density, angle, contacts of a grain, energy that walls put in during a tap. */
 extern const OzMemberQuantity oz_report_member_quantities[OZ_MEMBER_QUANTITIES];
 
-/* Fills values (in the list's order) from the rows whose tap is at least half of the last one's.
- * Fails with OZ_ERR_FILE when a column is not there or a number is missing. */
+/* Fills values (in the list's order) from the rows whose tap is at least half of the last one's;
+ * NAN where the scene has no such column, or no number in one of those rows. Fails with OZ_ERR_FILE
+ * when the file cannot be read. */
 OzStatus oz_report_member_read(double values[OZ_MEMBER_QUANTITIES], const char *path,
                                const OzScene *scene, const OzGrains *grains);
 
