@@ -10,13 +10,14 @@ void main()
 #endif
 
 #ifdef OZ_FRAGMENT
-const int PAIRS = 6;
+const int PAIRS_MOST = 64;
 
 uniform sampler2DMS colours;
 uniform sampler2DMS depths;
 uniform int sample_count;
 uniform int rows;
-uniform vec2 taps[PAIRS]; /* pixels; the other of a pair lies opposite */
+uniform int pairs;
+uniform vec2 taps[PAIRS_MOST]; /* pixels; the other of a pair lies opposite */
 uniform vec4 mood;        /* 1/depth at which a pair darkens fully; darkening; fade */
 uniform vec4 retreat;     /* by depth, by row, constant: how far behind the middle, 0 to 1 */
 uniform vec4 background;
@@ -34,14 +35,14 @@ float depth_at(ivec2 place)
 float crowding(ivec2 place, float depth)
 {
     float sum = 0.0;
-    int count = depth > 0.0 ? PAIRS : 0; /* a loop is left early where an if is not */
+    int count = depth > 0.0 ? pairs : 0; /* a loop is left early where an if is not */
     for (int i = 0; i < count; i++) {
         ivec2 tap = ivec2(taps[i]);
         float one = depth_at(place + tap), other = depth_at(place - tap);
         float nearer = max(one, other) < 1.0 ? 2.0 * depth - one - other : 0.0;
         sum += clamp(nearer * mood.x, 0.0, 1.0);
     }
-    return sum / float(PAIRS);
+    return sum / float(pairs);
 }
 
 void main()

@@ -171,6 +171,31 @@ static void depth_is_exact_within_a_pixel(void **state)
     bed_free(&bed);
 }
 
+/* What the cut takes away whole leaves its outline and nothing within. */
+static void outline_of_a_grain_before_the_cut_is_a_ring(void **state)
+{
+    (void)state;
+    OzLook look = plain_look(OZ_VIEW_CUT);
+    look.cut_outlines = true;
+    Bed bed;
+    bed_create(&bed, 1, 2e-3, 0);
+    place(&bed, 0, 0, -1.2e-3, 2e-3, along_z);
+    OzImage image = draw(&bed, &look);
+    /* Half the grain's distance from the eye nearer than the plane through the middle. */
+    double eye = eye_distance(&look), scale = pixels_per_metre(&look) * eye / (eye - 1.2e-3);
+    double radius = scale * disc_from(eye - 1.2e-3, 1e-3);
+    double width = 0.11 * 1e-3 * pixels_per_metre(&look);
+    double ring = PI * (radius * radius - (radius - width) * (radius - width));
+    assert_near(count_drawn(&image), ring, 4 * PI * radius); /* a pixel at both of its edges */
+    assert_int_equal(pixel(&image, 300, 300)[0], 255);
+    const uint8_t *rim = pixel(&image, 300 + (int)(radius - 0.5 * width), 300);
+    assert_true(rim[2] > rim[0] && rim[0] > 60); /* faint, in the hue of its type */
+    oz_image_free(&image);
+    look.cut_outlines = false;
+    assert_int_equal(drawn_by_one(look, -1.2e-3, 2e-3, 0, along_z), 0);
+    bed_free(&bed);
+}
+
 static int end(void **state)
 {
     (void)state;
@@ -188,6 +213,7 @@ int main(void)
         cmocka_unit_test(grain_before_the_cut_shows_its_section_alone),
         cmocka_unit_test(upright_cut_through_a_rod_is_a_disc),
         cmocka_unit_test(section_is_flat_in_the_colour_of_its_grain),
+        cmocka_unit_test(outline_of_a_grain_before_the_cut_is_a_ring),
         cmocka_unit_test(nearer_rod_hides_the_other),
         cmocka_unit_test(depth_is_exact_within_a_pixel),
     };

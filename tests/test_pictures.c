@@ -87,6 +87,135 @@ static void container_is_drawn_without_grains_and_its_floor_moves(void **state)
     assert_int_equal(drawn_by_one(plain_look(OZ_VIEW_CUT), -1, 1e-3, 0, along_z), 0);
 }
 
+/* Pixels of a column, from the top down to the row, that are not the background. */
+static int drawn_above(const OzImage *image, int column, int row)
+{
+    int count = 0;
+    for (int y = 0; y < row; y++) {
+        count += !same_colour(pixel(image, column, y), pixel(image, image->width - 1, 0), 1);
+    }
+    return count;
+}
+
+/* The glass ends at the framed height while all grains lie below, above one that jumps higher, and
+ * with the picture where that has left it. */
+static void walls_follow_a_grain_that_jumps(void **state)
+{
+    (void)state;
+    const double heights[] = {1.5e-3, 9e-3, 1e3};
+    Bed bed;
+    bed_create(&bed, 2, 1e-3, 0);
+    place(&bed, 0, 0, 0, 1.5e-3, along_z);
+    place(&bed, 1, 0, 0, 1.5e-3, along_z);
+    OzLook look = oz_renderer_look(&bed.scene, &bed.snapshot);
+    look.width = 600;
+    look.height = 1200;
+    look.view_count = 1;
+    look.height_high = 5e-3; /* as of a flat bed: half the picture is left above */
+    look.elevation = 0;
+    OzCamera camera = oz_camera_make(&look);
+    double scale = camera.scale / camera.unit, middle = camera.centre[2];
+    int side = (int)lround(camera.panels[0].middle_x + scale * 4e-3); /* the glass's edge */
+    int framed = (int)(camera.panels[0].middle_y - scale * (look.height_high - middle));
+    for (int i = 0; i < 3; i++) {
+        bed.snapshot.position[5] = heights[i];
+        OzImage image = draw(&bed, &look);
+        int top = (int)(camera.panels[0].middle_y - scale * (heights[i] + 0.5e-3 - middle));
+        int expected = i == 0 ? 0 : framed - (top > 0 ? top : 0);
+        /* The line is three pixels wide and a hundredth of the height above the grain. */
+        assert_near(drawn_above(&image, side, framed - 3), expected, 12);
+        oz_image_free(&image);
+    }
+    bed_free(&bed);
+}
+
+static OzImage titled(const char *title)
+{
+    Bed bed;
+    bed_create(&bed, 0, 0.5e-3, 0);
+    bed.scene.title = (char *)(size_t)title;
+    OzLook look = oz_renderer_look(&bed.scene, &bed.snapshot);
+    look.width = 640;
+    look.height = 480;
+    OzImage image = draw(&bed, &look);
+    bed_free(&bed);
+    return image;
+}
+
+/* Rows of the first line that hold ink; *right is the last column that does. */
+static int ink_rows(const OzImage *image, int *right)
+{
+    int rows = 0;
+    *right = 0;
+    for (int y = 0; y < 28; y++) { /* a margin of 11 and a line of 14 */
+        int found = -1;
+        for (int x = 0; x < image->width; x++) {
+            found = pixel(image, x, y)[0] < 128 ? x : found;
+        }
+        rows += found >= 0;
+        *right = found > *right ? found : *right;
+    }
+    return rows;
+}
+
+static void long_title_is_shortened_and_stays_readable(void **state)
+{
+    (void)state;
+    char title[3000], cut[3000];
+    int width, other, same = 0;
+    memset(title, 'H', sizeof title - 1);
+    title[sizeof title - 1] = '\0';
+    memcpy(cut, title, sizeof cut);
+    for (int i = 400; i < 2999; i += 2) { /* two bytes a letter: never cut in the middle */
+        memcpy(cut + i, "\xc3\x84", 2);
+    }
+    cut[2998] = '\0';
+    OzImage plain = titled("HHH"), longer = titled(title), mixed = titled(cut);
+    int rows = ink_rows(&plain, &width);
+    /* Letters shrink to 0.8 at most, and rounding takes a row. */
+    assert_true(ink_rows(&longer, &other) >= 0.8 * rows - 1);
+    assert_true(rows >= 8 && other > 600 && other < 640 - 10); /* within the margins */
+    for (int i = 0; i < 640 * 28; i++) {
+        same += same_colour(longer.pixels + 4 * (size_t)i, mixed.pixels + 4 * (size_t)i, 0);
+    }
+    assert_int_equal(same, 640 * 28); /* the same beginning */
+    oz_image_free(&plain);
+    oz_image_free(&longer);
+    oz_image_free(&mixed);
+}
+
+/* Down from a rod that hovers over the floor of a large picture: its shadow fades without a step
+ * that the eye takes for an edge. Of n pairs of neighbours each darkens the floor by 0.6 / n of its
+ * 200 levels where it leaves the rod: six make steps of 20 and, two in a row, of 40; 54 of 2.2, of
+ * which a few may fall into one row. */
+static void shadows_have_no_hard_edges(void **state)
+{
+    (void)state;
+    Bed bed;
+    bed_create(&bed, 1, 2e-3, 3e-3);
+    place(&bed, 0, 0, 0, 3.5e-3, along_x);
+    OzLook look = oz_renderer_look(&bed.scene, &bed.snapshot);
+    look.width = 2400;
+    look.height = 1800;
+    look.view_count = 1;
+    look.elevation = 0.8;
+    OzCamera camera = oz_camera_make(&look);
+    double scale = camera.scale / camera.unit;
+    double lowest = (3.5e-3 - camera.centre[2]) * cos(look.elevation) - 1e-3; /* of the rod */
+    int column = (int)camera.panels[0].middle_x, step = 0, darkest = 255;
+    int first = (int)(camera.panels[0].middle_y - scale * lowest) + 10; /* past its own outline */
+    OzImage image = draw(&bed, &look);
+    for (int y = first; y < first + 100; y++) {
+        int here = pixel(&image, column, y)[1], next = pixel(&image, column, y + 1)[1];
+        step = abs(here - next) > step ? abs(here - next) : step;
+        darkest = here < darkest ? here : darkest;
+    }
+    assert_true(darkest < 200); /* there is a shadow */
+    assert_in_range(step, 0, 12);
+    oz_image_free(&image);
+    bed_free(&bed);
+}
+
 static void look_frames_the_bed_and_its_walls(void **state)
 {
     (void)state;
@@ -179,6 +308,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(colours_tell_direction_and_speed),
         cmocka_unit_test(every_shape_of_picture_is_drawn),
         cmocka_unit_test(container_is_drawn_without_grains_and_its_floor_moves),
+        cmocka_unit_test(walls_follow_a_grain_that_jumps),
+        cmocka_unit_test(long_title_is_shortened_and_stays_readable),
+        cmocka_unit_test(shadows_have_no_hard_edges),
         cmocka_unit_test(look_frames_the_bed_and_its_walls),
         cmocka_unit_test(impossible_sizes_are_refused),
         cmocka_unit_test(png_gives_the_pixels_back),

@@ -35,6 +35,7 @@ OzStatus oz_capsules_create(OzCapsules *capsules, const OzGl *gl, const char *so
     capsules->gl = gl;
     OZ_TRY(oz_gl_program(gl, &capsules->whole, source_dir, "rods", ""));
     OZ_TRY(oz_gl_program(gl, &capsules->sliced, source_dir, "rods", "#define OZ_SLICED\n"));
+    OZ_TRY(oz_gl_program(gl, &capsules->outlined, source_dir, "rods", "#define OZ_OUTLINED\n"));
     gl->GenVertexArrays(1, &capsules->vertices);
     gl->BindVertexArray(capsules->vertices);
     gl->GenBuffers(1, &capsules->buffer);
@@ -50,6 +51,7 @@ void oz_capsules_free(OzCapsules *capsules)
     if (capsules->gl) {
         capsules->gl->DeleteProgram(capsules->whole);
         capsules->gl->DeleteProgram(capsules->sliced);
+        capsules->gl->DeleteProgram(capsules->outlined);
         capsules->gl->DeleteBuffers(1, &capsules->buffer);
         capsules->gl->DeleteVertexArrays(1, &capsules->vertices);
     }
@@ -166,6 +168,21 @@ static void draw_range(const OzCapsules *capsules, GLuint program, int64_t first
     gl->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)(end - first));
 }
 
+/* Over what is there, whose depth they leave alone. */
+static void draw_outlines(const OzCapsules *capsules, const OzLook *look, const OzCamera *camera,
+                          const float lens[2])
+{
+    const OzGl *gl = capsules->gl;
+    gl->DepthMask(GL_FALSE);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_range(capsules, capsules->outlined, capsules->behind, capsules->count, look, camera, lens);
+    gl->Disable(GL_BLEND);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthMask(GL_TRUE);
+}
+
 void oz_capsules_draw(const OzCapsules *capsules, OzView view, const OzLook *look,
                       const OzCamera *camera, double viewport_width, double viewport_height)
 {
@@ -175,6 +192,9 @@ void oz_capsules_draw(const OzCapsules *capsules, OzView view, const OzLook *loo
         draw_range(capsules, capsules->sliced, 0, capsules->crossing, look, camera, lens);
         draw_range(capsules, capsules->whole, capsules->crossing, capsules->behind, look, camera,
                    lens);
+        if (look->cut_outlines) {
+            draw_outlines(capsules, look, camera, lens);
+        }
     } else {
         draw_range(capsules, capsules->whole, 0, capsules->count, look, camera, lens);
     }

@@ -9,6 +9,7 @@
 typedef struct OzCapsules {
     const OzGl *gl;       /* borrowed                                              */
     GLuint whole, sliced; /* programs: capsules as they are, and cut by the plane  */
+    GLuint outlined;      /* program: their outlines alone                         */
     GLuint vertices, buffer;
     GLfloat samples[8]; /* pixels: where the samples of a pixel lie, about its middle */
     int64_t crossing, behind, count; /* records up to `crossing` meet the cut plane, up to `behind`
@@ -27,7 +28,8 @@ OzStatus oz_capsules_upload(OzCapsules *capsules, const OzSnapshot *snapshot, co
 /* Takes the samples' places from the framebuffer that is bound now. */
 void oz_capsules_find_samples(OzCapsules *capsules, int sample_count);
 
-/* Draws them into the current viewport of the given width and height, pixels. */
+/* Draws them into the current viewport of the given width and height, pixels; in the cut view with
+ * the outlines of those before the plane, over the others, if the look has cut_outlines. */
 void oz_capsules_draw(const OzCapsules *capsules, OzView view, const OzLook *look,
                       const OzCamera *camera, double viewport_width, double viewport_height);
 

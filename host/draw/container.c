@@ -1,6 +1,8 @@
 /* Meshes of the container's walls. Knows no grains. */
 #include "draw/container.h"
 
+#include "draw/framing.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -25,6 +27,7 @@ typedef struct Scope {
     const OzCamera *camera;
     OzView view;
     double radius; /* m, of the narrowest cylinder; 0 without one */
+    double top;    /* m: the walls are drawn up to here           */
 } Scope;
 
 typedef struct Polygon {
@@ -122,7 +125,7 @@ static void add_glass(OzMesh *mesh, const Scope *scope, double from, bool front)
         float rgba[2][4];
         glass_colour(angles[0], front, rgba[0]);
         glass_colour(angles[1], front, rgba[1]);
-        add_band(mesh, scope, angles, scope->look->height_low, scope->look->height_high, rgba);
+        add_band(mesh, scope, angles, scope->look->height_low, scope->top, rgba);
     }
 }
 
@@ -165,7 +168,7 @@ static void add_piston(OzContainer *container, const Scope *scope, double z)
 
 static void add_cylinder(OzContainer *container, const Scope *scope)
 {
-    double low = scope->look->height_low, high = scope->look->height_high;
+    double low = scope->look->height_low, high = scope->top;
     bool cut = scope->view == OZ_VIEW_CUT;
     add_glass(&container->behind, scope, 0, false);
     add_arc(&container->behind, scope, low, 0, PI, FAINT);
@@ -260,9 +263,9 @@ static void clip_to_scene(Polygon *polygon, const Scope *scope, int row)
     const OzLook *look = scope->look;
     const OzScene *scene = scope->snapshot->scene;
     for (int side = -1; side <= 1; side += 2) {
-        double point[3] = {
-            look->centre[0] - side * look->half_width, look->centre[1] - side * look->half_width,
-            side > 0 ? look->height_low - 0.02 * scope->camera->unit : look->height_high};
+        double point[3] = {look->centre[0] - side * look->half_width,
+                           look->centre[1] - side * look->half_width,
+                           side > 0 ? look->height_low - 0.02 * scope->camera->unit : scope->top};
         clip(polygon, point, (const double[3]){side, 0, 0});
         clip(polygon, point, (const double[3]){0, side, 0});
         clip(polygon, point, (const double[3]){0, 0, side});
@@ -341,10 +344,27 @@ static double narrowest_radius(const OzScene *scene)
     return radius;
 }
 
+/* Where its highest corner is seen, view coordinates. */
+static double highest(const OzMesh *mesh, const OzCamera *camera)
+{
+    double high = 0;
+    for (size_t i = 0; i < mesh->count; i++) {
+        const float *place = mesh->corners[i].place;
+        double gap = fmax(camera->distance - (double)place[2], 0.1 * camera->distance);
+        high = fmax(high, (double)place[1] * camera->distance / gap);
+    }
+    return high;
+}
+
 OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, const OzLook *look,
                             const OzCamera *camera, OzView view)
 {
-    Scope scope = {snapshot, look, camera, view, narrowest_radius(snapshot->scene)};
+    Scope scope = {.snapshot = snapshot,
+                   .look = look,
+                   .camera = camera,
+                   .view = view,
+                   .radius = narrowest_radius(snapshot->scene),
+                   .top = oz_framing_top(look, camera, snapshot)};
     OzMesh *meshes[3] = {&container->floors, &container->behind, &container->before};
     OzStatus status = OZ_OK;
     for (int i = 0; i < 3; i++) {
@@ -358,8 +378,10 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
     if (scope.radius > 0) {
         add_cylinder(container, &scope);
     }
+    container->high = 0;
     for (int i = 0; i < 3 && status == OZ_OK; i++) {
         status = meshes[i]->status;
+        container->high = fmax(container->high, highest(meshes[i], camera));
     }
     return status;
 }

@@ -13,13 +13,15 @@ typedef struct OzContainer {
     OzMesh floors; /* opaque, behind the grains, with depth */
     OzMesh behind; /* glass and lines behind the grains     */
     OzMesh before; /* glass and lines in front of them      */
+    double high;   /* view coordinate y up to which they are seen */
 } OzContainer;
 
 /* Needs a current context; container is zeroed or filled, ready for oz_container_free. */
 OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char *source_dir);
 void oz_container_free(OzContainer *container);
 
-/* Makes the meshes of the snapshot's walls where they are now, for this view. */
+/* Makes the meshes of the snapshot's walls where they are now, for this view; they end above the
+ * highest grain, or where the picture does. */
 OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, const OzLook *look,
                             const OzCamera *camera, OzView view);
 

@@ -95,16 +95,37 @@ static FT_Face face_of_size(const OzFont *font, OzWeight weight, double size)
     return face;
 }
 
+/* The width of the next character, pixels; *text moves on to the one after. */
+static double advance_over(FT_Face face, const char **text)
+{
+    FT_ULong character = next_character(text);
+    return FT_Load_Char(face, character, FT_LOAD_NO_HINTING) == 0
+               ? (double)face->glyph->linearHoriAdvance / 65536
+               : 0;
+}
+
 double oz_font_width(const OzFont *font, OzWeight weight, double size, const char *text)
 {
     FT_Face face = face_of_size(font, weight, size);
     double width = 0;
     while (face && *text) {
-        if (FT_Load_Char(face, next_character(&text), FT_LOAD_NO_HINTING) == 0) {
-            width += (double)face->glyph->linearHoriAdvance / 65536;
-        }
+        width += advance_over(face, &text);
     }
     return width;
+}
+
+size_t oz_font_fit(const OzFont *font, OzWeight weight, double size, const char *text, double width)
+{
+    FT_Face face = face_of_size(font, weight, size);
+    const char *end = text, *next = text;
+    while (face && *next) {
+        width -= advance_over(face, &next);
+        if (width < 0) {
+            break;
+        }
+        end = next;
+    }
+    return (size_t)(end - text);
 }
 
 static void blend(OzImage *image, int x, int y, const float rgb[3], double share)

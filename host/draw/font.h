@@ -22,6 +22,10 @@ void oz_font_close(OzFont *font); /* zeroed is fine */
 /* Width of a UTF-8 text in pixels; size is pixels per em. */
 double oz_font_width(const OzFont *font, OzWeight weight, double size, const char *text);
 
+/* Bytes of the longest beginning of the text, whole characters, that is no wider than width. */
+size_t oz_font_fit(const OzFont *font, OzWeight weight, double size, const char *text,
+                   double width);
+
 /* Draws the text from x on, with its baseline at y (pixels from the top left); what falls outside
  * the image is left out. */
 void oz_font_draw(const OzFont *font, OzImage *image, OzWeight weight, double size, double x,

@@ -108,6 +108,21 @@ static void widen(Room *room, const OzScene *scene)
     room->high[2] += fmax(0.08 * height, fmin(bounce(scene), 0.6 * height));
 }
 
+double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapshot *snapshot)
+{
+    double height = look->height_high - look->height_low, top = look->height_high - 0.01 * height;
+    /* The picture's upper edge, where the back of a wall is seen lowest, and a little more. */
+    double rise = sin(look->elevation) * look->half_width +
+                  camera->panels[0].middle_y / camera->scale * camera->unit;
+    double most = camera->centre[2] + 1.1 * rise / fmax(cos(look->elevation), 0.1);
+    for (int64_t i = 0; i < snapshot->count; i++) {
+        double reach = 0.5 * (snapshot->grains->diameter[i] +
+                              snapshot->grains->length[i] * fabs(snapshot->axis[3 * i + 2]));
+        top = fmax(top, snapshot->position[3 * i + 2] + reach);
+    }
+    return fmax(fmin(top + 0.01 * height, most), look->height_high);
+}
+
 /* The scale of speed: what a moving floor gives, else what a fall through the bed gives, else what
  * there is. */
 static double typical_speed(const OzScene *scene, const OzSnapshot *snapshot, double height)
@@ -138,6 +153,7 @@ static void take_settings(OzLook *look, const OzMovieSettings *movie)
         look->views[0] = movie->views[0];
         look->views[1] = movie->views[1];
         look->colour = movie->colour;
+        look->cut_outlines = movie->cut_outlines;
     }
 }
 

@@ -2,10 +2,14 @@
 #ifndef OZ_DRAW_FRAMING_H
 #define OZ_DRAW_FRAMING_H
 
-#include "draw/renderer.h"
+#include "draw/camera.h"
 
 /* oz_renderer_look's work. */
 OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot);
+
+/* m: where walls that are open above end in this picture: at the top of what is framed, above the
+ * highest grain where one is higher, and no further than the picture shows. */
+double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapshot *snapshot);
 
 /* The smallest of 1, 2, 5 times a power of ten that is at least x (x > 0). */
 double oz_framing_round_up(double x);

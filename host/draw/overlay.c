@@ -21,15 +21,35 @@ typedef struct Page {
     double size, margin; /* pixels: the text's size, the blank border */
 } Page;
 
-/* place: 0 starts at x, 1 ends there, 0.5 is centred. Long texts shrink to fit the picture. */
-static void write_text(const Page *page, OzWeight weight, double size, double place, double x,
-                       double y, const float rgb[3], const char *text)
+/* The beginning of a text that fits, with an ellipsis; the size stays. */
+static void shorten(const Page *page, OzWeight weight, double size, double most, char *text)
 {
-    double width = oz_font_width(page->font, weight, size, text);
+    static const char ellipsis[] = "\xe2\x80\xa6";
+    double room = most - oz_font_width(page->font, weight, size, ellipsis);
+    size_t kept = oz_font_fit(page->font, weight, size, text, room);
+    while (kept > 0 && text[kept - 1] == ' ') {
+        kept--;
+    }
+    memcpy(text + kept, ellipsis, sizeof ellipsis);
+}
+
+/* place: 0 starts at x, 1 ends there, 0.5 is centred. Texts that are too long for the picture
+ * shrink a little, and where that is not enough lose their end. */
+static void write_text(const Page *page, OzWeight weight, double size, double place, double x,
+                       double y, const float rgb[3], const char *whole)
+{
+    enum { LETTERS = 1024 };     /* more than fit at any size */
+    const double smallest = 0.8; /* of the size */
+    char text[LETTERS + 8];
     double most = page->look->width - 2 * page->margin;
+    snprintf(text, LETTERS, "%s", whole);
+    double width = oz_font_width(page->font, weight, size, text);
     if (width > most) {
-        size *= most / width;
-        width = most;
+        size *= fmax(most / width, smallest);
+        if (most / width < smallest || strlen(whole) >= LETTERS) {
+            shorten(page, weight, size, most, text);
+        }
+        width = oz_font_width(page->font, weight, size, text);
     }
     double left = fmin(x - place * width, page->look->width - page->margin - width);
     oz_font_draw(page->font, page->image, weight, size, fmax(left, page->margin), y, rgb, text);

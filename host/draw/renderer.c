@@ -22,7 +22,8 @@ enum {
     LARGEST_SIDE = 8192,
     SAMPLES = 4,           /* of a pixel: smooth edges for a third more time                   */
     MANY_PIXELS = 1 << 24, /* above this a pixel has one sample: 4 would take gigabytes       */
-    PAIRS = 6              /* of neighbours of a pixel that may darken it; as in compose.glsl  */
+    PAIRS_LEAST = 6,       /* of neighbours of a pixel that may darken it                      */
+    PAIRS_MOST = 64        /* each then darkens by a hundredth  ; as in compose.glsl     */
 };
 
 static const double PI = 3.14159265358979323846;
@@ -296,14 +297,22 @@ static double typical_radius(const OzSnapshot *snapshot, const OzCamera *camera)
     return snapshot->count ? 0.5 * sum / (double)snapshot->count / camera->unit : 1;
 }
 
-/* Half of two rings of neighbours, the outer as wide as a grain. */
-static void place_taps(GLfloat taps[2 * PAIRS], double radius)
+/* Half of two rings of neighbours, the outer as wide as a grain, pixels. Every pair copies the
+ * edges of what stands before a surface onto it: so few are seen as such where they lie far apart,
+ * and there more of them on a spiral, closer together inwards, make the shadow fade out. Returns
+ * their number. */
+static int place_taps(GLfloat taps[2 * PAIRS_MOST], double radius)
 {
-    for (int i = 0; i < PAIRS; i++) {
-        double ring = i % 2 ? 1.0 : 0.5, angle = PI * (i + 0.25) / PAIRS;
+    const double golden = 0.6180339887; /* of half a turn: no two in a line */
+    int count = radius > 12 ? (int)fmin(radius, PAIRS_MOST) : PAIRS_LEAST;
+    for (int i = 0; i < count; i++) {
+        bool few = count == PAIRS_LEAST;
+        double ring = few ? (i % 2 ? 1.0 : 0.5) : 0.2 + (i + 0.5) / count;
+        double angle = PI * (few ? (i + 0.25) / count : i * golden);
         taps[2 * i] = (GLfloat)round(fmax(radius, 2) * ring * cos(angle));
         taps[2 * i + 1] = (GLfloat)round(fmax(radius, 2) * ring * sin(angle));
     }
+    return count;
 }
 
 static void set_mood(const OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
@@ -314,9 +323,10 @@ static void set_mood(const OzRenderer *renderer, const OzSnapshot *snapshot, con
     const float *colour = look->bare ? WHITE : BACKGROUND;
     double radius = typical_radius(snapshot, camera);
     bool plain = look->bare || look->flat;
-    GLfloat taps[2 * PAIRS];
-    place_taps(taps, fmin(radius * camera->scale, 0.03 * look->height));
-    gl->Uniform2fv(gl->GetUniformLocation(program, "taps"), PAIRS, taps);
+    GLfloat taps[2 * PAIRS_MOST];
+    int pairs = place_taps(taps, fmin(radius * camera->scale, 0.03 * look->height));
+    gl->Uniform2fv(gl->GetUniformLocation(program, "taps"), pairs, taps);
+    gl->Uniform1i(gl->GetUniformLocation(program, "pairs"), pairs);
     gl->Uniform4f(gl->GetUniformLocation(program, "mood"),
                   (float)(2 * camera->depth / (1.5 * radius)), plain ? 0 : 0.60f, plain ? 0 : 0.45f,
                   0);
@@ -342,8 +352,10 @@ static OzBox changed_box(const OzRenderer *renderer, const OzLook *look, const O
                          int view)
 {
     const OzCapsules *capsules = &renderer->capsules;
+    const double high[2] = {capsules->high[0],
+                            fmax(capsules->high[1], look->bare ? 0 : renderer->container.high)};
     return look->flat ? (OzBox){0, 0, look->width, look->height}
-                      : oz_camera_box(camera, look, view, capsules->low, capsules->high);
+                      : oz_camera_box(camera, look, view, capsules->low, high);
 }
 
 static OzStatus compose(const OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,

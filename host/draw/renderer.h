@@ -28,6 +28,7 @@ typedef struct OzLook {
     bool bare;            /* grains alone on white: no container, no overlay */
     bool flat;            /* seen straight on in the plane x-y, as trigrains are: height_low and
                            * height_high are of y, views and cut say nothing */
+    bool cut_outlines;    /* the cut view: grains before the plane as faint outlines */
     bool outlines, beams; /* flat: of grains                              */
     double strobe;        /* flat: s between states that are laid over each other, for the caption;
                            * 0 for a single one */

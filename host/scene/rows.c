@@ -378,6 +378,8 @@ static const OzKey KEYS[] = {
      .help = "what a grain's colour shows"},
     {"movie.colour", CHOICE(FLAT_COLOURS), AT(movie.colour), DEFAULT("speed"), FLAT,
      .help = "what a grain's colour shows"},
+    {"movie.cut_outlines", OF(BOOL), AT(movie.cut_outlines), DEFAULT("false"), SOLID,
+     .help = "grains that the cut takes away whole are drawn as faint outlines"},
     {"movie.outlines", OF(BOOL), AT(movie.outlines), DEFAULT("true"), FLAT,
      .help = "grains' outlines are drawn"},
     {"movie.beams", OF(BOOL), AT(movie.beams), DEFAULT("false"), FLAT, .help = "beams are drawn"},

@@ -210,6 +210,7 @@ typedef struct OzMovieSettings {
     OzColour colour;
     double speed;       /* shown seconds per real second of simulated time; 0: length is used */
     double length;      /* s of movie; 0: speed is used                                        */
+    bool cut_outlines;  /* cut view: grains before the plane are drawn as faint outlines      */
     bool outlines;      /* trigrains: grains' outlines are drawn                               */
     bool beams;         /* trigrains: beams are drawn                                          */
 } OzMovieSettings;
