@@ -167,7 +167,7 @@ static void disc_covers_its_area_and_shows_its_turn(void **state)
 static void colours_tell_speed_and_turn(void **state)
 {
     (void)state;
-    static const OzColour colours[] = {OZ_COLOUR_SPEED, OZ_COLOUR_GREY, OZ_COLOUR_ANGLE};
+    static const OzColour colours[] = {OZ_COLOUR_SPEED, OZ_COLOUR_GREY, OZ_COLOUR_TURNED};
     Heap heap;
     OzLook look = plain_look();
     float expected[3][3];
@@ -185,6 +185,63 @@ static void colours_tell_speed_and_turn(void **state)
         assert_true(has_colour(pixel_at(&image, &look, -0.5e-3, -0.2e-3), expected[i]));
         oz_image_free(&image);
     }
+    heap_free(&heap);
+}
+
+/* A rectangle of 3 mm x 1 mm as grain 0, its long side at the angle. */
+static void put_rectangle(Heap *heap, double angle)
+{
+    static const double side[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+    double corner[5][2], c = cos(angle), s = sin(angle);
+    for (int i = 0; i < 5; i++) {
+        double x = 1.5e-3 * side[i][0], y = 0.5e-3 * side[i][1];
+        corner[i][0] = c * x - s * y;
+        corner[i][1] = s * x + c * y;
+    }
+    for (int i = 0; i < 4; i++) {
+        const double corners[6] = {
+            0, 0, corner[i][0], corner[i][1], corner[i + 1][0], corner[i + 1][1]};
+        assert_int_equal(oz_pieces_set_triangle(heap->grains.pieces, i, corners, HEAP_DENSITY),
+                         OZ_OK);
+    }
+}
+
+/* The angle is that of the long side whatever happened since the start, and of half a turn it is
+ * the same; turning is told by the other colour. A square has no long side. */
+static void colour_of_angle_is_the_long_axis(void **state)
+{
+    (void)state;
+    const double starts[] = {0.3, 2.5};
+    Heap heap;
+    OzLook look = plain_look();
+    float axis[3], turned[3];
+    for (int i = 0; i < 4; i++) {
+        double turn = i < 2 ? 0.4 : 0.4 + PI, angle = starts[i % 2] + turn;
+        heap_create(&heap, 1, 0, 0);
+        put_rectangle(&heap, starts[i % 2]);
+        heap_start(&heap);
+        heap_move(&heap, 0, 0, 0, turn);
+        oz_palette_cyclic(fmod(angle, PI) / PI, axis);
+        oz_palette_cyclic(turn / (2 * PI), turned);
+        for (int c = 0; c < 2; c++) {
+            look.colour = c ? OZ_COLOUR_TURNED : OZ_COLOUR_ANGLE;
+            OzImage image = draw(&heap, &look);
+            /* above the middle as it was made: not the darker piece */
+            const uint8_t *seen =
+                pixel_at(&image, &look, -0.3e-3 * sin(angle), 0.3e-3 * cos(angle));
+            assert_true(has_colour(seen, c ? turned : axis));
+            oz_image_free(&image);
+        }
+        heap_free(&heap);
+    }
+    heap_create(&heap, 1, 0, 0);
+    heap_put_square(&heap, 0, 0, 0, 2e-3, 0.3);
+    heap_start(&heap);
+    look.colour = OZ_COLOUR_ANGLE;
+    OzImage image = draw(&heap, &look);
+    const uint8_t *seen = pixel_at(&image, &look, -0.5e-3 * sin(0.3), 0.5e-3 * cos(0.3));
+    assert_true(abs(seen[0] - seen[1]) < 12 && abs(seen[1] - seen[2]) < 12); /* grey */
+    oz_image_free(&image);
     heap_free(&heap);
 }
 
@@ -341,6 +398,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(beams_are_drawn_on_demand),
         cmocka_unit_test(disc_covers_its_area_and_shows_its_turn),
         cmocka_unit_test(colours_tell_speed_and_turn),
+        cmocka_unit_test(colour_of_angle_is_the_long_axis),
         cmocka_unit_test(wall_is_drawn_until_it_is_gone),
         cmocka_unit_test(later_states_are_stronger),
         cmocka_unit_test(gallery_ends_with_the_strobe),

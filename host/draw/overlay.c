@@ -137,15 +137,16 @@ static void add_scale_bar(const Page *page)
                y - thick - 0.55 * page->size, INK, text);
 }
 
-/* Directions of flat grains go all around. */
-static bool is_turn(const OzLook *look)
+/* Directions of flat grains' long axes go half around. */
+static bool is_long_axis(const OzLook *look)
 {
-    return look->flat && (look->colour == OZ_COLOUR_ANGLE || look->colour == OZ_COLOUR_AZIMUTH);
+    return look->flat && look->colour == OZ_COLOUR_ANGLE;
 }
 
 static void bar_colour(const OzLook *look, double share, float rgb[3])
 {
-    if (is_turn(look) || look->colour == OZ_COLOUR_AZIMUTH) {
+    if (is_long_axis(look) || look->colour == OZ_COLOUR_AZIMUTH ||
+        look->colour == OZ_COLOUR_TURNED) {
         oz_palette_cyclic(share, rgb);
     } else if (look->colour == OZ_COLOUR_GREY) {
         oz_palette_grey(share, rgb);
@@ -158,10 +159,13 @@ static void tick_text(const OzLook *look, double share, char *text, size_t size)
 {
     switch (look->colour) {
     case OZ_COLOUR_ANGLE:
-        snprintf(text, size, "%.0f\xc2\xb0", (look->flat ? 360 : 90) * share);
+        snprintf(text, size, "%.0f\xc2\xb0", (look->flat ? 180 : 90) * share);
         break;
     case OZ_COLOUR_AZIMUTH:
-        snprintf(text, size, "%.0f\xc2\xb0", (look->flat ? 360 : 180) * share);
+        snprintf(text, size, "%.0f\xc2\xb0", 180 * share);
+        break;
+    case OZ_COLOUR_TURNED:
+        snprintf(text, size, "%.0f\xc2\xb0", 360 * share);
         break;
     default:
         snprintf(text, size, "%.3g", look->speed_high * share);
@@ -173,7 +177,8 @@ static void add_colour_bar(const Page *page)
     static const char *const names[] = {[OZ_COLOUR_ANGLE] = "angle to floor",
                                         [OZ_COLOUR_AZIMUTH] = "azimuth",
                                         [OZ_COLOUR_SPEED] = "speed (m/s)",
-                                        [OZ_COLOUR_GREY] = "speed (m/s)"};
+                                        [OZ_COLOUR_GREY] = "speed (m/s)",
+                                        [OZ_COLOUR_TURNED] = "turned by"};
     double right = page->look->width - page->margin, width = 0.85 * page->size;
     double height = fmin(0.45 * page->look->height, 14 * page->size);
     double top = 0.5 * (page->look->height - height), left = right - width;
@@ -192,7 +197,7 @@ static void add_colour_bar(const Page *page)
                    y + 0.29 * page->size, INK, text);
     }
     write_text(page, OZ_WEIGHT_REGULAR, 0.85 * page->size, 1, right, top - 0.85 * page->size, INK,
-               is_turn(page->look) ? "turned by" : names[page->look->colour]);
+               is_long_axis(page->look) ? "long axis" : names[page->look->colour]);
 }
 
 static void flat_population_text(const OzPopulation *population, char *text, size_t size)

@@ -1,6 +1,8 @@
 /* Colour maps and the colour of one grain. Knows no GL. */
 #include "draw/palette.h"
 
+#include "draw/long_axis.h"
+
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
@@ -75,6 +77,16 @@ static void azimuth_colour(const double axis[3], float rgb[3])
     mix(GREY, hue, fmin(4 * lying, 1), rgb);
 }
 
+/* A long axis has no head either; a grain without one is grey. */
+static void long_axis_colour(const OzSnapshot *snapshot, int64_t i, float rgb[3])
+{
+    const double clear = 0.05; /* of a grain a twentieth longer than wide: full colour from here */
+    double strength = 0, angle = oz_long_axis_find(snapshot, i, &strength);
+    float hue[3];
+    oz_palette_cyclic(angle / PI, hue);
+    mix(GREY, hue, fmin(strength / clear, 1), rgb);
+}
+
 void oz_palette_grey(double x, float rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = (float)(0.15 + 0.75 * fmin(fmax(x, 0), 1));
@@ -95,12 +107,15 @@ void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i,
     case OZ_COLOUR_TYPE:
         oz_palette_type(snapshot->grains->population[i], rgb);
         return;
+    case OZ_COLOUR_TURNED:
+        oz_palette_cyclic(turn_share(snapshot, i), rgb);
+        return;
     case OZ_COLOUR_ANGLE:
     case OZ_COLOUR_AZIMUTH:
         break;
     }
     if (look->flat) {
-        oz_palette_cyclic(turn_share(snapshot, i), rgb);
+        long_axis_colour(snapshot, i, rgb);
     } else if (sphere) {
         mix(GREY, GREY, 0, rgb);
     } else if (look->colour == OZ_COLOUR_ANGLE) {

@@ -17,8 +17,8 @@ void oz_palette_cyclic(double x, float rgb[3]);
 /* A colour told apart from those of the other rows; after eight rows they begin again. */
 void oz_palette_type(int row, float rgb[3]);
 
-/* The colour of grain i; a grain without the quantity (the angle of a sphere) is grey. The angle of
- * a flat grain is how far it has turned since the start, around the hues once a turn. */
+/* The colour of grain i; a grain without the quantity (the angle of a sphere, or of a square) is
+ * grey. */
 void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i, float rgb[3]);
 
 #endif

@@ -79,8 +79,12 @@ static const char *const COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                       [OZ_COLOUR_SPEED] = "speed",
                                       [OZ_COLOUR_TYPE] = "type",
                                       NULL};
-static const char *const FLAT_COLOURS[] = {
-    [OZ_COLOUR_ANGLE] = "angle", "",  [OZ_COLOUR_SPEED] = "speed", [OZ_COLOUR_TYPE] = "type",
-    [OZ_COLOUR_GREY] = "grey",   NULL};
+static const char *const FLAT_COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
+                                           "",
+                                           [OZ_COLOUR_SPEED] = "speed",
+                                           [OZ_COLOUR_TYPE] = "type",
+                                           [OZ_COLOUR_GREY] = "grey",
+                                           [OZ_COLOUR_TURNED] = "turned",
+                                           NULL};
 
 #endif

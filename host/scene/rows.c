@@ -377,7 +377,8 @@ static const OzKey KEYS[] = {
     {"movie.colour", CHOICE(COLOURS), AT(movie.colour), DEFAULT("angle"), SOLID,
      .help = "what a grain's colour shows"},
     {"movie.colour", CHOICE(FLAT_COLOURS), AT(movie.colour), DEFAULT("speed"), FLAT,
-     .help = "what a grain's colour shows"},
+     .help = "what a grain's colour shows; angle is its long axis' direction, turned how far it has "
+             "turned since the start"},
     {"movie.cut_outlines", OF(BOOL), AT(movie.cut_outlines), DEFAULT("false"), SOLID,
      .help = "grains that the cut takes away whole are drawn as faint outlines"},
     {"movie.outlines", OF(BOOL), AT(movie.outlines), DEFAULT("true"), FLAT,

@@ -194,11 +194,13 @@ typedef struct OzObserve {
 
 typedef enum OzView { OZ_VIEW_LATERAL, OZ_VIEW_CUT } OzView;
 typedef enum OzColour {
-    OZ_COLOUR_ANGLE,   /* angle to the floor, viridis, 0..90 degrees                       */
+    OZ_COLOUR_ANGLE,   /* to the floor, viridis, 0..90 degrees; of trigrains the long axis'
+                          direction, cyclic, 0..180 degrees                                */
     OZ_COLOUR_AZIMUTH, /* cyclic, on twice the angle                                       */
     OZ_COLOUR_SPEED,   /* viridis, 0 to the scene's typical speed                          */
     OZ_COLOUR_TYPE,    /* one colour for each population                                   */
-    OZ_COLOUR_GREY     /* speed in greys: the faster, the lighter                          */
+    OZ_COLOUR_GREY,    /* speed in greys: the faster, the lighter                          */
+    OZ_COLOUR_TURNED   /* trigrains: how far since the start, cyclic, 0..360 degrees       */
 } OzColour;
 
 typedef struct OzMovieSettings {
