@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "draw/movie.h"
+#include "scene/scene.h"
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -25,6 +26,7 @@ static char folder[] = "/tmp/orzo-movie-XXXXXX";
 
 /* What a test asks of a decoded movie. */
 typedef struct Decoded {
+    int width, height;
     int frames, uneven; /* uneven: frames not exactly one interval after the last       */
     AVRational rate;
     enum AVColorSpace space; /* as the last frame says                                       */
@@ -82,21 +84,22 @@ static OzStatus encode(const char *path, const char *encoder, int frames)
 /* RGB of the pixel a quarter of the way across, by the colour space that the frame itself names. */
 static void look(const AVFrame *frame, uint8_t rgb[4])
 {
-    uint8_t *row = malloc(4 * WIDTH * HEIGHT);
+    int width = frame->width, height = frame->height;
+    uint8_t *row = malloc(4 * (size_t)width * (size_t)height);
     uint8_t *planes[4] = {row};
-    int bytes[4] = {4 * WIDTH};
+    int bytes[4] = {4 * width};
     struct SwsContext *scaler =
-        sws_getContext(WIDTH, HEIGHT, frame->format, WIDTH, HEIGHT, AV_PIX_FMT_RGBA,
+        sws_getContext(width, height, frame->format, width, height, AV_PIX_FMT_RGBA,
                        SWS_BILINEAR | SWS_ACCURATE_RND, NULL, NULL, NULL);
     const int *table = sws_getCoefficients((int)frame->colorspace);
     sws_setColorspaceDetails(scaler, table, frame->color_range == AVCOL_RANGE_JPEG, table, 1, 0,
                              1 << 16, 1 << 16);
-    sws_scale(scaler, (const uint8_t *const *)frame->data, frame->linesize, 0, HEIGHT, planes,
+    sws_scale(scaler, (const uint8_t *const *)frame->data, frame->linesize, 0, height, planes,
               bytes);
-    memcpy(rgb, &row[4 * (HEIGHT / 2 * WIDTH + WIDTH / 4)], 4);
+    memcpy(rgb, &row[4 * ((size_t)(height / 2) * (size_t)width + (size_t)(width / 4))], 4);
     const char *picture = getenv("ORZO_MOVIE_PICTURE"); /* a person wants to see the last frame */
     if (picture) {
-        oz_image_write_png(&(OzImage){WIDTH, HEIGHT, row}, picture);
+        oz_image_write_png(&(OzImage){width, height, row}, picture);
     }
     sws_freeContext(scaler);
     free(row);
@@ -107,6 +110,8 @@ static void take_frame(Decoded *decoded, const AVFrame *frame, AVRational unit)
     assert_true(decoded->frames < FRAMES);
     double at = (double)frame->pts * unit.num / unit.den * FPS;
     decoded->uneven += fabs(at - decoded->frames) > 1e-6;
+    decoded->width = frame->width;
+    decoded->height = frame->height;
     decoded->space = frame->colorspace;
     decoded->range = frame->color_range;
     decoded->primaries = frame->color_primaries;
@@ -303,6 +308,36 @@ static int remove_folder(void **state)
     return rmdir(folder);
 }
 
+/* Whatever size a scene may ask for, both encoders take. */
+static void test_limits_of_size(void **state)
+{
+    static const char *const encoders[] = {"libx264", "mpeg4"};
+    enum { LOW = OZ_PICTURE_SIDE_MIN, HIGH = OZ_PICTURE_SIDE_MAX };
+    static const int sizes[][2] = {{LOW, LOW}, {HIGH, LOW}, {LOW, HIGH}};
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        int width = sizes[i / 2][0], height = sizes[i / 2][1];
+        const char *path = in_folder("size.mp4");
+        OzMovie *movie = NULL;
+        OzImage image = {width, height, calloc((size_t)(width * height), 4)};
+        paint(&image, 0);
+        OzStatus status =
+            oz_movie_create_with(&movie, path, width, height, FPS, NULL, encoders[i % 2]);
+        status = status == OZ_OK ? oz_movie_add(movie, &image) : status;
+        OzStatus finished = oz_movie_finish(movie);
+        if (status != OZ_OK || finished != OZ_OK) {
+            fail_msg("%d x %d by %s: %s", width, height, encoders[i % 2], oz_status_text());
+        }
+        free(image.pixels);
+        Decoded found;
+        decode(path, &found);
+        av_dict_free(&found.metadata);
+        assert_true(found.frames == 1 && found.width == width && found.height == height);
+        assert_true(abs(found.colour[0][0] - PALETTE[0][0]) <= 8); /* as above */
+        remove(path);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -311,6 +346,7 @@ int main(void)
         cmocka_unit_test(test_any_number_of_frames),
         cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_limits_of_size),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -236,7 +236,7 @@ static void look_frames_the_bed_and_its_walls(void **state)
 static void impossible_sizes_are_refused(void **state)
 {
     (void)state;
-    static const int sizes[][2] = {{63, 100}, {100, 63}, {8193, 100}, {100, 8193}};
+    static const int sizes[][2] = {{63, 100}, {100, 63}, {8191, 100}, {100, 8191}};
     Bed bed;
     bed_create(&bed, 0, 1e-3, 0);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {

@@ -149,6 +149,45 @@ static void test_same_bytes(void **state)
     assert_false(same_files("one/snapshots/time_0.000000.png", "one/snapshots/time_0.004000.png"));
 }
 
+/* Width and height as a PNG's head says. */
+static void size_of_png(const char *path, int size[2])
+{
+    char *bytes = read_file(path, NULL);
+    for (int k = 0; k < 2; k++) {
+        const unsigned char *at = (const unsigned char *)bytes + 16 + 4 * k;
+        size[k] = at[2] << 8 | at[3];
+    }
+    free(bytes);
+}
+
+/* Single pictures have a look of their own; the movie's bytes do not change by them. */
+static void test_stills_of_their_own(void **state)
+{
+    (void)state;
+    const int both = OZ_FRAME_MOVIE | OZ_FRAME_SNAPSHOT;
+    static const char *const stills[] = {"snapshots.size=[401, 301]", "snapshots.views=[cut]",
+                                         "snapshots.colour=type"};
+    Show show;
+    OzGallerySettings settings[2];
+    open_show(&show);
+    OzGallery *plain = open_gallery(&show, &settings[0], "plain", false);
+    must(oz_gallery_add(plain, &show.now, both));
+    must(oz_gallery_finish(plain));
+    oz_scene_free(&show.scene);
+    must(oz_scene_parse(&show.scene, "show.yaml", text, (char *const *)(uintptr_t)stills, 3));
+    OzGallery *own = open_gallery(&show, &settings[1], "own", false);
+    must(oz_gallery_add(own, &show.now, both));
+    must(oz_gallery_repeat(own));
+    must(oz_gallery_finish(own));
+    int size[2];
+    size_of_png("plain/snapshots/time_0.000000.png", size);
+    assert_true(size[0] == 320 && size[1] == 240);
+    size_of_png("own/snapshots/time_0.000000.png", size);
+    assert_true(size[0] == 401 && size[1] == 301);
+    assert_true(is_playable("own/movie.mp4"));
+    close_show(&show);
+}
+
 /* Whoever adds is let go only when all but the queue is drawn. */
 static void test_queue_is_bounded(void **state)
 {
@@ -202,6 +241,7 @@ int main(void)
         cmocka_unit_test(
             test_no_pictures_no_thread), /* first: the others' libraries have threads */
         cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_stills_of_their_own),
         cmocka_unit_test(test_queue_is_bounded),
         cmocka_unit_test(test_failure_comes_back),
     };

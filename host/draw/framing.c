@@ -146,7 +146,7 @@ static double typical_speed(const OzScene *scene, const OzSnapshot *snapshot, do
 
 static void take_settings(OzLook *look, const OzMovieSettings *movie)
 {
-    if (movie->present) {
+    if (movie->width > 0) { /* a loaded scene has them filled in, movie or not */
         look->width = movie->width;
         look->height = movie->height;
         look->view_count = movie->view_count;
@@ -192,6 +192,21 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
         oz_plane_frame(&look, scene, snapshot);
     } else {
         frame_standing(&look, scene, snapshot);
+    }
+    return look;
+}
+
+OzLook oz_framing_still(const OzScene *scene, const OzLook *movie)
+{
+    const OzSnapshotSettings *stills = &scene->snapshots;
+    OzLook look = *movie;
+    if (stills->width > 0) {
+        look.width = stills->width;
+        look.height = stills->height;
+        look.colour = stills->colour;
+        look.view_count = look.flat ? 1 : stills->view_count;
+        look.views[0] = stills->views[0];
+        look.views[1] = stills->views[1];
     }
     return look;
 }

@@ -7,6 +7,9 @@
 /* oz_renderer_look's work. */
 OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot);
 
+/* The look of the scene's single pictures, which frame the same: `snapshots` over the movie's. */
+OzLook oz_framing_still(const OzScene *scene, const OzLook *movie);
+
 /* m: where walls that are open above end in this picture: at the top of what is framed, above the
  * highest grain where one is higher, and no further than the picture shows. */
 double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapshot *snapshot);

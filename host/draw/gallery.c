@@ -6,10 +6,11 @@
 #include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "draw/framing.h"
 #include "draw/movie.h"
+#include "draw/picture_name.h"
 #include "observe/frames.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -17,8 +18,10 @@ struct OzGallery {
     const OzGallerySettings *settings;
     const OzScene *scene;
     OzRenderer *renderer; /* owned unless shared */
-    OzLook look;
-    OzImage image;
+    OzLook look, still;   /* of the movie, of single pictures */
+    OzImage image, still_image;
+    bool is_framed;
+    int decimals; /* of single pictures' names */
     OzMovie *movie;
     OzSnapshot *states; /* for the strobe */
     int state_count;
@@ -32,12 +35,13 @@ OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *setting
     if (status == OZ_OK) {
         (*gallery)->settings = settings;
         (*gallery)->scene = scene;
+        (*gallery)->decimals = oz_picture_name_decimals(scene);
     }
     return status;
 }
 
 /* A renderer of its own, or the shared one, made if this is the first to need it. */
-static OzStatus open_renderer(OzGallery *gallery, const OzSnapshot *snapshot)
+static OzStatus open_renderer(OzGallery *gallery)
 {
     OzStatus status = OZ_OK;
     OzRenderer **shared = gallery->settings->renderer;
@@ -50,10 +54,24 @@ static OzStatus open_renderer(OzGallery *gallery, const OzSnapshot *snapshot)
     if (shared) {
         *shared = gallery->renderer;
     }
-    gallery->look = oz_renderer_look(gallery->scene, snapshot);
-    OZ_TRY(oz_image_create(&gallery->image, gallery->look.width, gallery->look.height));
 done:
     return status;
+}
+
+void oz_gallery_frame(OzGallery *gallery, const OzSnapshot *snapshot)
+{
+    gallery->look = oz_renderer_look(gallery->scene, snapshot);
+    gallery->still = oz_framing_still(gallery->scene, &gallery->look);
+    gallery->is_framed = true;
+}
+
+/* Whether a single picture is the movie's frame of the same moment. */
+static bool looks_are_one(const OzGallery *gallery)
+{
+    const OzLook *a = &gallery->look, *b = &gallery->still;
+    return a->width == b->width && a->height == b->height && a->colour == b->colour &&
+           a->view_count == b->view_count && a->views[0] == b->views[0] &&
+           (a->view_count < 2 || a->views[1] == b->views[1]);
 }
 
 static OzStatus open_movie(OzGallery *gallery)
@@ -111,8 +129,8 @@ done:
     return status;
 }
 
-/* The gallery's image as snapshots/<name>. */
-static OzStatus write_image(OzGallery *gallery, const char *name)
+/* As snapshots/<name>. */
+static OzStatus write_image(OzGallery *gallery, const OzImage *image, const char *name)
 {
     OzStatus status = OZ_OK;
     char *folder = NULL, *path = NULL;
@@ -120,25 +138,11 @@ static OzStatus write_image(OzGallery *gallery, const char *name)
     OZ_TRY(oz_file_join(&folder, gallery->settings->folder, "snapshots"));
     OZ_TRY(oz_file_make_folder(folder));
     OZ_TRY(oz_file_join(&path, folder, name));
-    OZ_TRY(oz_image_write_png(&gallery->image, path));
+    OZ_TRY(oz_image_write_png(image, path));
 done:
     free(folder);
     free(path);
     return status;
-}
-
-static OzStatus write_picture(OzGallery *gallery, const OzSnapshot *snapshot)
-{
-    char name[64];
-    double period = gallery->scene->period;
-    if (period > 0) {
-        double tap = snapshot->time / period, off = fabs(tap - round(tap)) * period;
-        bool whole = off < gallery->scene->step; /* taps are met to half a step */
-        snprintf(name, sizeof name, whole ? "tap_%05.0f.png" : "tap_%09.3f.png", tap);
-    } else {
-        snprintf(name, sizeof name, "time_%.6f.png", snapshot->time);
-    }
-    return write_image(gallery, name);
 }
 
 static OzStatus keep_state(OzGallery *gallery, const OzSnapshot *snapshot)
@@ -159,53 +163,78 @@ done:
     return status;
 }
 
+/* States over each other (one is a plain picture) into an image, made at its first use. */
+static OzStatus draw(OzGallery *gallery, const OzSnapshot *states, int count, const OzLook *look,
+                     OzImage *image)
+{
+    OzStatus status = OZ_OK;
+    double start = oz_clock_now();
+    if (!image->pixels) {
+        OZ_TRY(oz_image_create(image, look->width, look->height));
+    }
+    OZ_TRY(oz_renderer_draw_states(gallery->renderer, states, count, look, image));
+done:
+    gallery->drawing += oz_clock_now() - start;
+    return status;
+}
+
 static OzStatus draw_strobe(OzGallery *gallery)
 {
     OzStatus status = OZ_OK;
-    OzLook look = gallery->look;
+    OzLook look = gallery->still;
     look.strobe = gallery->scene->snapshots.strobe;
     if (gallery->state_count > 0) {
-        OZ_TRY(oz_renderer_draw_states(gallery->renderer, gallery->states, gallery->state_count,
-                                       &look, &gallery->image));
-        OZ_TRY(write_image(gallery, "strobe.png"));
+        OZ_TRY(draw(gallery, gallery->states, gallery->state_count, &look, &gallery->still_image));
+        OZ_TRY(write_image(gallery, &gallery->still_image, "strobe.png"));
     }
 done:
     return status;
 }
 
-/* For a movie or a single picture. */
-static OzStatus draw(OzGallery *gallery, const OzSnapshot *snapshot, int purpose)
+static OzStatus add_picture(OzGallery *gallery, const OzSnapshot *snapshot, bool in_movie)
 {
-    double start = oz_clock_now();
-    if (!(purpose & (OZ_FRAME_MOVIE | OZ_FRAME_SNAPSHOT))) {
-        return OZ_OK;
+    OzStatus status = OZ_OK;
+    OzImage *image = &gallery->still_image;
+    char name[512];
+    if (in_movie && looks_are_one(gallery)) {
+        image = &gallery->image; /* it is drawn already */
+    } else {
+        OZ_TRY(draw(gallery, snapshot, 1, &gallery->still, image));
     }
-    OzStatus status =
-        oz_renderer_draw(gallery->renderer, snapshot, &gallery->look, &gallery->image);
-    gallery->drawing += oz_clock_now() - start;
+    oz_picture_name_make(gallery->scene, snapshot->time, gallery->decimals, name, sizeof name);
+    OZ_TRY(write_image(gallery, image, name));
+done:
     return status;
 }
 
 OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose)
 {
     OzStatus status = OZ_OK;
+    double start = oz_clock_now();
     if (!gallery->renderer) {
-        double start = oz_clock_now();
-        OZ_TRY(open_renderer(gallery, snapshot));
+        OZ_TRY(open_renderer(gallery));
         gallery->drawing += oz_clock_now() - start;
     }
-    OZ_TRY(draw(gallery, snapshot, purpose));
+    if (!gallery->is_framed) {
+        oz_gallery_frame(gallery, snapshot);
+    }
     if (purpose & OZ_FRAME_MOVIE) {
+        OZ_TRY(draw(gallery, snapshot, 1, &gallery->look, &gallery->image));
         OZ_TRY(add_to_movie(gallery));
     }
     if (purpose & OZ_FRAME_SNAPSHOT) {
-        OZ_TRY(write_picture(gallery, snapshot));
+        OZ_TRY(add_picture(gallery, snapshot, purpose & OZ_FRAME_MOVIE));
     }
     if (purpose & OZ_FRAME_STROBE) {
         OZ_TRY(keep_state(gallery, snapshot));
     }
 done:
     return status;
+}
+
+OzStatus oz_gallery_repeat(OzGallery *gallery)
+{
+    return add_to_movie(gallery);
 }
 
 void oz_gallery_times(const OzGallery *gallery, double *drawing, double *encoding)
@@ -230,6 +259,7 @@ OzStatus oz_gallery_finish(OzGallery *gallery)
         oz_renderer_free(gallery->renderer);
     }
     oz_image_free(&gallery->image);
+    oz_image_free(&gallery->still_image);
     free(gallery);
     return status;
 }

@@ -22,11 +22,16 @@ typedef struct OzGallerySettings {
 OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *settings,
                            const OzScene *scene);
 
-/* Draws a snapshot and hands it to the movie and (or) writes it as snapshots/tap_00300.png, or
- * snapshots/time_1.250000.png without a moving wall; purpose: OZ_FRAME_ bits of observe/frames.h.
- * The first one fixes the framing. Of those for the strobe copies are kept, at most
- * OZ_GALLERY_STATES of them. */
+/* Fixes the framing of all pictures by this snapshot; left out, the first one added does. */
+void oz_gallery_frame(OzGallery *gallery, const OzSnapshot *snapshot);
+
+/* Draws a snapshot and hands it to the movie and (or) writes it into snapshots/ (names:
+ * draw/picture_name.h) in the look of `snapshots`; purpose: OZ_FRAME_ bits of observe/frames.h. Of
+ * those for the strobe copies are kept, at most OZ_GALLERY_STATES of them. */
 OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose);
+
+/* The movie's last frame once more; there must be one. */
+OzStatus oz_gallery_repeat(OzGallery *gallery);
 
 /* Seconds spent in drawing and in encoding so far. */
 void oz_gallery_times(const OzGallery *gallery, double *drawing, double *encoding);

@@ -146,8 +146,8 @@ void oz_plane_frame(OzLook *look, const OzScene *scene, const OzSnapshot *snapsh
     look->flat = true;
     look->elevation = 0;
     look->view_count = 1;
-    look->outlines = !scene->movie.present || scene->movie.outlines;
-    look->beams = scene->movie.present && scene->movie.beams;
+    look->outlines = scene->movie.width <= 0 || scene->movie.outlines; /* 0: not a loaded scene */
+    look->beams = scene->movie.beams;
     look->height_low = room.low[1];
     look->height_high = room.high[1];
     look->half_width = 0.5 * (room.high[0] - room.low[0]);

@@ -18,8 +18,6 @@
 #include <string.h>
 
 enum {
-    SMALLEST_SIDE = 64,
-    LARGEST_SIDE = 8192,
     SAMPLES = 4,           /* of a pixel: smooth edges for a third more time                   */
     MANY_PIXELS = 1 << 24, /* above this a pixel has one sample: 4 would take gigabytes       */
     PAIRS_LEAST = 6,       /* of neighbours of a pixel that may darken it                      */
@@ -115,13 +113,13 @@ static OzStatus check_look(const OzRenderer *renderer, const OzLook *look, const
 {
     GLint largest = 0;
     renderer->context.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    largest = largest < LARGEST_SIDE ? largest : LARGEST_SIDE;
-    if (look->width < SMALLEST_SIDE || look->height < SMALLEST_SIDE || look->width > largest ||
-        look->height > largest) {
+    largest = largest < OZ_PICTURE_SIDE_MAX ? largest : OZ_PICTURE_SIDE_MAX;
+    if (look->width < OZ_PICTURE_SIDE_MIN || look->height < OZ_PICTURE_SIDE_MIN ||
+        look->width > largest || look->height > largest) {
         return oz_status_fail(OZ_ERR_GRAPHICS,
                               "a picture of %d x %d pixels cannot be drawn; %d to %d a side can "
                               "with %s",
-                              look->width, look->height, SMALLEST_SIDE, largest,
+                              look->width, look->height, OZ_PICTURE_SIDE_MIN, largest,
                               renderer->context.name);
     }
     if (image->width != look->width || image->height != look->height) {

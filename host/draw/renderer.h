@@ -15,7 +15,7 @@ typedef enum OzGlBackend { OZ_GL_AUTO, OZ_GL_EGL, OZ_GL_OSMESA } OzGlBackend;
 /* What a picture shows. Start from oz_renderer_look and change size, views and colour at will: the
  * framing is in metres and holds for any of them. */
 typedef struct OzLook {
-    int width, height; /* pixels, 64 to 8192 a side, any aspect */
+    int width, height; /* pixels, OZ_PICTURE_SIDE_MIN to _MAX, any aspect */
     OzView views[2];
     int view_count; /* 1, or 2 side by side */
     OzColour colour;

@@ -243,12 +243,6 @@ static void check_movie(Checker *checker)
               "movie.size is %d x %d; expected even numbers, video halves its colours",
               movie->width, movie->height);
     }
-    if (movie->width > OZ_CHECK_SIDE_MAX || movie->height > OZ_CHECK_SIDE_MAX) {
-        fault(checker, "movie.size",
-              "movie.size is %d x %d: a picture needs %.3g GB of memory; expected at most %d x %d",
-              movie->width, movie->height, 8e-9 * movie->width * movie->height, OZ_CHECK_SIDE_MAX,
-              OZ_CHECK_SIDE_MAX);
-    }
     double length = movie->length > 0 ? movie->length : checker->scene->duration / movie->speed;
     if (length * movie->fps > OZ_CHECK_FRAMES_MAX) {
         fault(checker, movie->length > 0 ? "movie.length" : "movie.speed",

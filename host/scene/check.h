@@ -10,9 +10,6 @@
 #define OZ_CHECK_STEPS_MAX  1e13     /* step times step count stays exact in double              */
 #define OZ_CHECK_ROWS_MAX   1e8      /* of series.csv, about 300 bytes each: 30 GB               */
 #define OZ_CHECK_FRAMES_MAX 1e7      /* of the movie                                             */
-#define OZ_CHECK_SIDE_MAX                                                                          \
-    8192 /* pixels: 270 MB for a picture with its depth, and as much as                            \
-            H.264 and most GL limits allow                           */
 
 /* Fills in what is derived (unit vectors, period, taps in seconds, amplitudes) and adds faults for
  * what cannot be together. Values that were refused before are skipped. */

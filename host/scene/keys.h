@@ -35,9 +35,10 @@ typedef enum OzReload { OZ_RELOAD_REFUSE, OZ_RELOAD_APPLY, OZ_RELOAD_REBUILD } O
 /* When a row is written back. */
 typedef enum OzKeyWrite {
     OZ_WRITE_ALWAYS,
-    OZ_WRITE_NONZERO,      /* only when it holds something              */
-    OZ_WRITE_UNLESS_RIVAL, /* only when its rival row holds nothing     */
-    OZ_WRITE_MARKED        /* only when written: the bool at count_offset says so */
+    OZ_WRITE_NONZERO,          /* only when it holds something              */
+    OZ_WRITE_UNLESS_RIVAL,     /* only when its rival row holds nothing     */
+    OZ_WRITE_UNLESS_INHERITED, /* only when it differs from what it inherits */
+    OZ_WRITE_MARKED            /* only when written: the bool at count_offset says so */
 } OzKeyWrite;
 
 typedef struct OzKey {

@@ -157,7 +157,7 @@ static void inherit_item(const Reader *reader, const OzKey *key, const Place *pl
         from = oz_keys_of(path, reader->model);
         base = place->base;
     }
-    memcpy(oz_value_at(key, place->base), oz_value_at(from, base), oz_keys_size(key));
+    oz_value_copy(key, place->base, from, base);
 }
 
 static void inherit(const Reader *reader, const Place *place)
@@ -169,9 +169,7 @@ static void inherit(const Reader *reader, const Place *place)
         if (place->prefix[0]) {
             inherit_item(reader, key, place);
         } else {
-            memcpy(oz_value_at(key, place->base),
-                   oz_value_at(oz_keys_of(key->inherits, reader->model), place->base),
-                   oz_keys_size(key));
+            oz_value_copy(key, place->base, oz_keys_of(key->inherits, reader->model), place->base);
         }
     }
 }

@@ -76,6 +76,9 @@ enum {
     }
 
 /* Arguments with commas in them. */
+#define PICTURE_SIZE                                                                               \
+    .type = OZ_KEY_SIZE, .low = OZ_PICTURE_SIDE_MIN, .high = OZ_PICTURE_SIDE_MAX,                  \
+    .unit = "pixels", .width = 2
 #define CONTACT_TIME  NUMBER(1e-12, 100, "s")
 #define MODULUS       NUMBER(1, 1e18, "Pa")
 #define POISSON       NUMBER(0, 0.5, "")
@@ -364,8 +367,7 @@ static const OzKey KEYS[] = {
 
     {"movie", OF(SECTION), AT(movie.present), .fallback_help = "no movie",
      .help = "movie.mp4 of the run"},
-    {"movie.size", .type = OZ_KEY_SIZE, .low = 16, .high = 1e9, .unit = "pixels", AT(movie.width),
-     .width = 2, DEFAULT("[1280, 720]"), .help = "width and height, both even"},
+    {"movie.size", PICTURE_SIZE, AT(movie.width), DEFAULT("[1280, 720]"), .help = "width and height, both even"},
     {"movie.fps", NUMBER(0.1, 1000, "1/s"), AT(movie.fps), DEFAULT("25"),
      .help = "pictures in a second"},
     {"movie.views", .type = OZ_KEY_CHOICES, .choices = VIEWS, .unit = "", .width = 2,
@@ -399,6 +401,18 @@ static const OzKey KEYS[] = {
      .rival = "taps", .write = OZ_WRITE_UNLESS_RIVAL, .help = "pictures at these times"},
     {"snapshots.strobe", NUMBER(0, 1e9, "s"), AT(snapshots.strobe), .write = OZ_WRITE_NONZERO, FLAT,
      .fallback_help = "none", .help = "one picture of the states so far apart, over each other"},
+    {"snapshots.size", PICTURE_SIZE, AT(snapshots.width), .inherits = "movie.size",
+     .write = OZ_WRITE_UNLESS_INHERITED, .help = "width and height of these pictures"},
+    {"snapshots.views", .type = OZ_KEY_CHOICES, .choices = VIEWS, .unit = "", .width = 2,
+     AT(snapshots.views), .count_offset = offsetof(OzScene, snapshots.view_count),
+     .inherits = "movie.views", .write = OZ_WRITE_UNLESS_INHERITED, SOLID, .help = "side by side"},
+    {"snapshots.views", .type = OZ_KEY_CHOICES, .choices = FLAT_VIEWS, .unit = "", .width = 1,
+     AT(snapshots.views), .count_offset = offsetof(OzScene, snapshots.view_count),
+     .inherits = "movie.views", .write = OZ_WRITE_UNLESS_INHERITED, FLAT, .help = "there is one"},
+    {"snapshots.colour", CHOICE(COLOURS), AT(snapshots.colour), .inherits = "movie.colour",
+     .write = OZ_WRITE_UNLESS_INHERITED, SOLID, .help = "what a grain's colour shows"},
+    {"snapshots.colour", CHOICE(FLAT_COLOURS), AT(snapshots.colour), .inherits = "movie.colour",
+     .write = OZ_WRITE_UNLESS_INHERITED, FLAT, .help = "what a grain's colour shows"},
     {"sweep", OF(SWEEP), AT(sweep), .write = OZ_WRITE_NONZERO,
      .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}; of several keys "
              "for every combination, or with zip: true for those that stand in the same place"},

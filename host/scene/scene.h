@@ -203,6 +203,10 @@ typedef enum OzColour {
     OZ_COLOUR_TURNED   /* trigrains: how far since the start, cyclic, 0..360 degrees       */
 } OzColour;
 
+/* Pixels a side of any picture or movie: below, its parts cannot be told apart; above, MPEG-4 has no
+ * bits for it (13) and H.264 and GL are not sure to hold it. */
+enum { OZ_PICTURE_SIDE_MIN = 64, OZ_PICTURE_SIDE_MAX = 8190 };
+
 typedef struct OzMovieSettings {
     bool present;
     int width, height;  /* pixels, even */
@@ -223,6 +227,10 @@ typedef struct OzSnapshotSettings {
     double *taps;  /* as written, ascending, or NULL */
     int tap_count;
     double strobe; /* s between the states laid over each other in one picture; 0: none */
+    int width, height; /* pixels; this and what follows is the movie's unless written */
+    OzView views[2];
+    int view_count;
+    OzColour colour;
 } OzSnapshotSettings;
 
 /* One key that takes several values. */

@@ -319,6 +319,27 @@ bool oz_value_holds(const OzKey *key, const void *base)
     }
 }
 
+bool oz_value_same(const OzKey *key, const void *base, const OzKey *other, const void *other_base)
+{
+    size_t size = oz_keys_size(key);
+    if (key->type == OZ_KEY_CHOICES) {
+        int count = *oz_value_count(key, base);
+        if (count != *oz_value_count(other, other_base)) {
+            return false;
+        }
+        size = (size_t)count * sizeof(int);
+    }
+    return memcmp(oz_value_at(key, base), oz_value_at(other, other_base), size) == 0;
+}
+
+void oz_value_copy(const OzKey *key, void *base, const OzKey *from, const void *from_base)
+{
+    memcpy(oz_value_at(key, base), oz_value_at(from, from_base), oz_keys_size(key));
+    if (key->type == OZ_KEY_CHOICES) {
+        *oz_value_count(key, base) = *oz_value_count(from, from_base);
+    }
+}
+
 void oz_value_free(const OzKey *key, void *base)
 {
     if (key->type == OZ_KEY_TEXT || key->type == OZ_KEY_FILE || key->type == OZ_KEY_NUMBERS) {

@@ -19,6 +19,12 @@ void *oz_value_at(const OzKey *key, const void *base);
 /* How many elements a list row holds. */
 int *oz_value_count(const OzKey *key, const void *base);
 
+/* Whether the values of two rows of one type are the same; for OZ_KEY_CHOICES with their counts. */
+bool oz_value_same(const OzKey *key, const void *base, const OzKey *other, const void *other_base);
+
+/* Gives key the value of another row of its type, which owns no memory. */
+void oz_value_copy(const OzKey *key, void *base, const OzKey *from, const void *from_base);
+
 /* Frees what a text or list row owns. */
 void oz_value_free(const OzKey *key, void *base);
 

@@ -205,8 +205,7 @@ static bool is_written(const Writer *writer, const OzKey *key, const void *base)
         return *(const bool *)oz_value_at(key, base);
     }
     if (in_item && key->inherits) {
-        const void *scenes = oz_value_at(oz_keys_find(key->inherits), writer->scene);
-        return memcmp(oz_value_at(key, base), scenes, oz_keys_size(key)) != 0;
+        return !oz_value_same(key, base, oz_keys_find(key->inherits), writer->scene);
     }
     switch (key->write) {
     case OZ_WRITE_NONZERO:
@@ -214,6 +213,9 @@ static bool is_written(const Writer *writer, const OzKey *key, const void *base)
     case OZ_WRITE_UNLESS_RIVAL:
         return !oz_value_holds(neighbour(key, key->rival), base) &&
                (key->required || oz_value_holds(key, base));
+    case OZ_WRITE_UNLESS_INHERITED:
+        return !oz_value_same(key, base, oz_keys_of(key->inherits, (int)writer->scene->model),
+                              writer->scene);
     case OZ_WRITE_MARKED:
         return *(const bool *)((const char *)base + key->count_offset);
     default:
