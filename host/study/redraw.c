@@ -1,25 +1,34 @@
-/* Drawing again from frames.bin, with the run's scene.yaml and other settings over it. */
+/* Drawing again from frames.bin, with the run's scene.yaml and other settings over it. The file is
+ * read twice: for its times, which decide what is drawn, and for the states. */
 #include "study/redraw.h"
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/folder.h"
 #include "base/log.h"
 #include "draw/gallery.h"
 #include "inputs.h"
 #include "observe/frames.h"
+#include "study/redraw_plan.h"
 
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double SECONDS_BETWEEN_LINES = 10; /* of progress where there is no terminal */
 
 typedef struct Redraw {
-    OzScene scene;
+    OzScene run, scene; /* as it was run, and with the settings */
     OzGrains grains;
     OzSnapshot snapshot;
     OzFrames *frames;
+    OzRedrawPlan plan;
     OzGallery *gallery;
     OzGallerySettings settings;
     OzInputs inputs;
     OzFolder owned; /* out, in use */
     char *scene_path, *frames_path, *out;
+    double started, said; /* wall clock */
 } Redraw;
 
 /* Takes the folder that pictures go to, which must not be the run's own. Earlier pictures there go.
@@ -37,6 +46,88 @@ done:
     return status;
 }
 
+/* The keys that pictures depend on and the simulation does not, with all below them. */
+static bool is_of_pictures(const char *setting)
+{
+    static const char *const names[] = {"title", "movie", "snapshots"};
+    size_t length = strcspn(setting, ".=");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strlen(names[i]) == length && strncmp(names[i], setting, length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static OzStatus refuse_physics(const OzOptions *options)
+{
+    char names[1024] = "";
+    size_t used = 0;
+    for (int i = 0; i < options->setting_count; i++) {
+        const char *setting = options->settings[i];
+        if (!is_of_pictures(setting) && used < sizeof names) {
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%.*s", used ? ", " : "",
+                                     (int)strcspn(setting, "="), setting);
+        }
+    }
+    return used == 0
+               ? OZ_OK
+               : oz_status_fail(OZ_ERR_INPUT,
+                                "--set %s: frames that are stored cannot be changed; expected "
+                                "title, or a key of movie or snapshots (or another `orzo run`)",
+                                names);
+}
+
+/* The scene as it was run, and with the settings. `movie=false` leaves the movie out but not how it
+ * looks, which is how single pictures look too. */
+static OzStatus load_scenes(Redraw *r, const OzOptions *options)
+{
+    OzStatus status = OZ_OK;
+    char *settings[OZ_CLI_SETTINGS_MAX];
+    int count = 0;
+    for (int i = 0; i < options->setting_count; i++) {
+        if (strcmp(options->settings[i], "movie=false") != 0) {
+            settings[count++] = options->settings[i];
+        }
+    }
+    OZ_TRY(oz_scene_load(&r->run, r->scene_path, NULL, 0));
+    OZ_TRY(oz_scene_load(&r->scene, r->scene_path, settings, count));
+    OZ_TRY(refuse_physics(options));
+    r->scene.movie.present &= count == options->setting_count;
+done:
+    return status;
+}
+
+/* From the first frame on. */
+static OzStatus open_frames(Redraw *r)
+{
+    oz_frames_finish(r->frames);
+    r->frames = NULL;
+    oz_snapshot_free(&r->snapshot);
+    oz_grains_free(&r->grains);
+    OzStatus status = oz_frames_open(&r->frames, r->frames_path, &r->grains);
+    return status == OZ_OK ? oz_snapshot_create(&r->snapshot, &r->scene, &r->grains) : status;
+}
+
+static OzStatus make_plan(Redraw *r)
+{
+    OzStatus status = OZ_OK;
+    int purpose = 0;
+    bool more = true;
+    OZ_TRY(open_frames(r));
+    for (;;) {
+        OZ_TRY(oz_frames_next(r->frames, &r->snapshot, &purpose, &more));
+        if (!more) {
+            break;
+        }
+        OZ_TRY(oz_redraw_plan_note(&r->plan, r->snapshot.time, purpose));
+    }
+    OZ_TRY(oz_redraw_plan_choose(&r->plan, &r->run, &r->scene));
+    OZ_TRY(open_frames(r));
+done:
+    return status;
+}
+
 static OzStatus open_all(Redraw *r, const OzOptions *options)
 {
     OzStatus status = OZ_OK;
@@ -45,9 +136,8 @@ static OzStatus open_all(Redraw *r, const OzOptions *options)
     OZ_TRY(oz_file_join(&r->frames_path, folder, "frames.bin"));
     OZ_TRY(options->out ? oz_file_join(&r->out, NULL, options->out)
                         : oz_file_join(&r->out, folder, "draw"));
-    OZ_TRY(oz_scene_load(&r->scene, r->scene_path, options->settings, options->setting_count));
-    OZ_TRY(oz_frames_open(&r->frames, r->frames_path, &r->grains));
-    OZ_TRY(oz_snapshot_create(&r->snapshot, &r->scene, &r->grains));
+    OZ_TRY(load_scenes(r, options));
+    OZ_TRY(make_plan(r));
     OZ_TRY(own_folder(r));
     r->settings = (OzGallerySettings){.folder = r->out,
                                       .source_dir = options->source_dir,
@@ -58,24 +148,54 @@ done:
     return status;
 }
 
+/* On a terminal at every frame, elsewhere a line now and then. */
+static void show_progress(Redraw *r, int64_t count, int64_t total)
+{
+    double now = oz_clock_now();
+    double left = (now - r->started) * (double)(total - count) / (double)count;
+    if (isatty(STDERR_FILENO)) {
+        oz_log_progress("frame %lld of %lld  %.0f s left", (long long)count, (long long)total,
+                        left);
+    } else if (now - r->said >= SECONDS_BETWEEN_LINES) {
+        oz_log_line("frame %lld of %lld, %.0f s left", (long long)count, (long long)total, left);
+        r->said = now;
+    }
+}
+
+static OzStatus draw_frame(Redraw *r, const OzRedrawFrame *frame)
+{
+    OzStatus status = oz_gallery_add(r->gallery, &r->snapshot, frame->purpose);
+    for (int64_t i = 1; status == OZ_OK && i < frame->repeats; i++) {
+        status = oz_gallery_repeat(r->gallery);
+    }
+    return status;
+}
+
 static OzStatus draw_all(Redraw *r)
 {
     OzStatus status = OZ_OK;
-    int purpose = 0, count = 0;
-    int left_out = r->scene.movie.present ? 0 : OZ_FRAME_MOVIE; /* by --set movie=false */
+    int64_t total = 0, count = 0;
     bool more = true;
-    for (;;) {
-        OZ_TRY(oz_frames_next(r->frames, &r->snapshot, &purpose, &more));
+    for (size_t i = 0; i < r->plan.count; i++) {
+        total += r->plan.frames[i].purpose != 0;
+    }
+    r->started = r->said = oz_clock_now();
+    for (size_t i = 0; i < r->plan.count && count < total; i++) {
+        int stored = 0;
+        OZ_TRY(oz_frames_next(r->frames, &r->snapshot, &stored, &more));
         if (!more) {
-            break;
+            break; /* the file became shorter meanwhile */
         }
-        if (purpose & ~left_out) {
-            OZ_TRY(oz_gallery_add(r->gallery, &r->snapshot, purpose & ~left_out));
-            oz_log_progress("frame %d", ++count);
+        if (i == 0) {
+            oz_gallery_frame(r->gallery, &r->snapshot); /* as the run did */
+        }
+        if (r->plan.frames[i].purpose) {
+            OZ_TRY(draw_frame(r, &r->plan.frames[i]));
+            show_progress(r, ++count, total);
         }
     }
     oz_log_progress(" ");
-    oz_log_line("%d frames drawn into %s", count, r->out);
+    oz_log_line("%lld frames drawn into %s", (long long)count, r->out);
 done:
     return status;
 }
@@ -92,9 +212,11 @@ done:;
     oz_frames_finish(r.frames);
     oz_inputs_free(&r.inputs);
     oz_folder_close(&r.owned);
+    oz_redraw_plan_free(&r.plan);
     oz_snapshot_free(&r.snapshot);
     oz_grains_free(&r.grains);
     oz_scene_free(&r.scene);
+    oz_scene_free(&r.run);
     free(r.scene_path);
     free(r.frames_path);
     free(r.out);
