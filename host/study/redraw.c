@@ -13,9 +13,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-static const double SECONDS_BETWEEN_LINES = 10; /* of progress where there is no terminal */
 
 typedef struct Redraw {
     OzScene run, scene; /* as it was run, and with the settings */
@@ -28,7 +25,7 @@ typedef struct Redraw {
     OzInputs inputs;
     OzFolder owned; /* out, in use */
     char *scene_path, *frames_path, *out;
-    double started, said; /* wall clock */
+    double started; /* wall clock */
 } Redraw;
 
 /* Takes the folder that pictures go to, which must not be the run's own. Earlier pictures there go.
@@ -148,18 +145,10 @@ done:
     return status;
 }
 
-/* On a terminal at every frame, elsewhere a line now and then. */
-static void show_progress(Redraw *r, int64_t count, int64_t total)
+static void show_progress(const Redraw *r, int64_t count, int64_t total)
 {
-    double now = oz_clock_now();
-    double left = (now - r->started) * (double)(total - count) / (double)count;
-    if (isatty(STDERR_FILENO)) {
-        oz_log_progress("frame %lld of %lld  %.0f s left", (long long)count, (long long)total,
-                        left);
-    } else if (now - r->said >= SECONDS_BETWEEN_LINES) {
-        oz_log_line("frame %lld of %lld, %.0f s left", (long long)count, (long long)total, left);
-        r->said = now;
-    }
+    double left = (oz_clock_now() - r->started) * (double)(total - count) / (double)count;
+    oz_log_progress("frame %lld of %lld, %.0f s left", (long long)count, (long long)total, left);
 }
 
 static OzStatus draw_frame(Redraw *r, const OzRedrawFrame *frame)
@@ -179,7 +168,7 @@ static OzStatus draw_all(Redraw *r)
     for (size_t i = 0; i < r->plan.count; i++) {
         total += r->plan.frames[i].purpose != 0;
     }
-    r->started = r->said = oz_clock_now();
+    r->started = oz_clock_now();
     for (size_t i = 0; i < r->plan.count && count < total; i++) {
         int stored = 0;
         OZ_TRY(oz_frames_next(r->frames, &r->snapshot, &stored, &more));
