@@ -47,11 +47,32 @@ OZ_INLINE OzVec3 oz_body_rate(OzVec3 spin, OzVec3 u, OzShape shape)
     return OZ_GYROSCOPIC ? oz_body_inverse_inertia(spin, u, shape) : spin;
 }
 
-/* How far an end of the shaft goes in dt, squared, m^2: the centre's way and the turn's as if across each
- * other, and all the spin across the shaft. */
+OZ_INLINE real oz_body_length2(OzQuaternion q)
+{
+    return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+}
+
+/* Whether place, velocity, spin and turn are numbers. Squares must be too: what overflows there is none either. */
+OZ_INLINE mask oz_body_is_number(OzBody body)
+{
+    real motion2 = oz_dot(body.velocity, body.velocity) + oz_dot(body.spin, body.spin);
+    return oz_place_is_number(body.place) & (motion2 <= REAL(OZ_HUGE)) &
+           (oz_body_length2(body.turn) <= REAL(OZ_HUGE));
+}
+
+/* Whether the turn's length has stayed near one: turns of much more than 1 rad a step ruin it. */
+OZ_INLINE mask oz_body_is_turn(OzBody body)
+{
+    real length2 = oz_body_length2(body.turn);
+    return (length2 > REAL(0.9)) & (length2 < REAL(1.1));
+}
+
+/* How far an end of the shaft, or of a grain less long than thick its surface, goes in dt, squared, m^2: the
+ * centre's way and the turn's as if across each other, and all the spin across the shaft. */
 OZ_INLINE real oz_body_step2(OzBody body, OzShape shape, real dt)
 {
-    real turn2 = oz_dot(body.spin, body.spin) * (shape.half_length * shape.half_length);
+    real reach = oz_larger(shape.half_length, shape.radius);
+    real turn2 = oz_dot(body.spin, body.spin) * (reach * reach);
     if (OZ_GYROSCOPIC) {
         turn2 = turn2 * shape.inverse_inertia * shape.inverse_inertia;
     }

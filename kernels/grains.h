@@ -110,30 +110,31 @@ OZ_INLINE mask oz_grains_present(const OzWork *w, int block)
     return OZ_LANES_LOAD(number) > REAL(0.5);
 }
 
-/* NaN, flight out of the domain, a step too long for the radius. */
+/* Lanes whose place is within the domain. Each coordinate by itself: the larger of two numbers forgets a NaN. */
+OZ_INLINE mask oz_grains_inside(const OzWork *w, OzBody body)
+{
+    real domain = REAL(w->parameters->domain);
+    return (oz_magnitude(oz_place_to_real(body.place.x)) < domain) &
+           (oz_magnitude(oz_place_to_real(body.place.y)) < domain) &
+           (oz_magnitude(oz_place_to_real(body.place.z)) < domain);
+}
+
+/* NaN, flight out of the domain, a step too long for the radius. Every comparison is false for NaN and says what is
+ * sound. */
 OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape, int step)
 {
-    global const OzParameters *p = w->parameters;
-    real speed2 = oz_dot(body.velocity, body.velocity), spin2 = oz_dot(body.spin, body.spin);
-    real far = oz_larger(oz_larger(oz_magnitude(oz_place_to_real(body.place.x)),
-                                   oz_magnitude(oz_place_to_real(body.place.y))),
-                         oz_magnitude(oz_place_to_real(body.place.z)));
     real allowed = REAL(OZ_BODY_STEP_SHARE) * shape.radius;
-    real step2 = oz_body_step2(body, shape, REAL(p->dt));
-    mask sound = (speed2 + spin2 < REAL(1e30)) & (far < REAL(p->domain)) &
-                 (step2 < allowed * allowed);
-    mask wrong = sound ? (mask)(0) : (mask)(-1);
+    real step2 = oz_body_step2(body, shape, REAL(w->parameters->dt));
+    mask number = oz_body_is_number(body), inside = oz_grains_inside(w, body);
+    mask slow = (step2 < allowed * allowed) & oz_body_is_turn(body), wrong = !(number & inside & slow);
     if (OZ_ANY(wrong)) {
         int slots[OZ_LANES];
         for (int l = 0; l < OZ_LANES; l++) {
             slots[l] = block * OZ_LANES + l;
         }
-        mask number = speed2 + spin2 < REAL(1e30);
-        mask nan = number ? (mask)(0) : (mask)(-1);
-        oz_work_stop_lanes(w, nan, OZ_STOP_NAN, step, slots);
-        oz_work_stop_lanes(w, number & (far >= REAL(p->domain)), OZ_STOP_ESCAPED, step, slots);
-        oz_work_stop_lanes(w, number & (step2 >= allowed * allowed), OZ_STOP_FAST, step,
-                           slots);
+        oz_work_stop_lanes(w, !number, OZ_STOP_NAN, step, slots);
+        oz_work_stop_lanes(w, number & !inside, OZ_STOP_ESCAPED, step, slots);
+        oz_work_stop_lanes(w, number & !slow, OZ_STOP_FAST, step, slots);
     }
 }
 
@@ -160,7 +161,8 @@ OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape,
     OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
     global const real *reference = w->reference_inner + (size_t)block * OZ_REFERENCE;
     real allowed = reference[OZ_REFERENCE_SKIN];
-    if (OZ_ANY(oz_grains_moved2(w, reference, body, shaft) > allowed * allowed)) {
+    mask holds = oz_grains_moved2(w, reference, body, shaft) <= allowed * allowed;
+    if (OZ_ANY(!holds)) {
         *mark = step;
     }
 }

@@ -4,6 +4,7 @@
 #define OZ_KERNELS_LAYOUT_H
 
 #include "kernels/contact.h"
+#include "kernels/units.h"
 
 enum { OZ_WALLS_MAX = 16 }; /* walls of a scene: bounds OzParameters, which sits in constant memory */
 
@@ -16,7 +17,8 @@ typedef struct OzWallParameters {
 } OzWallParameters;
 
 /* Everything a person may change in mid-run, and what follows from it. Scalars only, in this order: the
- * single-precision copy is made by converting the double one number by number. */
+ * single-precision copy is made by converting the double one number by number. The host's are in SI
+ * units; on their way to a device they and all that kernels read are counted in `units`. */
 typedef struct OzParameters {
     scalar length_unit;   /* m per count of a place; 1 in double                              */
     scalar inverse_unit;  /* 1/m                                                              */
@@ -32,6 +34,7 @@ typedef struct OzParameters {
     scalar skin_time;     /* s: for which a grain's skin shall last at its present speed      */
     scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
     scalar reach_max;     /* m, largest half-length + radius                                  */
+    OzUnits units;        /* for the host alone                                               */
     scalar radius, half_length, mass; /* of every grain of an equal population                */
     scalar inverse_mass, inverse_inertia, inverse_inertia_axis;
     OzWallParameters wall[OZ_WALLS_MAX];

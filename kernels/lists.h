@@ -235,7 +235,8 @@ OZ_INLINE void oz_lists_measure(OzWork *w, int region)
         real skin = oz_lists_skin(w, body, shape, axis);
         global const real *outer = w->reference_outer + (size_t)block * OZ_REFERENCE;
         real left = outer[OZ_REFERENCE_SKIN] - skin; /* outer_least is above skin_most: never negative */
-        if (OZ_ANY(oz_grains_moved2(w, outer, body, shaft) > left * left)) {
+        mask holds = oz_grains_moved2(w, outer, body, shaft) <= left * left;
+        if (OZ_ANY(!holds)) {
             w->control->outer_stale = 1;
         }
         oz_lists_note(w->reference_inner + (size_t)block * OZ_REFERENCE, body, shaft);

@@ -19,8 +19,8 @@ OZ_INLINE void oz_piece_beams_check(OzPieceWork *w, const OzBeamForce *f, const 
 {
     mask stretched = !((f->stretch > REAL(OZ_BEAM_STRETCH_LEAST)) &
                        (f->stretch < REAL(OZ_BEAM_STRETCH_MOST)));
-    real bend = oz_larger(oz_magnitude(f->bend_a), oz_magnitude(f->bend_b));
-    mask bent = bend > REAL(OZ_BEAM_BEND_MOST);
+    mask bent = !((oz_magnitude(f->bend_a) <= REAL(OZ_BEAM_BEND_MOST)) &
+                  (oz_magnitude(f->bend_b) <= REAL(OZ_BEAM_BEND_MOST)));
     if (OZ_ANY(stretched | bent)) {
         oz_piece_work_stop_lanes(w, stretched, OZ_PIECE_STOP_STRETCHED, step, slots);
         oz_piece_work_stop_lanes(w, bent, OZ_PIECE_STOP_BENT, step, slots);

@@ -127,7 +127,7 @@ OZ_INLINE void oz_piece_contacts_discs(const OzPieceWork *w, const OzPiece *a, c
     push->torque_b = disc ? oz_cross2(arm_b, f.force) : push->torque_b;
     real small = oz_smaller(radius_a, radius_b), radius = oz_larger(radius_a, radius_b);
     radius = small > REAL(0.0) ? small : radius;
-    push->deep = disc ? place.overlap > radius : push->deep;
+    push->deep = disc ? !(place.overlap <= radius) : push->deep;
     push->swallowed &= !disc;
     push->power_normal = disc ? f.power_normal : REAL(0.0);
     push->power_tangential = disc ? f.power_tangential : REAL(0.0);

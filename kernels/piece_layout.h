@@ -4,12 +4,15 @@
 #define OZ_KERNELS_PIECE_LAYOUT_H
 
 #include "kernels/piece_law.h"
+#include "kernels/units.h"
 
 enum { OZ_PIECE_WALLS_MAX = 16 };
 
 /* What a kernel needs to know of a scene. Scalars only: the host fills the single precision version by
- * converting the double one number by number. */
+ * converting the double one number by number. The host's is in SI units; on their way to a device it and all that
+ * kernels read are counted in `units`. */
 typedef struct OzPieceParameters {
+    OzUnits units;        /* for the host alone                                               */
     scalar dt;            /* s                                                                */
     scalar drag;          /* 1/s, only while settling                                         */
     scalar gravity[2];    /* m/s^2                                                            */

@@ -74,11 +74,11 @@ OZ_INLINE void oz_piece_move_label(OzPieceWork *w, int block)
                     OZ_PR_RADIUS, words);
 }
 
-/* Whether a way and a turn (by its magnitude) at some reach are together more than most. */
+/* Whether a way and a turn (by its magnitude) at some reach are together more than most, or no numbers. */
 OZ_INLINE mask oz_piece_move_beyond(OzVec2 way, real turn, real reach, real most)
 {
     real left = most - reach * turn;
-    return (left < REAL(0.0)) | (oz_dot2(way, way) > left * left);
+    return !((left >= REAL(0.0)) & (oz_dot2(way, way) <= left * left));
 }
 
 /* Marks the inner list as used up where a block has moved too far for it. */
@@ -198,21 +198,29 @@ OZ_INLINE void oz_piece_move_walls(OzPieceWork *w, int step)
     }
 }
 
+/* Lanes all of whose state's words are finite: what is none leaves no zero when taken off itself. */
+OZ_INLINE mask oz_piece_move_is_number(const real *q)
+{
+    mask number = q[0] - q[0] == REAL(0.0);
+    for (int k = 1; k < OZ_PIECE_STATE; k++) {
+        number = number & (q[k] - q[k] == REAL(0.0));
+    }
+    return number;
+}
+
 /* Stops where a block's state is no number or far away. */
 OZ_INLINE void oz_piece_move_check(OzPieceWork *w, int block, const real *q, int step)
 {
     global const OzPieceParameters *p = w->parameters;
     real x = oz_magnitude(q[0] - REAL(p->middle[0]));
     real y = oz_magnitude(q[OZ_ORDER] - REAL(p->middle[1]));
-    mask here = (x < REAL(p->domain)) & (y < REAL(p->domain)) & (q[2 * OZ_ORDER] == q[2 * OZ_ORDER]);
-    mask lost = !here;
+    mask number = oz_piece_move_is_number(q);
+    mask lost = !((x < REAL(p->domain)) & (y < REAL(p->domain)) & number);
     if (OZ_ANY(lost)) {
-        mask number = (q[0] == q[0]) & (q[OZ_ORDER] == q[OZ_ORDER]) &
-                      (q[2 * OZ_ORDER] == q[2 * OZ_ORDER]);
         int slots[OZ_LANES];
         oz_piece_work_slots(block, slots);
         oz_piece_work_stop_lanes(w, lost & number, OZ_PIECE_STOP_ESCAPED, step, slots);
-        oz_piece_work_stop_lanes(w, lost & !number, OZ_PIECE_STOP_NAN, step, slots);
+        oz_piece_work_stop_lanes(w, !number, OZ_PIECE_STOP_NAN, step, slots);
     }
 }
 

@@ -22,6 +22,7 @@ typedef double place;  /* a coordinate that stays exact far from origin */
 #define OZ_INLINE   static inline
 #define OZ_ANY(m)   ((m) != 0)
 #define OZ_TINY     1e-150 /* its square is still a normal double */
+#define OZ_HUGE     1e300  /* beyond this, numbers are none that a motion can have */
 #define OZ_PARALLEL 1e-24  /* sin^2 of the angle below which shafts count as parallel: rounding's limit */
 #define oz_place_to_real(p) (p)
 
@@ -31,11 +32,13 @@ typedef double place;  /* a coordinate that stays exact far from origin */
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double scalar;
 #define OZ_TINY     1e-150
+#define OZ_HUGE     1e300
 #define OZ_PARALLEL 1e-24
 #define OZ_REAL_NAME double
 #else
 typedef float scalar;
 #define OZ_TINY     1e-18f
+#define OZ_HUGE     1e38f
 #define OZ_PARALLEL 1e-10f
 #define OZ_REAL_NAME float
 #endif

@@ -87,7 +87,19 @@ OZ_INLINE void oz_place_move(OzPlace *place_, OzVec3 *rest, OzVec3 shift, scalar
     place_->z += shift.z;
 }
 
+OZ_INLINE mask oz_place_is_number(OzPlace p)
+{
+    return (p.x == p.x) & (p.y == p.y) & (p.z == p.z);
+}
+
 #else
+
+/* Integers always are. */
+OZ_INLINE mask oz_place_is_number(OzPlace p)
+{
+    (void)p;
+    return (mask)(-1);
+}
 
 OZ_INLINE void oz_place_move_one(place *count, real *rest, real shift)
 {

@@ -6,6 +6,7 @@
 #include "compute/pack.h"
 #include "compute/sim_private.h"
 #include "compute/touch.h"
+#include "compute/units.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,25 +20,19 @@ static OzStatus download(const OzSim *sim, OzFieldId field, int member, void *da
                            : status;
 }
 
-/* The three words of a spring: block of lanes, words of a block's springs, first word of this one.
- */
-static void read_spring(const OzSim *sim, const void *words, int64_t slot, int block_words,
-                        int first, double spring[3])
+/* A word of a spring, m; 0 in a scene without springs. */
+static double spring_word(const OzSim *sim, int member, const void *words, size_t at)
 {
     const OzSwitches *s = &sim->arrays.switches;
-    for (int c = 0; c < 3; c++) {
-        spring[c] =
-            s->history
-                ? oz_pack_scalar(words, oz_pack_lane(s, slot, block_words, first + c), s->is_double)
-                : 0;
-    }
+    return s->history
+               ? oz_pack_scalar(words, at, s->is_double) * sim->parameters[member].units.length
+               : 0;
 }
 
 static OzStatus touch_pairs(OzSim *sim, int member, OzTouch *touch)
 {
     OzStatus status = OZ_OK;
     const OzSizes *z = &sim->arrays.sizes;
-    const OzSwitches *switches = &sim->arrays.switches;
     int *a = NULL, *b = NULL, *count = NULL, *id = NULL;
     void *springs = NULL;
     double spring[3];
@@ -50,9 +45,7 @@ static OzStatus touch_pairs(OzSim *sim, int member, OzTouch *touch)
         int64_t begin = (int64_t)r * z->inner_capacity;
         for (int64_t p = begin; p < begin + count[r]; p++) {
             for (int c = 0; c < 3; c++) {
-                spring[c] = switches->history ? oz_pack_scalar(springs, (size_t)(p * OZ_SPRING + c),
-                                                               switches->is_double)
-                                              : 0;
+                spring[c] = spring_word(sim, member, springs, (size_t)(p * OZ_SPRING + c));
             }
             oz_touch_pair(touch, id[a[p]], id[b[p]], spring);
         }
@@ -77,7 +70,10 @@ static OzStatus touch_walls(OzSim *sim, int member, OzTouch *touch)
     OZ_TRY(download(sim, OZ_FIELD_wall_history, member, &springs));
     for (int slot = 0; slot < sim->arrays.sizes.count; slot++) {
         for (int index = 0; index < indices; index++) {
-            read_spring(sim, springs, slot, 3 * indices, 3 * index, spring);
+            for (int c = 0; c < 3; c++) {
+                size_t at = oz_pack_lane(&sim->arrays.switches, slot, 3 * indices, 3 * index + c);
+                spring[c] = spring_word(sim, member, springs, at);
+            }
             oz_touch_wall(touch, id[slot], index / ends, index % ends, spring);
         }
     }
@@ -104,7 +100,7 @@ static OzStatus read_ledger(OzSim *sim, int member, const OzTouch *touch, OzLedg
     double *words = NULL, sum[OZ_LEDGER_WORDS] = {0};
     OZ_TRY(download(sim, OZ_FIELD_ledger, member, &words));
     for (int k = 0; k < sim->arrays.sizes.regions * OZ_LEDGER_WORDS; k++) {
-        sum[k % OZ_LEDGER_WORDS] += words[k];
+        sum[k % OZ_LEDGER_WORDS] += words[k] * oz_units_energy(&sim->parameters[member].units);
     }
     ledger->dissipated = sum[OZ_L_DISSIPATED];
     ledger->friction = sum[OZ_L_SPRING] - touch->tangential + sim->spring_start[member];

@@ -1,6 +1,7 @@
 /* Parameters from scenes. */
 #include "compute/constants.h"
 
+#include "compute/units.h"
 #include "model/calibrate.h"
 
 #include <string.h>
@@ -120,9 +121,11 @@ OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX
     }
     parameters->length_unit = 1;
     parameters->domain = 1e9;
+    parameters->units = (OzUnits){1, 1, 1};
     if (scene->precision == OZ_PRECISION_FLOAT) {
         OZ_TRY(choose_unit(&parameters->length_unit, scene, grains));
         parameters->domain = 0x1p30;
+        parameters->units = oz_units_choose(grains, scene->step);
     }
     parameters->inverse_unit = 1 / parameters->length_unit;
     parameters->dt = scene->step;

@@ -136,8 +136,8 @@ static OzStatus find_entries(Work *w)
 {
     OzStatus status = OZ_OK;
     const OzParameters *p = &w->sim->parameters[w->member];
-    OZ_TRY(
-        oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis, 2 * p->outer_most));
+    OZ_TRY(oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis,
+                              2 * p->outer_most));
     OZ_TRY(OZ_NEW(&w->entries, w->pairs.count));
     for (int64_t k = 0; k < w->pairs.count; k++) {
         w->entries[k] = entry_of(w, w->pairs.pair[k]);
@@ -216,19 +216,20 @@ done:
     return status;
 }
 
-/* The half-shaft of whatever is in a slot, padding too, which nobody else knows. */
+/* The half-shaft, in the kernels' lengths, of whatever is in a slot, padding too, which nobody else
+ * knows. */
 static void half_shaft(const Work *w, const void *state, int slot, double half[3])
 {
     const OzSwitches *s = switches_of(w);
     int id = slot < sizes_of(w)->count ? w->id[slot] : 0;
-    double turn[4];
+    double turn[4], unit = w->sim->parameters[w->member].units.length;
     for (int c = 0; c < 4; c++) { /* words are x, y, z, w */
         turn[(c + 1) % 4] =
             oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), s->is_double);
     }
     oz_grains_axis(turn, half);
     for (int c = 0; c < 3; c++) {
-        half[c] *= w->now.grains->length[id] / 2;
+        half[c] *= w->now.grains->length[id] / 2 / unit;
     }
 }
 
@@ -240,7 +241,8 @@ static OzStatus write_reference(Work *w)
     const OzSwitches *s = switches_of(w);
     size_t size = s->is_double ? sizeof(double) : sizeof(float);
     char *state = NULL, *reference;
-    double half[3];
+    const OzParameters *p = &w->sim->parameters[w->member];
+    double half[3], skin = p->outer_most / p->units.length;
     OZ_TRY(download(w, OZ_FIELD_state, &state));
     OZ_TRY(download(w, OZ_FIELD_reference_outer, &w->reference));
     reference = w->reference;
@@ -253,7 +255,7 @@ static OzStatus write_reference(Work *w)
                             1, s->is_double);
         }
         oz_pack_scalars(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, OZ_REFERENCE_SKIN),
-                        &w->sim->parameters[w->member].outer_most, 1, s->is_double);
+                        &skin, 1, s->is_double);
     }
     OZ_TRY(upload(w, OZ_FIELD_reference_outer, reference));
 done:

@@ -12,6 +12,7 @@
 #include "compute/pack.h"
 #include "compute/sim_private.h"
 #include "compute/sizes.h"
+#include "compute/units.h"
 
 #include <stdlib.h>
 
@@ -42,6 +43,7 @@ OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps)
     OzStatus status = OZ_OK;
     int64_t first = sim->crew.step;
     const OzScene *scene = sim->crew.members[member].scene;
+    const OzUnits *units = &sim->parameters[member].units;
     int walls = sim->arrays.switches.planes + sim->arrays.switches.cylinders;
     size_t count = 2 * (size_t)(steps + 1) * (size_t)walls;
     double *motion = NULL;
@@ -54,6 +56,8 @@ OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps)
             double *words = motion + 2 * ((size_t)k * (size_t)walls + (size_t)w);
             oz_constants_motion(&scene->walls[sim->wall_order[w]].motion, time, &words[0],
                                 &words[1]);
+            words[0] /= units->length;
+            words[1] /= oz_units_speed(units);
         }
     }
     oz_pack_scalars(narrow, motion, count, sim->arrays.switches.is_double);

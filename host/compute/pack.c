@@ -2,6 +2,7 @@
 #include "compute/pack.h"
 
 #include "base/memory.h"
+#include "compute/units.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -81,6 +82,7 @@ static void put_state(void *state, const OzSwitches *s, const OzParameters *p,
     if (s->gyroscopic) {
         momentum(grains, i, axis, spin);
     }
+    double spin_unit = oz_units_spin(&p->units, s->gyroscopic);
     for (int c = 0; c < 3; c++) {
         double units = grains->position[3 * i + c] / p->length_unit;
         double whole = wide ? units : rint(units);
@@ -88,21 +90,22 @@ static void put_state(void *state, const OzSwitches *s, const OzParameters *p,
         put_place(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_PLACE + c), whole, wide);
         put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_REST + c), units - whole, wide);
         put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c),
-            present ? grains->velocity[3 * i + c] : 0, wide);
-        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), present ? spin[c] : 0, wide);
+            present ? grains->velocity[3 * i + c] / oz_units_speed(&p->units) : 0, wide);
+        put(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c),
+            present ? spin[c] / spin_unit : 0, wide);
     }
     put_turn(state, s, turn, slot);
 }
 
-static void put_shape(void *shape, const OzSwitches *s, const OzGrains *grains, int64_t slot,
-                      int64_t i)
+static void put_shape(void *shape, const OzSwitches *s, const OzParameters *p,
+                      const OzGrains *grains, int64_t slot, int64_t i)
 {
-    double words[OZ_SHAPE];
-    words[OZ_B_RADIUS] = grains->diameter[i] / 2;
-    words[OZ_B_HALF_LENGTH] = grains->length[i] / 2;
-    words[OZ_B_MASS] = grains->mass[i];
-    words[OZ_B_INVERSE_INERTIA] = 1 / grains->inertia[i];
-    words[OZ_B_INVERSE_AXIS] = 1 / grains->inertia_axis[i];
+    double words[OZ_SHAPE], inertia = oz_units_inertia(&p->units);
+    words[OZ_B_RADIUS] = grains->diameter[i] / 2 / p->units.length;
+    words[OZ_B_HALF_LENGTH] = grains->length[i] / 2 / p->units.length;
+    words[OZ_B_MASS] = grains->mass[i] / p->units.mass;
+    words[OZ_B_INVERSE_INERTIA] = inertia / grains->inertia[i];
+    words[OZ_B_INVERSE_AXIS] = inertia / grains->inertia_axis[i];
     for (int k = 0; k < OZ_SHAPE; k++) {
         put(shape, oz_pack_lane(s, slot, OZ_SHAPE, k), words[k], s->is_double);
     }
@@ -118,12 +121,13 @@ static void put_record(void *record, const OzSwitches *s, const OzParameters *p,
     for (size_t c = 0; c < 3; c++) {
         double units = grains->position[3 * (size_t)i + c] / p->length_unit;
         put_place(record, base + OZ_R_PLACE + c, wide ? units : rint(units), wide);
-        put(record, base + OZ_R_SHAFT + c, grains->length[i] / 2 * axis[c], wide);
-        put(record, base + OZ_R_VELOCITY + c, grains->velocity[3 * (size_t)i + c], wide);
-        put(record, base + OZ_R_RATE + c, grains->spin[3 * (size_t)i + c], wide);
+        put(record, base + OZ_R_SHAFT + c, grains->length[i] / 2 * axis[c] / p->units.length, wide);
+        put(record, base + OZ_R_VELOCITY + c,
+            grains->velocity[3 * (size_t)i + c] / oz_units_speed(&p->units), wide);
+        put(record, base + OZ_R_RATE + c, grains->spin[3 * (size_t)i + c] * p->units.time, wide);
     }
-    put(record, base + OZ_R_RADIUS, grains->diameter[i] / 2, wide);
-    put(record, base + OZ_R_MASS, grains->mass[i], wide);
+    put(record, base + OZ_R_RADIUS, grains->diameter[i] / 2 / p->units.length, wide);
+    put(record, base + OZ_R_MASS, grains->mass[i] / p->units.mass, wide);
 }
 
 /* The record of no grain: as far away as differences can bear. */
@@ -155,7 +159,7 @@ OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *paramet
         put_state(state, s, parameters, grains, slot, i);
         put_record(record, s, parameters, grains, slot, i);
         if (shape_bytes > 0) {
-            put_shape(shape, s, grains, slot, i);
+            put_shape(shape, s, parameters, grains, slot, i);
         }
     }
     put_far_record(record, s, z->slots);
@@ -176,7 +180,8 @@ OzStatus oz_pack_parameters(OzArrays *arrays, int member, const OzParameters *pa
 {
     double narrow[sizeof(OzParameters) / sizeof(double)];
     size_t count = sizeof(OzParameters) / sizeof(double);
-    oz_pack_scalars(narrow, (const double *)(const void *)parameters, count,
+    OzParameters counted = oz_units_parameters(parameters, arrays->switches.law);
+    oz_pack_scalars(narrow, (const double *)(const void *)&counted, count,
                     arrays->switches.is_double);
     return oz_arrays_write(arrays, OZ_FIELD_parameters, member, narrow,
                            oz_arrays_bytes(OZ_FIELD_parameters, &arrays->switches, &arrays->sizes));
@@ -219,14 +224,17 @@ static void get_state(const void *state, const OzSwitches *s, const OzParameters
                       int64_t i, OzSnapshot *snapshot)
 {
     bool wide = s->is_double;
+    double speed_unit = oz_units_speed(&p->units);
+    double spin_unit = oz_units_spin(&p->units, s->gyroscopic);
     for (int c = 0; c < 3; c++) {
         double whole = get_place(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_PLACE + c), wide);
         double rest = oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_REST + c), wide);
         snapshot->position[3 * i + c] = (whole + rest) * p->length_unit;
         snapshot->velocity[3 * i + c] =
-            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide);
+            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide) *
+            speed_unit;
         snapshot->spin[3 * i + c] =
-            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), wide);
+            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), wide) * spin_unit;
     }
     get_turn(state, s, slot, &snapshot->quaternion[4 * i]);
     oz_grains_axis(&snapshot->quaternion[4 * i], &snapshot->axis[3 * i]);

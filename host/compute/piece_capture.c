@@ -5,6 +5,7 @@
 #include "compute/piece_forces.h"
 #include "compute/piece_pack.h"
 #include "compute/piece_private.h"
+#include "compute/units.h"
 #include "model/wall_motion.h"
 
 #include <stdlib.h>
@@ -18,7 +19,8 @@ static OzStatus read_ledger(OzPieceSim *sim, int member, OzPieceLedger *ledger)
     OZ_TRY(oz_piece_arrays_read(&sim->arrays, OZ_PIECE_FIELD_ledger, member, words,
                                 count * sizeof *words));
     for (size_t k = 0; k < count; k++) {
-        sum[k % OZ_PIECE_LEDGER_WORDS] += words[k];
+        sum[k % OZ_PIECE_LEDGER_WORDS] +=
+            words[k] * oz_units_energy(&sim->parameters[member].units);
     }
     *ledger = (OzPieceLedger){.beam_axial = sum[OZ_PL_BEAM_AXIAL],
                               .beam_bending = sum[OZ_PL_BEAM_BENDING],
@@ -39,7 +41,7 @@ OzStatus oz_piece_capture_snapshot(OzPieceSim *sim, int member, OzSnapshot *snap
     snapshot->has_contacts = false;
     snapshot->has_ledger = false;
     oz_snapshot_move_walls(snapshot);
-    OZ_TRY(oz_piece_pack_state(&sim->arrays, member, scene, snapshot));
+    OZ_TRY(oz_piece_pack_state(&sim->arrays, member, &sim->parameters[member], snapshot));
     oz_wall_motion_place(snapshot->grains->pieces, scene, snapshot->time, sim->crew.walls_still,
                          snapshot->piece_position, snapshot->piece_angle, snapshot->piece_velocity,
                          snapshot->piece_spin);

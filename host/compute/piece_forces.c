@@ -138,9 +138,9 @@ static void touch_disc(Forces *f, const OzPieceState *state, int a, int b, OzVec
         f->power.disc_friction += d.power_tangential;
         add_load(f, state, a, oz_scale2(d.force, -1), -oz_cross2(place.point, d.force));
         add_load(f, state, b, d.force, oz_cross2(arm, d.force));
-        if (place.overlap > smaller_radius(f->pieces, a, b)) {
-            note_fault(f, OZ_PIECE_DEEP, a, b);
-        }
+    }
+    if (!(place.overlap <= smaller_radius(f->pieces, a, b))) {
+        note_fault(f, OZ_PIECE_DEEP, a, b);
     }
 }
 
@@ -211,7 +211,7 @@ static void sum_beam(Forces *f, const OzBeamForce *beam, int a, int b)
     if (!(beam->stretch >= OZ_BEAM_STRETCH_LEAST && beam->stretch <= OZ_BEAM_STRETCH_MOST)) {
         note_fault(f, isnan(beam->stretch) ? OZ_PIECE_NAN : OZ_PIECE_STRETCHED, a, b);
     }
-    if (bend > OZ_BEAM_BEND_MOST) {
+    if (!(fabs(beam->bend_a) <= OZ_BEAM_BEND_MOST && fabs(beam->bend_b) <= OZ_BEAM_BEND_MOST)) {
         note_fault(f, OZ_PIECE_BENT, a, b);
     }
 }
@@ -241,6 +241,10 @@ void oz_piece_forces_watch(OzPieceForces *forces, const OzPieceState *state, dou
 {
     for (int64_t i = 0; i < forces->pieces->free_count; i++) {
         double way = oz_length2(load2(state->velocity + 2 * i)) * step;
+        if (!isfinite(state->position[2 * i] + state->position[2 * i + 1] + state->angle[i] +
+                      state->spin[i])) {
+            note_fault(forces, OZ_PIECE_NAN, (int)i, (int)i);
+        }
         if (!(way < 0.5 * forces->pieces->reach[i])) {
             note_fault(forces, OZ_PIECE_FAST, (int)i, (int)i);
         }
@@ -289,7 +293,7 @@ done:
 static const struct {
     const char *name, *help;
 } faults[] = {
-    [OZ_PIECE_NAN] = {"feels a force that is no number", "a smaller time.step"},
+    [OZ_PIECE_NAN] = {"has a state, or feels a force, that is no number", "a smaller time.step"},
     [OZ_PIECE_SWALLOWED] = {"has a triangle wholly inside one of, or around one of,",
                             "a larger triangles.stiffness"},
     [OZ_PIECE_DEEP] = {"overlaps by more than half a piece with", "stiffer contacts"},

@@ -10,6 +10,7 @@
 #include "compute/piece_pack.h"
 #include "compute/piece_private.h"
 #include "compute/piece_sizes.h"
+#include "compute/units.h"
 #include "model/wall_motion.h"
 
 #include <math.h>
@@ -84,6 +85,7 @@ static OzStatus write_motion(OzPieceSim *sim, int member, int steps)
     const OzScene *scene = sim->crew.members[member].scene;
     int walls = sim->arrays.sizes.walls;
     size_t count = (size_t)(steps + 1) * (size_t)walls * OZ_PIECE_MOTION;
+    const OzUnits *units = &sim->parameters[member].units;
     double *motion = NULL;
     if (!sim->arrays.switches.moving) {
         return OZ_OK;
@@ -93,14 +95,14 @@ static OzStatus write_motion(OzPieceSim *sim, int member, int steps)
         for (int w = 0; w < scene->wall_count; w++) {
             double *words = motion + ((size_t)k * (size_t)walls + (size_t)w) * OZ_PIECE_MOTION;
             OzWallPose pose = pose_at(sim, member, w, sim->crew.step + k);
-            words[OZ_PM_OFFSET] = pose.rise;
+            words[OZ_PM_OFFSET] = pose.rise / units->length;
             words[OZ_PM_COS] = cos(pose.turn);
             words[OZ_PM_SIN] = sin(pose.turn);
             words[OZ_PM_ANGLE] = pose.turn;
-            words[OZ_PM_POINT] = scene->walls[w].point[0];
-            words[OZ_PM_POINT + 1] = scene->walls[w].point[1];
-            words[OZ_PM_VELOCITY] = pose.speed;
-            words[OZ_PM_SPIN] = pose.spin;
+            words[OZ_PM_POINT] = scene->walls[w].point[0] / units->length;
+            words[OZ_PM_POINT + 1] = scene->walls[w].point[1] / units->length;
+            words[OZ_PM_VELOCITY] = pose.speed / oz_units_speed(units);
+            words[OZ_PM_SPIN] = pose.spin * units->time;
         }
     }
     OZ_TRY(

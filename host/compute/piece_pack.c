@@ -2,6 +2,7 @@
 #include "compute/piece_pack.h"
 
 #include "base/memory.h"
+#include "compute/units.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,22 +35,24 @@ static double stride_most(const OzPieces *pieces, int64_t i)
     return 0.5 * fmin(pieces->reach[i], pieces->area[i] / pieces->reach[i]);
 }
 
-static OzStatus write_shapes(OzPieceArrays *arrays, int member, const OzPieces *pieces)
+static OzStatus write_shapes(OzPieceArrays *arrays, int member, const OzUnits *units,
+                             const OzPieces *pieces)
 {
     OzStatus status = OZ_OK;
     const OzPieceSizes *z = &arrays->sizes;
     size_t count = (size_t)z->slots * OZ_PIECE_SHAPE;
-    double *words = NULL;
+    double *words = NULL, length = units->length, inertia = oz_units_inertia(units);
     OZ_TRY(OZ_NEW(&words, count));
     for (int64_t i = 0; i < pieces->count; i++) {
         int slot = oz_piece_arrays_slot(z, pieces, i);
-        double shape[OZ_PIECE_SHAPE] = {[OZ_PS_REACH] = pieces->reach[i],
-                                        [OZ_PS_RADIUS] = pieces->radius[i],
-                                        [OZ_PS_INVERSE_MASS] = inverse(pieces->mass[i]),
-                                        [OZ_PS_INVERSE_INERTIA] = inverse(pieces->inertia[i]),
-                                        [OZ_PS_STRIDE_MOST] = stride_most(pieces, i)};
+        double shape[OZ_PIECE_SHAPE] = {
+            [OZ_PS_REACH] = pieces->reach[i] / length,
+            [OZ_PS_RADIUS] = pieces->radius[i] / length,
+            [OZ_PS_INVERSE_MASS] = inverse(pieces->mass[i]) * units->mass,
+            [OZ_PS_INVERSE_INERTIA] = inverse(pieces->inertia[i]) * inertia,
+            [OZ_PS_STRIDE_MOST] = stride_most(pieces, i) / length};
         for (int k = 0; k < 6; k++) {
-            shape[OZ_PS_CORNER + k] = pieces->corner[6 * i + k];
+            shape[OZ_PS_CORNER + k] = pieces->corner[6 * i + k] / length;
         }
         for (int k = 0; k < OZ_PIECE_SHAPE; k++) {
             words[at(arrays, slot, OZ_PIECE_SHAPE, k)] = shape[k];
@@ -65,15 +68,16 @@ done:
 static void put_coordinate(const OzPieceArrays *arrays, double *words, int slot, int coordinate,
                            double dt, const double derivative[5])
 {
-    static const double factorial[5] = {1, 1, 2, 6, 24};
     int order = arrays->switches.order;
+    double scale = 1;
     for (int n = 0; n < order; n++) {
         words[at(arrays, slot, state_words(arrays), coordinate * order + n)] =
-            derivative[n] * pow(dt, n) / factorial[n];
+            derivative[n] * scale;
+        scale *= dt / (n + 1);
     }
 }
 
-static OzStatus write_state(OzPieceArrays *arrays, int member, const OzScene *scene,
+static OzStatus write_state(OzPieceArrays *arrays, int member, const OzPieceParameters *p,
                             const OzPieces *pieces, const OzPieceStart *start)
 {
     OzStatus status = OZ_OK;
@@ -89,7 +93,10 @@ static OzStatus write_state(OzPieceArrays *arrays, int member, const OzScene *sc
             double rate = c < 2 ? pieces->velocity[2 * i + c] : pieces->spin[i];
             double d[5] = {place, free ? rate : 0, free ? start->acceleration[3 * i + c] : 0,
                            free ? start->third[3 * i + c] : 0, free ? start->fourth[3 * i + c] : 0};
-            put_coordinate(arrays, words, slot, c, scene->step, d);
+            for (int n = 0; n < 5 && c < 2; n++) {
+                d[n] /= p->units.length;
+            }
+            put_coordinate(arrays, words, slot, c, p->dt, d);
         }
     }
     OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_state, member, words, count));
@@ -98,8 +105,8 @@ done:
     return status;
 }
 
-static OzStatus write_slow_loads(OzPieceArrays *arrays, int member, const OzPieces *pieces,
-                                 const double *touch)
+static OzStatus write_slow_loads(OzPieceArrays *arrays, int member, const OzUnits *units,
+                                 const OzPieces *pieces, const double *touch)
 {
     OzStatus status = OZ_OK;
     size_t count = (size_t)arrays->sizes.slots * OZ_PIECE_LOAD;
@@ -109,7 +116,9 @@ static OzStatus write_slow_loads(OzPieceArrays *arrays, int member, const OzPiec
     }
     OZ_TRY(OZ_NEW(&words, count));
     for (int64_t i = 0; i < pieces->free_count; i++) {
-        memcpy(&words[OZ_PIECE_LOAD * i], &touch[3 * i], 3 * sizeof *words);
+        words[OZ_PIECE_LOAD * i] = touch[3 * i] / oz_units_force(units);
+        words[OZ_PIECE_LOAD * i + 1] = touch[3 * i + 1] / oz_units_force(units);
+        words[OZ_PIECE_LOAD * i + 2] = touch[3 * i + 2] / oz_units_energy(units);
     }
     OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_slow_load, member, words, count));
 done:
@@ -179,7 +188,8 @@ done:
 }
 
 /* Beams, filled up to whole blocks with the first. */
-static OzStatus write_beams(OzPieceArrays *arrays, int member, const OzPieces *pieces)
+static OzStatus write_beams(OzPieceArrays *arrays, int member, const OzUnits *units,
+                            const OzPieces *pieces)
 {
     OzStatus status = OZ_OK;
     size_t count = (size_t)arrays->sizes.beam_blocks * (size_t)arrays->switches.lanes;
@@ -195,7 +205,7 @@ static OzStatus write_beams(OzPieceArrays *arrays, int member, const OzPieces *p
         size_t beam = k < (size_t)pieces->beam_count ? k : 0;
         a[k] = pieces->beam_a[beam];
         b[k] = pieces->beam_b[beam];
-        rest[at(arrays, (int)k, OZ_BEAM_REST, 0)] = pieces->beam_length[beam];
+        rest[at(arrays, (int)k, OZ_BEAM_REST, 0)] = pieces->beam_length[beam] / units->length;
         rest[at(arrays, (int)k, OZ_BEAM_REST, 1)] = pieces->beam_rest_a[beam];
         rest[at(arrays, (int)k, OZ_BEAM_REST, 2)] = pieces->beam_rest_b[beam];
     }
@@ -211,34 +221,36 @@ done:
     return status;
 }
 
-OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzPieceLedger *power)
+OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzUnits *units,
+                              const OzPieceLedger *power)
 {
     OzStatus status = OZ_OK;
     size_t bytes = oz_piece_arrays_bytes(OZ_PIECE_FIELD_ledger, &arrays->switches, &arrays->sizes);
-    double *words = NULL;
+    double *words = NULL, unit = oz_units_energy(units) / units->time; /* W */
     OZ_TRY(oz_memory_new((void **)&words, bytes + sizeof(double) * OZ_PIECE_LEDGER_WORDS, 1,
                          "ledger"));
-    words[OZ_PIECE_LEDGER + OZ_PL_BEAM_AXIAL] = power->beam_axial;
-    words[OZ_PIECE_LEDGER + OZ_PL_BEAM_BENDING] = power->beam_bending;
-    words[OZ_PIECE_LEDGER + OZ_PL_DISC_DAMPING] = power->disc_damping;
-    words[OZ_PIECE_LEDGER + OZ_PL_DISC_FRICTION] = power->disc_friction;
-    words[OZ_PIECE_LEDGER + OZ_PL_WORK_WALLS] = power->work_walls;
+    words[OZ_PIECE_LEDGER + OZ_PL_BEAM_AXIAL] = power->beam_axial / unit;
+    words[OZ_PIECE_LEDGER + OZ_PL_BEAM_BENDING] = power->beam_bending / unit;
+    words[OZ_PIECE_LEDGER + OZ_PL_DISC_DAMPING] = power->disc_damping / unit;
+    words[OZ_PIECE_LEDGER + OZ_PL_DISC_FRICTION] = power->disc_friction / unit;
+    words[OZ_PIECE_LEDGER + OZ_PL_WORK_WALLS] = power->work_walls / unit;
     OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_ledger, member, words, bytes));
 done:
     free(words);
     return status;
 }
 
-OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzScene *scene,
+OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzPieceParameters *parameters,
                              const OzGrains *grains, const OzPieceStart *start)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(write_shapes(arrays, member, grains->pieces));
-    OZ_TRY(write_state(arrays, member, scene, grains->pieces, start));
-    OZ_TRY(write_slow_loads(arrays, member, grains->pieces, start->touch));
+    const OzUnits *units = &parameters->units;
+    OZ_TRY(write_shapes(arrays, member, units, grains->pieces));
+    OZ_TRY(write_state(arrays, member, parameters, grains->pieces, start));
+    OZ_TRY(write_slow_loads(arrays, member, units, grains->pieces, start->touch));
     OZ_TRY(oz_piece_pack_bodies(arrays, member, grains, ~0U));
-    OZ_TRY(write_beams(arrays, member, grains->pieces));
-    OZ_TRY(oz_piece_pack_ledger(arrays, member, &start->power));
+    OZ_TRY(write_beams(arrays, member, units, grains->pieces));
+    OZ_TRY(oz_piece_pack_ledger(arrays, member, units, &start->power));
 done:
     return status;
 }
@@ -246,13 +258,13 @@ done:
 OzStatus oz_piece_pack_parameters(OzPieceArrays *arrays, int member,
                                   const OzPieceParameters *parameters)
 {
+    OzPieceParameters counted = oz_units_pieces(parameters);
     return oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_parameters, member,
-                                         (const double *)parameters,
-                                         sizeof *parameters / sizeof(double));
+                                         (const double *)&counted, sizeof counted / sizeof(double));
 }
 
-OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member, const OzScene *scene,
-                             OzSnapshot *snapshot)
+OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member,
+                             const OzPieceParameters *parameters, OzSnapshot *snapshot)
 {
     OzStatus status = OZ_OK;
     double *words = NULL;
@@ -260,8 +272,9 @@ OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member, const OzSc
     OZ_TRY(oz_piece_arrays_read_scalars(arrays, OZ_PIECE_FIELD_state, member, &words));
     for (int slot = 0; slot < (int)snapshot->grains->pieces->free_count; slot++) {
         for (int c = 0; c < 3; c++) {
-            double place = words[at(arrays, slot, all, c * order)];
-            double rate = words[at(arrays, slot, all, c * order + 1)] / scene->step;
+            double unit = c < 2 ? parameters->units.length : 1;
+            double place = words[at(arrays, slot, all, c * order)] * unit;
+            double rate = words[at(arrays, slot, all, c * order + 1)] / parameters->dt * unit;
             *(c < 2 ? &snapshot->piece_position[2 * slot + c] : &snapshot->piece_angle[slot]) =
                 place;
             *(c < 2 ? &snapshot->piece_velocity[2 * slot + c] : &snapshot->piece_spin[slot]) = rate;

@@ -14,12 +14,14 @@ typedef struct OzPieceStart {
     OzPieceLedger power; /* W: how fast each entry of the ledger grows */
 } OzPieceStart;
 
-/* Writes what never changes: shapes, bodies, beams; and the start. */
-OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzScene *scene,
+/* Writes what never changes: shapes, bodies, beams; and the start. Counts in the parameters' units.
+ */
+OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzPieceParameters *parameters,
                              const OzGrains *grains, const OzPieceStart *start);
 
 /* An empty ledger whose entries grow at these rates, W. */
-OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzPieceLedger *power);
+OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzUnits *units,
+                              const OzPieceLedger *power);
 
 OzStatus oz_piece_pack_parameters(OzPieceArrays *arrays, int member,
                                   const OzPieceParameters *parameters);
@@ -30,7 +32,7 @@ OzStatus oz_piece_pack_bodies(OzPieceArrays *arrays, int member, const OzGrains 
                               unsigned present);
 
 /* Reads the free pieces' state into snapshot. */
-OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member, const OzScene *scene,
-                             OzSnapshot *snapshot);
+OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member,
+                             const OzPieceParameters *parameters, OzSnapshot *snapshot);
 
 #endif

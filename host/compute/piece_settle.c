@@ -44,7 +44,7 @@ static OzStatus start_ledger(void *of)
     OzPieceSim *sim = of;
     static const OzPieceLedger none;
     for (int m = 0; m < sim->crew.member_count; m++) {
-        OZ_TRY(oz_piece_pack_ledger(&sim->arrays, m, &none));
+        OZ_TRY(oz_piece_pack_ledger(&sim->arrays, m, &sim->parameters[m].units, &none));
         sim->control[m].refreshes = sim->control[m].rebuilds = 0;
     }
 done:

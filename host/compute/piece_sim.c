@@ -109,7 +109,7 @@ static OzStatus upload_member(OzPieceSim *sim, int m)
     const OzMember *member = &sim->crew.members[m];
     const OzPieces *pieces = member->grains->pieces;
     OZ_TRY(derive_start(&start, member, sim->arrays.switches.substeps > 1));
-    OZ_TRY(oz_piece_pack_start(&sim->arrays, m, member->scene, member->grains, &start));
+    OZ_TRY(oz_piece_pack_start(&sim->arrays, m, &sim->parameters[m], member->grains, &start));
     sim->present[m] = ~0U;
     sim->control[m] = (OzPieceControl){.free_count = (int)pieces->free_count,
                                        .wall_count = (int)(pieces->count - pieces->free_count),

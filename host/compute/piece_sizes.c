@@ -2,6 +2,7 @@
 #include "compute/piece_sizes.h"
 
 #include "compute/piece_laws.h"
+#include "compute/units.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -81,6 +82,10 @@ OzStatus oz_piece_sizes_parameters(OzPieceParameters *p, const OzScene *scene,
     if (scene->wall_count > OZ_PIECE_WALLS_MAX) {
         return oz_status_fail(OZ_ERR_INPUT, "%s: %d walls, at most %d", scene->path,
                               scene->wall_count, OZ_PIECE_WALLS_MAX);
+    }
+    p->units = (OzUnits){1, 1, 1};
+    if (scene->precision == OZ_PRECISION_FLOAT) {
+        p->units = oz_units_choose(grains, scene->step);
     }
     p->dt = scene->step;
     p->gravity[0] = scene->gravity[0];

@@ -84,16 +84,16 @@ static OzStatus check_bodies(const OzReference *r, double dt)
 {
     for (int i = 0; i < r->count; i++) {
         const OzBody *b = &r->body[i];
-        double speed2 = oz_dot(b->velocity, b->velocity), spin2 = oz_dot(b->spin, b->spin);
-        double far = fmax(fabs(b->place.x), fmax(fabs(b->place.y), fabs(b->place.z)));
-        if (!(speed2 + spin2 < 1e30)) {
-            return blowup(r, i, "is NaN or faster than 1e15 m/s");
+        double domain = r->physics.parameters.domain;
+        if (!oz_body_is_number(*b)) {
+            return blowup(r, i, "is no number");
         }
-        if (!(far < r->physics.parameters.domain)) {
+        if (!(fabs(b->place.x) < domain && fabs(b->place.y) < domain &&
+              fabs(b->place.z) < domain)) {
             return blowup(r, i, "has escaped");
         }
         double allowed = OZ_BODY_STEP_SHARE * r->shape[i].radius;
-        if (!(oz_body_step2(*b, r->shape[i], dt) < allowed * allowed)) {
+        if (!(oz_body_step2(*b, r->shape[i], dt) < allowed * allowed && oz_body_is_turn(*b))) {
             return blowup(r, i, "moves an end farther than half its radius");
         }
     }

@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +23,40 @@ static void fill_row(const OzSnapshot *snapshot, int64_t i, double row[OZ_BED_CO
     row[OZ_BED_DIAMETER] = snapshot->grains->diameter[i];
     row[OZ_BED_LENGTH] = snapshot->grains->length[i];
     row[OZ_BED_MASS] = snapshot->grains->mass[i];
+}
+
+static bool is_rod_sound(const OzSnapshot *snapshot, int64_t i)
+{
+    double row[OZ_BED_COLUMNS];
+    bool sound = true;
+    fill_row(snapshot, i, row);
+    for (int k = 0; k < OZ_BED_COLUMNS; k++) {
+        sound &= isfinite(row[k]) != 0;
+    }
+    return sound;
+}
+
+static bool is_flat_sound(const OzSnapshot *s, int64_t g)
+{
+    const OzPieces *pieces = s->grains->pieces;
+    bool sound = true;
+    for (int64_t i = pieces->first[g]; i < pieces->first[g + 1]; i++) {
+        for (int64_t k = 2 * i; k < 2 * i + 2; k++) {
+            sound &= isfinite(s->piece_position[k]) && isfinite(s->piece_velocity[k]);
+        }
+        sound &= isfinite(s->piece_angle[i]) && isfinite(s->piece_spin[i]);
+    }
+    return sound;
+}
+
+/* The first grain whose state is no number; count where all are. */
+static int64_t find_unsound(const OzSnapshot *s)
+{
+    int64_t i = 0;
+    while (i < s->count && (s->grains->pieces ? is_flat_sound : is_rod_sound)(s, i)) {
+        i++;
+    }
+    return i;
 }
 
 static void write_rows(const OzSnapshot *snapshot, FILE *file)
@@ -123,6 +158,11 @@ OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path)
 {
     OzStatus status = OZ_OK;
     char *part = NULL;
+    int64_t grain = find_unsound(snapshot);
+    if (grain < snapshot->count) {
+        return oz_status_fail(OZ_ERR_BLOWUP, "%s: grain %lld is no number at time %.9g s",
+                              snapshot->scene->path, (long long)grain, snapshot->time);
+    }
     OZ_TRY(part_of(&part, path));
     FILE *file = fopen(part, "r+"); /* what is reserved there stays so */
     file = file ? file : fopen(part, "w");

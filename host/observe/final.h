@@ -18,7 +18,7 @@ OzStatus oz_final_reserve(const OzGrains *grains, const char *path);
 void oz_final_give_up(const char *path);
 
 /* Writes under a temporary name beside path and renames. Fails with OZ_ERR_FILE, leaving what stood
- * under path. */
+ * under path, and with OZ_ERR_BLOWUP where a grain's state is no number. */
 OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path);
 
 #endif

@@ -94,7 +94,7 @@ OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot)
         return OZ_OK;
     }
     double gain = energy - surplus->start;
-    if (gain <= surplus->scale) {
+    if (gain <= surplus->scale || gain <= 0) { /* NaN is neither */
         return OZ_OK;
     }
     return oz_status_fail(

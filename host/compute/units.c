@@ -1,0 +1,178 @@
+/* Dimensions of the kernels' numbers. */
+#include "compute/units.h"
+
+#include <math.h>
+
+/* The nearest power of two below. */
+static double power_of_two(double value)
+{
+    int exponent;
+    frexp(value, &exponent);
+    return ldexp(1, exponent - 1);
+}
+
+/* Smallest and largest of an array; false of an empty one. */
+static bool find_range(const double *values, int64_t count, double *least, double *most)
+{
+    for (int64_t i = 0; i < count; i++) {
+        *least = i == 0 ? values[i] : fmin(*least, values[i]);
+        *most = i == 0 ? values[i] : fmax(*most, values[i]);
+    }
+    return count > 0;
+}
+
+OzUnits oz_units_choose(const OzGrains *grains, double step)
+{
+    const OzPieces *pieces = grains->pieces;
+    int64_t count = pieces ? pieces->free_count : grains->count;
+    double small = 1e-3, large, light = 1e-6, heavy = 1e-6;
+    find_range(pieces ? pieces->reach : grains->diameter, count, &small, &large);
+    find_range(pieces ? pieces->mass : grains->mass, count, &light, &heavy);
+    return (OzUnits){.length = power_of_two(small),
+                     .time = power_of_two(32 * step),
+                     .mass = power_of_two(sqrt(light) * sqrt(heavy))};
+}
+
+double oz_units_speed(const OzUnits *units)
+{
+    return units->length / units->time;
+}
+
+double oz_units_spin(const OzUnits *units, bool is_momentum)
+{
+    return (is_momentum ? oz_units_inertia(units) : 1) / units->time;
+}
+
+double oz_units_force(const OzUnits *units)
+{
+    return units->mass * oz_units_speed(units) / units->time;
+}
+
+double oz_units_inertia(const OzUnits *units)
+{
+    return units->mass * units->length * units->length;
+}
+
+double oz_units_energy(const OzUnits *units)
+{
+    return units->mass * oz_units_speed(units) * oz_units_speed(units);
+}
+
+/* Constants of `law: hertz`: N/m^(3/2) and 1/s; of `hertz-mindlin`: Pa and 1; of `hooke`: 1/s^2 and
+ * 1/s. */
+static void count_law(OzLawConstants *law, const OzUnits *u, int id)
+{
+    double acceleration = u->length / (u->time * u->time), stiffness = 1 / (u->time * u->time);
+    double tangential = stiffness, damping = 1 / u->time;
+    if (id == OZ_LAW_HERTZ) {
+        stiffness = u->mass * acceleration / (u->length * sqrt(u->length));
+        tangential = 1; /* there is none */
+    } else if (id == OZ_LAW_HERTZ_MINDLIN) {
+        stiffness = tangential = u->mass * acceleration / (u->length * u->length);
+        damping = 1;
+    }
+    law->stiffness /= stiffness;
+    law->damping /= damping;
+    law->tangential_stiffness /= tangential;
+    law->tangential_damping /= damping;
+}
+
+static void count_wall(OzWallParameters *wall, const OzUnits *u, int law)
+{
+    wall->radius /= u->length;
+    count_law(&wall->law, u, law);
+}
+
+static void count_grain(OzParameters *p, const OzUnits *u)
+{
+    p->reach_max /= u->length;
+    p->radius /= u->length;
+    p->half_length /= u->length;
+    p->mass /= u->mass;
+    p->inverse_mass *= u->mass;
+    p->inverse_inertia *= oz_units_inertia(u);
+    p->inverse_inertia_axis *= oz_units_inertia(u);
+}
+
+static void count_lists(OzParameters *p, const OzUnits *u)
+{
+    p->outer_least /= u->length;
+    p->outer_most /= u->length;
+    p->outer_time /= u->time;
+    p->skin_least /= u->length;
+    p->skin_most /= u->length;
+    p->skin_time /= u->time;
+    p->inverse_cell *= u->length;
+}
+
+OzParameters oz_units_parameters(const OzParameters *si, int law)
+{
+    OzParameters p = *si;
+    const OzUnits *u = &si->units;
+    p.length_unit /= u->length;
+    p.inverse_unit *= u->length;
+    p.dt /= u->time;
+    p.drag *= u->time;
+    for (int c = 0; c < 3; c++) {
+        p.gravity[c] *= u->time * u->time / u->length;
+    }
+    count_law(&p.law, u, law);
+    for (int w = 0; w < OZ_WALLS_MAX; w++) {
+        count_wall(&p.wall[w], u, law);
+    }
+    count_lists(&p, u);
+    count_grain(&p, u);
+    p.units = (OzUnits){1, 1, 1};
+    return p;
+}
+
+static void count_beam(OzBeamConstants *beam, const OzUnits *u)
+{
+    double volume = u->length * u->length * u->length;
+    beam->stiffness /= oz_units_force(u) / u->length;
+    beam->bending /= oz_units_force(u) / u->length * volume;
+    beam->damping /= u->mass / u->time;
+    beam->damping_bending /= u->mass / u->time * volume;
+}
+
+static void count_disc(OzDiscLaw *law, const OzUnits *u)
+{
+    double linear = 1 / (u->time * u->time);
+    double power = oz_units_force(u) / (u->length * sqrt(u->length));
+    law->stiffness /= law->hertz > 0 ? power : linear;
+    law->damping *= u->time;
+    law->tangential_damping *= u->time;
+}
+
+static void count_piece_lists(OzPieceParameters *p, const OzUnits *u)
+{
+    p->outer_least /= u->length;
+    p->outer_most /= u->length;
+    p->outer_time /= u->time;
+    p->skin_least /= u->length;
+    p->skin_most /= u->length;
+    p->skin_time /= u->time;
+    p->inverse_cell *= u->length;
+    p->reach_small /= u->length;
+}
+
+OzPieceParameters oz_units_pieces(const OzPieceParameters *si)
+{
+    OzPieceParameters p = *si;
+    const OzUnits *u = &si->units;
+    p.dt /= u->time;
+    p.drag *= u->time;
+    p.domain /= u->length;
+    for (int c = 0; c < 2; c++) {
+        p.gravity[c] *= u->time * u->time / u->length;
+        p.middle[c] /= u->length;
+    }
+    p.stiffness /= oz_units_force(u) / (u->length * u->length);
+    count_beam(&p.beam, u);
+    for (int w = 0; w <= OZ_PIECE_WALLS_MAX; w++) {
+        count_disc(&p.law[w], u);
+    }
+    count_piece_lists(&p, u);
+    p.units = (OzUnits){1, 1, 1};
+    return p;
+}

@@ -1,0 +1,30 @@
+/* The units in which kernels count: a length, a time and a mass of the scene's own, so that physics
+ * and guards are the same from a nanometre to a kilometre though single precision ends at 1e-38.
+ * Powers of two: nothing is rounded, and the host goes on in SI units. */
+#ifndef OZ_COMPUTE_UNITS_H
+#define OZ_COMPUTE_UNITS_H
+
+#include "compute/constants.h"
+#include "kernels/piece_layout.h"
+
+/* Near the smallest diameter of rods or the smallest reach of pieces; the time of a contact of 32
+ * steps; and the mean of the lightest and the heaviest mass (geometric: their squares are then as
+ * far from either end of a float). */
+OzUnits oz_units_choose(const OzGrains *grains, double step);
+
+/* The SI value of one unit of a device: m/s; rad/s, or kg m^2/s where the spin is an angular
+ * momentum; N; kg m^2; J. */
+double oz_units_speed(const OzUnits *units);
+double oz_units_spin(const OzUnits *units, bool is_momentum);
+double oz_units_force(const OzUnits *units);
+double oz_units_inertia(const OzUnits *units);
+double oz_units_energy(const OzUnits *units);
+
+/* The parameters of a scene with the given law (its row in the list), in SI, as kernels count them.
+ */
+OzParameters oz_units_parameters(const OzParameters *si, int law);
+
+/* The same of trigrains. */
+OzPieceParameters oz_units_pieces(const OzPieceParameters *si);
+
+#endif
