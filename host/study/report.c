@@ -11,6 +11,7 @@
 #include "study/report_extreme.h"
 #include "study/report_hits.h"
 #include "study/report_map.h"
+#include "study/report_own.h"
 #include "study/report_piece.h"
 #include "study/report_plot.h"
 #include "study/report_table.h"
@@ -52,8 +53,8 @@ typedef struct Report {
     char *folder;
 } Report;
 
-/* "scenes/report/bounce.yaml" is the case "bounce"; *pieces is NULL unless it is one of trigrains.
- */
+/* "scenes/report/bounce.yaml" is the case "bounce"; *pieces is NULL unless it is one of trigrains,
+ * *row where no answer is known. */
 static OzStatus find_case(const OzReportCase **row, const OzReportPieceCase **pieces,
                           const char *path)
 {
@@ -66,12 +67,6 @@ static OzStatus find_case(const OzReportCase **row, const OzReportPieceCase **pi
     }
     *pieces = oz_report_piece_cases_find(name);
     *row = *pieces ? &(*pieces)->row : oz_report_cases_find(name);
-    if (!*row) {
-        status = oz_status_fail(OZ_ERR_INPUT,
-                                "%s: no answer is known for a scene called %s; orzo report studies "
-                                "the scenes of scenes/report",
-                                path, name);
-    }
 done:
     free(copy);
     return status;
@@ -217,14 +212,14 @@ static OzStatus study_scenes(Report *report)
     for (int i = 0; i < options->path_count; i++) {
         const OzReportCase *row = NULL;
         const OzReportPieceCase *pieces = NULL;
-        OzStatus found = find_case(&row, &pieces, options->paths[i]);
-        if (found != OZ_OK && options->path_count > 1) {
-            oz_log_line("%s: left out", oz_status_text());
-            continue;
-        }
-        OZ_TRY(found);
-        OZ_TRY(row->study ? row->study(options->paths[i], report->folder, options)
-                          : study_scene(report, options->paths[i], row, pieces));
+        OZ_TRY(find_case(&row, &pieces, options->paths[i]));
+        OZ_TRY(!row         ? oz_report_own_study(options->paths[i], report->folder, options,
+                                                  &report->devices[0])
+               : row->study ? row->study(options->paths[i], report->folder, options)
+                            : study_scene(report, options->paths[i], row, pieces));
+    }
+    if (report->count == 0) {
+        goto done; /* no table */
     }
     oz_log_line("%d settings in %.0f s; %s/report.csv and pictures", report->count,
                 oz_clock_now() - start, report->folder);
@@ -240,6 +235,7 @@ OzStatus oz_report_run(const OzOptions *options)
 {
     OzStatus status = OZ_OK;
     Report report = {.options = options};
+    setvbuf(stdout, NULL, _IOLBF, 0); /* lines are seen as they come, in a pipe too */
     OZ_TRY(oz_memory_text(&report.folder, options->out ? options->out : folder_default));
     if (options->extreme) {
         OZ_TRY(oz_report_extreme_run(options));

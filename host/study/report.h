@@ -7,9 +7,9 @@
 
 /* Work-precision study of the scenes given, each a row of report_cases.h: prints one sentence for
  * each and leaves DIR/report.csv and a picture of each scene (PNG and SVG). A setting that fails is
- * listed with its reason; of several scenes, one without a row is left out with a line that says
- * so. --device may be a list, as in cpu,gpu: a curve for each. With --extreme, --map, --stability,
- * --ensemble or --hits the study of that name instead. */
+ * listed with its reason. A scene without a row gets the study of report_own.h, on the first
+ * device. --device may be a list, as in cpu,gpu: a curve for each. With --extreme, --map,
+ * --stability, --ensemble or --hits the study of that name instead. */
 OzStatus oz_report_run(const OzOptions *options);
 
 #endif

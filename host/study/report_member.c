@@ -111,3 +111,15 @@ done:
     free(text);
     return status;
 }
+
+OzStatus oz_report_member_mean(double *value, const char *path, const char *column)
+{
+    char *text = NULL;
+    OzStatus status = oz_file_read(&text, NULL, path);
+    if (status == OZ_OK) {
+        int time = column_of(text, "time"), at = column_of(text, column);
+        *value = time < 0 || at < 0 ? NAN : value_of(text, time, at, false);
+    }
+    free(text);
+    return status;
+}

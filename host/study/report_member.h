@@ -23,4 +23,8 @@ extern const OzMemberQuantity oz_report_member_quantities[OZ_MEMBER_QUANTITIES];
 OzStatus oz_report_member_read(double values[OZ_MEMBER_QUANTITIES], const char *path,
                                const OzScene *scene, const OzGrains *grains);
 
+/* The mean of any column over the rows whose time is at least half of the last one's, or NAN as
+ * above. */
+OzStatus oz_report_member_mean(double *value, const char *path, const char *column);
+
 #endif
