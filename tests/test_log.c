@@ -56,23 +56,25 @@ static void nap(double seconds)
     nanosleep(&time, NULL);
 }
 
-/* Calls without end for three paces and a half: one line at the end of each whole pace. The first
- * pace begins with the first call. A thousand calls more often change nothing. */
+/* Calls without end for three paces and a half: a line at the end of each whole pace, the first
+ * pace beginning with the first call. A machine too busy to call in time gets fewer, never more. */
 static void test_progress_in_a_file_is_a_line_a_pace(void **state)
 {
     (void)state;
     const double pace = 0.2;
-    double start = oz_clock_now();
+    double start = oz_clock_now(), spent = 0;
     divert();
     oz_log_pace(pace);
-    while (oz_clock_now() - start < 3.5 * pace) {
+    while (spent < 3.5 * pace) {
         oz_log_progress("%.0f %% done", 12.0);
         nap(1e-3);
+        spent = oz_clock_now() - start;
     }
+    oz_log_progress("%.0f %% done", 12.0);
+    spent = oz_clock_now() - start;
     restore();
-    /* A machine too busy to call in time writes fewer, never more. */
     int count = count_lines(said, "12 % done\n");
-    assert_in_range(count, 2, 3);
+    assert_in_range(count, 1, (int)(spent / pace));
     assert_int_equal(count_lines(said, ""), count);
 }
 
@@ -119,28 +121,37 @@ static void test_log_that_cannot_be_written_is_said_once(void **state)
     assert_int_equal(count_lines(said, "two"), 1);
 }
 
+static void wait_for_line(const char *holding)
+{
+    double end = oz_clock_now() + 30;
+    while (count_lines(said, holding) == 0) {
+        assert_true(oz_clock_now() < end);
+        nap(1e-2);
+    }
+}
+
 /* A stage is named after a second, once, in the log too; how far it is comes after that. */
 static void test_stage_that_lasts_is_named(void **state)
 {
     (void)state;
     OzStage stage;
+    double start = oz_clock_now();
     divert();
     oz_log_pace(0);
     assert_int_equal(oz_log_open(kept), OZ_OK);
     oz_stage_begin(&stage, "baking %d loaves", 7);
-    nap(0.8);
-    assert_int_equal(count_lines(said, "baking"), 0);
-    nap(0.9);
+    wait_for_line("baking");
+    double named = oz_clock_now() - start;
+    wait_for_line("baking 7 loaves: ");
     oz_stage_say(&stage, "baking: half done");
-    nap(0.6);
+    wait_for_line("baking: half done\n");
     oz_stage_end(&stage);
     int lines = count_lines(said, "");
     nap(0.4);
     oz_log_open(NULL);
     restore();
+    assert_true(named >= 1);
     assert_int_equal(count_lines(said, "baking 7 loaves ...\n"), 1);
-    assert_true(count_lines(said, "baking 7 loaves: 1 s\n") >= 1);
-    assert_true(count_lines(said, "baking: half done\n") >= 1);
     assert_int_equal(count_lines(said, ""), lines);
     assert_int_equal(count_lines(kept, "baking"), 1);
 }
@@ -151,10 +162,19 @@ static void test_durations_in_words(void **state)
     const struct {
         double seconds;
         const char *words;
-    } rows[] = {{0.04, "0.0 s"},        {9.94, "9.9 s"},       {9.96, "10 s"},
-                {119.4, "119 s"},       {119.6, "2 min 0 s"},  {250, "4 min 10 s"},
-                {7199.7, "2 h 0 min"},  {8000, "2 h 13 min"},  {86400, "24 h 0 min"},
-                {172800, "2 days 0 h"}, {442800, "5 days 3 h"}};
+    } rows[] = {{0, "0 s"},
+                {0.0451, "0.045 s"},
+                {0.96, "1.0 s"},
+                {9.94, "9.9 s"},
+                {9.96, "10 s"},
+                {119.4, "119 s"},
+                {119.6, "2 min 0 s"},
+                {250, "4 min 10 s"},
+                {7199.7, "2 h 0 min"},
+                {8000, "2 h 13 min"},
+                {86400, "24 h 0 min"},
+                {172800, "2 days 0 h"},
+                {442800, "5 days 3 h"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char words[48];
         oz_clock_words(rows[i].seconds, words, sizeof words);

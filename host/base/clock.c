@@ -23,7 +23,9 @@ void oz_clock_words(double seconds, char *text, size_t size)
 {
     const double minute = 60, hour = 3600, day = 86400;
     double whole = round(seconds);
-    if (seconds < 9.95) {
+    if (seconds < 0.95) {
+        snprintf(text, size, "%.2g s", seconds);
+    } else if (seconds < 9.95) {
         snprintf(text, size, "%.1f s", seconds);
     } else if (whole < 2 * minute) {
         snprintf(text, size, "%.0f s", whole);

@@ -11,8 +11,8 @@ double oz_clock_now(void);
  * not show. */
 double oz_clock_processor(void);
 
-/* A duration as people say it, to about three digits: "0.4 s", "38 s", "4 min 10 s", "2 h 13 min",
- * "5 days 3 h"; cut to size. */
+/* A duration as people say it, to two or three digits: "0.045 s", "38 s", "4 min 10 s", "2 h 13
+ * min", "5 days 3 h"; cut to size. */
 void oz_clock_words(double seconds, char *text, size_t size);
 
 #endif
