@@ -9,7 +9,8 @@
 
 /* L-shaped grains, whose beams are soft unless told otherwise, poured into a vessel. */
 static const char ells[] =
-    "model: trigrains\ntime: {step: 1.5e-6, duration: 0.5}\nbeams: {second_moment: %g, damping: %g}\n"
+    "model: trigrains\ntime: {step: 1.5e-6, duration: 0.5}\nbeams: {second_moment: %g, damping: "
+    "%g}\n"
     "grains:\n  - {kind: random, count: 60, shape: vertices,\n"
     "     vertices: [0,0, 5e-3,0, 5e-3,2e-3, 2e-3,2e-3, 2e-3,5e-3, 0,5e-3]}\n"
     "walls:\n  - {kind: vessel, width: 40e-3, height: 50e-3}\n";
@@ -24,9 +25,9 @@ static OzTrial trial_of(double second_moment, double speed)
     return trial;
 }
 
-/* A beam's bending energy 2 E I / L (a^2 + a b + b^2) is at least 3/2 E I / L a^2, and all of it at most the grain's
- * m v^2 / 2: so a <= v sqrt(m L / (3 E I)). A hit that is any use as an estimate comes within a fifth of that; so for
- * the stretch, sqrt(m / E) v / L. */
+/* A beam's bending energy 2 E I / L (a^2 + a b + b^2) is at least 3/2 E I / L a^2, and all of it at
+ * most the grain's m v^2 / 2: so a <= v sqrt(m L / (3 E I)). A hit that is any use as an estimate
+ * comes within a fifth of that; so for the stretch, sqrt(m / E) v / L. */
 static void test_bending_is_what_energy_allows(void **state)
 {
     (void)state;
@@ -49,9 +50,10 @@ static void test_bending_is_what_energy_allows(void **state)
     rig_close(&rig);
 }
 
-/* Beams are linear: bending grows with speed, within a quarter, since contacts are not. Past the guard's limit the
- * figures come from a slower hit. A second moment four times as large halves it at least (what is advised by that is
- * on the safe side): contacts and beams' lengths then take a larger part of the energy. */
+/* Beams are linear: bending grows with speed, within a quarter, since contacts are not. Past the
+ * guard's limit the figures come from a slower hit. A second moment four times as large halves it
+ * at least (what is advised by that is on the safe side): contacts and beams' lengths then take a
+ * larger part of the energy. */
 static void test_bending_scales(void **state)
 {
     (void)state;
@@ -70,6 +72,7 @@ static char *print_check(const Rig *rig)
     size_t length = 0;
     FILE *file = open_memstream(&text, &length);
     assert_non_null(file);
+    must(oz_inspect_pieces_warn(file, &rig->scene, &rig->grains));
     must(oz_inspect_pieces_print(file, &rig->scene, &rig->grains));
     assert_int_equal(fclose(file), 0);
     return text;

@@ -69,7 +69,6 @@ static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains 
 {
     OzStatus status = OZ_OK;
     OzTrial trial;
-    char advice[256];
     OZ_TRY(oz_trial_worst(&trial, scene, grains));
     if (trial.grain >= 0 && trial.speed > 0) {
         fprintf(
@@ -82,6 +81,18 @@ static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains 
             fprintf(file, "; the weight of the pile by %.2g rad", trial.bend * load / trial.force);
         }
         fprintf(file, "\n");
+    }
+done:
+    return status;
+}
+
+OzStatus oz_inspect_pieces_warn(FILE *file, const OzScene *scene, const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    OzTrial trial;
+    char advice[256];
+    OZ_TRY(oz_trial_worst(&trial, scene, grains));
+    if (trial.grain >= 0 && trial.speed > 0) {
         oz_trial_advise(advice, sizeof advice, &trial, scene);
         fprintf(file, advice[0] ? "  warning          %s\n" : "%s", advice);
     }

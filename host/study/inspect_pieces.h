@@ -10,4 +10,7 @@
  * the step against the largest stable one with what sets it. Fails with OZ_ERR_MEMORY. */
 OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrains *grains);
 
+/* A line that warns of beams or contacts too soft for the hits to be expected, where they are. */
+OzStatus oz_inspect_pieces_warn(FILE *file, const OzScene *scene, const OzGrains *grains);
+
 #endif

@@ -8,6 +8,7 @@
 #include "model/predict.h"
 #include "observe/schedule.h"
 #include "study/inspect_columns.h"
+#include "study/inspect_pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -149,19 +150,22 @@ done:
 
 static OzStatus print_beams(FILE *file, const OzVerdict *v)
 {
+    OzStatus status = OZ_OK;
     OzBeamLimit limit;
     char of[WORDS];
-    OzStatus status = oz_beam_limits_find(&limit, v->scene, v->grains);
-    if (status == OZ_OK && !isinf(limit.largest_step)) {
+    OZ_TRY(oz_beam_limits_find(&limit, v->scene, v->grains));
+    if (!isinf(limit.largest_step)) {
         snprintf(of, sizeof of, "%s of grain %lld", limit.beam < 0 ? "a contact" : "a beam",
                  (long long)limit.grain);
         print_stable(file, v->scene, limit.largest_step, of);
     }
+    OZ_TRY(oz_inspect_pieces_warn(file, v->scene, v->grains));
     if (v->scene->precision == OZ_PRECISION_FLOAT) {
         fputs("  resolution       float rounds away what a small step moves: energies and rest are "
               "not to be trusted\n",
               file);
     }
+done:
     return status;
 }
 
