@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/stage.h"
+#include "compute/part.h"
 #include "compute/start.h"
 #include "model/beam_limits.h"
 #include "model/place.h"
@@ -128,11 +129,22 @@ done:
     return status;
 }
 
+OzStatus oz_plan_place(OzGrains *grains, const OzScene *scene)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_place_grains(grains, scene));
+    if (scene->settle.present && scene->settle.overlaps == OZ_OVERLAPS_REMOVE) {
+        OZ_TRY(oz_part_grains(grains, scene));
+    }
+done:
+    return status;
+}
+
 OzStatus oz_plan_load(const OzPlan *plan, int64_t i, OzScene *scene, OzGrains *grains)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(load_scene(plan, i, scene));
-    OZ_TRY(oz_place_grains(grains, scene));
+    OZ_TRY(oz_plan_place(grains, scene));
     OZ_TRY(oz_plan_judge(scene, grains, plan->options->force));
 done:
     return status;

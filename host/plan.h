@@ -28,6 +28,10 @@ typedef struct OzPlan {
 OzStatus oz_plan_create(OzPlan *plan, const OzOptions *options);
 void oz_plan_free(OzPlan *plan);
 
+/* The grains of a scene at its start: placed, and moved apart where settle.overlaps says so. The
+ * caller frees them, also on failure. */
+OzStatus oz_plan_place(OzGrains *grains, const OzScene *scene);
+
 /* Refuses a step at which a contact of the scene grows by itself and a start that is not sound
  * (compute/start.h), or warns in the log with force. */
 OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force);

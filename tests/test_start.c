@@ -160,6 +160,72 @@ static void test_what_nothing_will_catch_is_named(void **state)
     }
 }
 
+/* A small and a large sphere a third of a radius into each other, above a floor in which the large one stands: what
+ * was in the floor rises out of it, and the two part by their depth, their common centre of mass where it was. */
+static void test_settling_may_part_grains(void **state)
+{
+    (void)state;
+    Rig rig;
+    OzStart start;
+    rig_open(&rig,
+             "model: rods\nprecision: double\ntime: {step: 1e-5, duration: 1}\n"
+             "contact: {contact_time: 1e-3, restitution: 1}\nsettle: {drag: 70, overlaps: remove}\n"
+             "grains:\n  - {kind: single, diameter: 1e-2, position: [0, 0, 1]}\n"
+             "  - {kind: single, diameter: 2e-2, position: [1.3e-2, 0, 1]}\n"
+             "  - {kind: single, diameter: 2e-2, position: [1, 0, 2e-3]}\nwalls: [{kind: plane}]\n");
+    must_refuse(&rig, "overlap");
+    oz_grains_free(&rig.grains);
+    must(oz_plan_place(&rig.grains, &rig.scene));
+    must(oz_start_look(&start, &rig.scene, &rig.grains));
+    assert_int_equal(start.count, 0);
+    const double *x = rig.grains.position;
+    assert_true(fabs(x[3] - x[0] - 1.5e-2) < 1e-3 * 5e-3); /* to rounding's share of the smaller radius */
+    assert_true(fabs(x[0] + 8 * x[3] - 8 * 1.3e-2) < 1e-9);
+    assert_true(fabs(x[8] - 1e-2) < 1e-3 * 1e-2);
+    rig_close(&rig);
+}
+
+/* Squares in each other and in the floor, one of them wholly: all come out of it, and none is moved that was free. */
+static void test_settling_may_part_squares(void **state)
+{
+    (void)state;
+    Rig rig;
+    OzStart start;
+    rig_open(&rig, "model: trigrains\ntime: {step: 1e-6, duration: 1}\n"
+                   "settle: {drag: 70, overlaps: remove}\ngrains:\n"
+                   "  - {kind: single, shape: square, edge: 2e-3, position: [0, 6e-3]}\n"
+                   "  - {kind: single, shape: square, edge: 2e-3, position: [1.7e-3, 6.3e-3], angle: 20}\n"
+                   "  - {kind: single, shape: square, edge: 2e-3, position: [-8e-3, 2e-4], angle: 10}\n"
+                   "  - {kind: single, shape: square, edge: 2e-3, position: [9e-3, 9e-3]}\n"
+                   "  - {kind: single, shape: square, edge: 5e-4, position: [9.1e-3, 9.3e-3]}\n"
+                   "  - {kind: single, shape: square, edge: 2e-3, position: [-8e-3, 9e-3]}\n"
+                   "beams: {length_min: 0, area_min: 0}\n"
+                   "walls: [{kind: vessel, width: 32e-3, height: 20e-3, thickness: 2e-3}]\n");
+    oz_grains_free(&rig.grains);
+    must(oz_plan_place(&rig.grains, &rig.scene));
+    must(oz_start_look(&start, &rig.scene, &rig.grains));
+    assert_int_equal(start.count, 0);
+    const double *x = rig.grains.position;
+    assert_true(x[7] > 1e-3); /* half its edge, and more as it leans */
+    assert_true(x[15] == -8e-3 && x[16] == 9e-3);
+    rig_close(&rig);
+}
+
+static void test_grains_without_room_are_refused(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, "model: rods\nprecision: double\ntime: {step: 1e-5, duration: 1}\n"
+                   "contact: {contact_time: 1e-3, restitution: 1}\n"
+                   "settle: {drag: 70, overlaps: remove}\n"
+                   "grains: [{kind: single, diameter: 1e-2, position: [0, 0, 4e-3]}]\n"
+                   "walls: [{kind: plane}, {kind: plane, point: [0, 0, 8e-3], normal: [0, 0, -1]}]\n");
+    oz_grains_free(&rig.grains);
+    assert_int_equal(oz_plan_place(&rig.grains, &rig.scene), OZ_ERR_INPUT);
+    assert_non_null(strstr(oz_status_text(), "cannot be moved apart"));
+    rig_close(&rig);
+}
+
 /* No word about any scene that comes with the program but those that start so on purpose. */
 static void test_scenes_start_soundly(void **state)
 {
@@ -192,6 +258,9 @@ int main(void)
         cmocka_unit_test(test_a_corner_in_the_floor),
         cmocka_unit_test(test_a_square_in_the_floor),
         cmocka_unit_test(test_what_nothing_will_catch_is_named),
+        cmocka_unit_test(test_settling_may_part_grains),
+        cmocka_unit_test(test_settling_may_part_squares),
+        cmocka_unit_test(test_grains_without_room_are_refused),
         cmocka_unit_test(test_scenes_start_soundly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

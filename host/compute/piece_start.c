@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "compute/piece_dialect.h"
+#include "compute/piece_meet.h"
 #include "compute/piece_pairs.h"
 
 #include <math.h>
@@ -16,83 +17,23 @@ typedef struct Look {
     int64_t *met; /* bodies: the last one, from 1, with which each overlaps */
 } Look;
 
-static OzTriangle triangle_of(const OzPieces *pieces, int i)
+double oz_piece_start_radius(const OzGrains *grains, int grain)
 {
-    double corners[6];
-    OzTriangle t;
-    oz_pieces_corners(pieces, i, &pieces->position[2 * (int64_t)i], pieces->angle[i], corners);
-    for (int c = 0; c < 3; c++) {
-        t.corner[c] = oz_vec2(corners[2 * c], corners[2 * c + 1]);
-    }
-    return t;
-}
-
-/* Of the circle of the same area. */
-static double radius_of(const OzPieces *pieces, int body)
-{
+    const OzPieces *p = grains->pieces;
     double area = 0;
-    for (int64_t i = pieces->first[body]; i < pieces->first[body + 1]; i++) {
-        area += pieces->area[i];
+    for (int64_t i = p->first[grain]; i < p->first[grain + 1]; i++) {
+        area += p->area[i];
     }
     return sqrt(area / 3.14159265358979323846);
-}
-
-/* What two pieces do to each other. */
-typedef struct Meeting {
-    double force, energy; /* N, J                          */
-    double depth;         /* m                             */
-    bool broken;          /* beyond what contacts can tell */
-} Meeting;
-
-static Meeting meet_triangles(const Look *look, int a, int b)
-{
-    OzTriangle one = triangle_of(look->grains->pieces, a);
-    OzTriangle other = triangle_of(look->grains->pieces, b);
-    Meeting m = {0};
-    if (oz_triangle_near(&one, &other, 0)) {
-        OzOverlap o = oz_triangle_overlap(&one, &other);
-        m.broken = o.deep || o.swallowed;
-        m.force = look->scene->triangles.stiffness * o.area;
-        m.energy = look->scene->triangles.stiffness * o.energy;
-        m.depth = o.area > 0 ? 2 * o.energy / o.area : 0;
-    }
-    return m;
-}
-
-static Meeting meet_disc(const Look *look, int a, int b)
-{
-    const OzPieces *p = look->grains->pieces;
-    const double *x = &p->position[2 * (int64_t)a], *y = &p->position[2 * (int64_t)b];
-    OzVec2 at_a = oz_vec2(x[0], x[1]), at_b = oz_vec2(y[0], y[1]);
-    OzDiscPlace place;
-    int wall = b < p->free_count ? -1 : p->body[b] - (int)p->grain_count;
-    double mass = wall < 0 ? p->mass[a] * p->mass[b] / (p->mass[a] + p->mass[b]) : p->mass[a];
-    if (p->radius[a] > 0 && p->radius[b] > 0) {
-        place = oz_disc_meet(at_a, p->radius[a], at_b, p->radius[b]);
-    } else {
-        OzTriangle t = triangle_of(p, p->radius[a] > 0 ? b : a);
-        place = oz_disc_meet_triangle(&t, p->radius[a] > 0 ? at_a : at_b,
-                                      fmax(p->radius[a], p->radius[b]));
-    }
-    OzDiscForce force =
-        oz_disc_force(place, oz_vec2(0, 0), mass, oz_piece_laws_disc(look->scene, wall));
-    Meeting m = {0};
-    if (force.touching) {
-        m.force = sqrt(oz_dot2(force.force, force.force));
-        m.energy = force.energy;
-        m.depth = place.overlap;
-    }
-    return m;
 }
 
 static void look_at_pair(Look *look, OzPiecePair pair)
 {
     const OzPieces *p = look->grains->pieces;
-    bool disc = p->radius[pair.a] > 0 || p->radius[pair.b] > 0;
-    Meeting m = disc ? meet_disc(look, pair.a, pair.b) : meet_triangles(look, pair.a, pair.b);
+    OzPieceMeeting m = oz_piece_meet_pair(look->scene, look->grains, pair.a, pair.b);
     int body = p->body[pair.b], wall = body - (int)p->grain_count;
-    double radius = radius_of(p, p->body[pair.a]);
-    radius = wall < 0 ? fmin(radius, radius_of(p, body)) : radius;
+    double radius = oz_piece_start_radius(look->grains, p->body[pair.a]);
+    radius = wall < 0 ? fmin(radius, oz_piece_start_radius(look->grains, body)) : radius;
     OzStartOverlap overlap = {.a = p->body[pair.a],
                               .b = wall < 0 ? body : -1,
                               .wall = wall,
@@ -118,10 +59,7 @@ static void sum_worst(Look *look, const OzPiecePairs *pairs)
     for (int64_t k = 0; k < pairs->count; k++) {
         OzPiecePair pair = pairs->pair[k];
         if (p->body[pair.a] == worst->a && p->body[pair.b] == other) {
-            bool disc = p->radius[pair.a] > 0 || p->radius[pair.b] > 0;
-            worst->energy +=
-                (disc ? meet_disc(look, pair.a, pair.b) : meet_triangles(look, pair.a, pair.b))
-                    .energy;
+            worst->energy += oz_piece_meet_pair(look->scene, look->grains, pair.a, pair.b).energy;
         }
     }
 }
@@ -156,9 +94,11 @@ static bool has_wall_below(const Look *look, const double x[3])
     const OzPieces *p = look->grains->pieces;
     OzVec2 down = oz_vec2(look->scene->gravity[0], look->scene->gravity[1]);
     for (int64_t i = p->free_count; i < p->count; i++) {
-        OzTriangle t = triangle_of(p, (int)i);
-        for (int c = 0; c < 3; c++) {
-            if (crosses(oz_vec2(x[0], x[1]), down, t.corner[c], t.corner[(c + 1) % 3])) {
+        double t[6];
+        oz_piece_meet_corners(p, (int)i, t);
+        for (int c = 0, d = 1; c < 3; c++, d = (c + 1) % 3) {
+            if (crosses(oz_vec2(x[0], x[1]), down, oz_vec2(t[2 * c], t[2 * c + 1]),
+                        oz_vec2(t[2 * d], t[2 * d + 1]))) {
                 return true;
             }
         }
@@ -185,7 +125,6 @@ OzStatus oz_piece_start_look(OzStart *start, const OzScene *scene, const OzGrain
     OzPiecePairs pairs = {0};
     Look look = {.start = start, .scene = scene, .grains = grains};
     bool falls = hypot(scene->gravity[0], scene->gravity[1]) > 0;
-    oz_piece_dialect_set(scene);
     OZ_TRY(OZ_NEW(&look.met, grains->pieces->grain_count + grains->pieces->wall_count));
     look.load = oz_start_load(scene, grains);
     OZ_TRY(oz_piece_pairs_renew(&pairs, grains->pieces, grains->pieces->position));

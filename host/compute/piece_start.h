@@ -10,4 +10,7 @@
  * however many of their pieces overlap. */
 OzStatus oz_piece_start_look(OzStart *start, const OzScene *scene, const OzGrains *grains);
 
+/* The radius of the circle of a grain's area, m. */
+double oz_piece_start_radius(const OzGrains *grains, int grain);
+
 #endif

@@ -31,6 +31,8 @@ static const char *const LAWS[] = {[OZ_LAW_HOOKE] = "hooke",
                                    [OZ_LAW_HERTZ_MINDLIN] = "hertz-mindlin",
                                    NULL};
 static const char *const FLAT_LAWS[] = {[OZ_LAW_HOOKE] = "hooke", [OZ_LAW_HERTZ] = "hertz", NULL};
+static const char *const OVERLAPS[] = {
+    [OZ_OVERLAPS_KEEP] = "keep", [OZ_OVERLAPS_REMOVE] = "remove", NULL};
 static const char *const SLIPS[] = {[OZ_SLIP_CUT] = "cut", [OZ_SLIP_SCALE] = "scale", NULL};
 static const char *const ATTRACTIONS[] = {
     [OZ_ATTRACTION_ALLOW] = "allow", [OZ_ATTRACTION_CLAMP] = "clamp", NULL};

@@ -337,6 +337,9 @@ static const OzKey KEYS[] = {
     {"settle.time_max", NUMBER(0, 1e9, "s"), AT(settle.time_max), DEFAULT("2"),
      .help = "longest time with drag"},
 
+    {"settle.overlaps", CHOICE(OVERLAPS), AT(settle.overlaps), DEFAULT("keep"),
+     .help = "remove: grains that overlap at the start are moved apart first, without forces"},
+
     {"guards.overlap.warn", NUMBER(1e-6, 2, "radii"), AT(guards.overlap_warn), DEFAULT("1"), SOLID,
      .help = "overlaps beyond this times the smaller radius, at a wall half of it, are counted in "
              "deep_count, and the first is said"},

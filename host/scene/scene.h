@@ -159,8 +159,14 @@ typedef struct OzPopulation {
     int line;
 } OzPopulation;
 
+typedef enum OzOverlaps {
+    OZ_OVERLAPS_KEEP,  /* grains start where they are told to                    */
+    OZ_OVERLAPS_REMOVE /* they are moved apart first, without forces (part.h)     */
+} OzOverlaps;
+
 typedef struct OzSettle {
     bool present;
+    OzOverlaps overlaps;
     double drag;      /* 1/s                                                                */
     double threshold; /* kinetic energy below threshold x N m g d counts as settled         */
     double rest_time; /* s without drag afterwards (default 0.2)                            */

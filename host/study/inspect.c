@@ -2,7 +2,6 @@
 #include "study/inspect.h"
 
 #include "base/log.h"
-#include "model/place.h"
 #include "plan.h"
 #include "scene/keys.h"
 #include "study/inspect_contacts.h"
@@ -164,7 +163,7 @@ static OzStatus open_all(Inspection *in, const OzOptions *options)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(oz_scene_load(&in->scene, options->paths[0], options->settings, options->setting_count));
-    OZ_TRY(oz_place_grains(&in->grains, &in->scene));
+    OZ_TRY(oz_plan_place(&in->grains, &in->scene));
     OZ_TRY(oz_device_open(&in->device, options->device, options->threads));
     status = oz_rehearsal_run(&in->rehearsal, &in->scene, &in->grains, &in->device,
                               options->source_dir, PATIENCE, STRETCH);
