@@ -12,6 +12,7 @@ typedef struct OzPiecePush {
     OzVec2 force;            /* N, on b; -force on a            */
     real torque_a, torque_b; /* N m, about each one's centre    */
     mask deep, swallowed;
+    real share;              /* of a triangle inside the other, or of a disc's diameter */
     real power_normal, power_tangential; /* W, dissipated by discs */
 } OzPiecePush;
 
@@ -56,6 +57,7 @@ OZ_INLINE OzPiecePush oz_piece_contacts_triangles(const OzPieceWork *w, const Oz
     push.torque_a = -(stiffness * o.moment);
     push.torque_b = stiffness * (o.moment - oz_cross2(apart, o.push));
     push.deep = o.deep;
+    push.share = o.share;
     push.swallowed = o.swallowed;
     push.power_normal = push.power_tangential = REAL(0.0);
     return push;
@@ -128,6 +130,7 @@ OZ_INLINE void oz_piece_contacts_discs(const OzPieceWork *w, const OzPiece *a, c
     real small = oz_smaller(radius_a, radius_b), radius = oz_larger(radius_a, radius_b);
     radius = small > REAL(0.0) ? small : radius;
     push->deep = disc ? !(place.overlap <= radius) : push->deep;
+    push->share = disc ? oz_larger(place.overlap, REAL(0.0)) / (REAL(2.0) * radius) : push->share;
     push->swallowed &= !disc;
     push->power_normal = disc ? f.power_normal : REAL(0.0);
     push->power_tangential = disc ? f.power_tangential : REAL(0.0);
@@ -135,14 +138,38 @@ OZ_INLINE void oz_piece_contacts_discs(const OzPieceWork *w, const OzPiece *a, c
 
 #endif
 
+/* Counts deep contacts; of the launch's first step with any keeps the lowest slot and the greatest share. */
+OZ_INLINE void oz_piece_contacts_count(OzPieceWork *w, real share, mask deep, const int *slots, int step)
+{
+    global OzPieceControl *control = w->control;
+    scalar lane[OZ_LANES];
+    int hit[OZ_LANES];
+    OZ_LANES_STORE(share, lane);
+    oz_lanes_store_mask(deep, hit);
+    for (int l = 0; l < OZ_LANES; l++) {
+        if (!hit[l]) {
+            continue;
+        }
+        atomic_inc(&control->deep_count);
+        if (step <= control->deep_step) {
+            atomic_min(&control->deep_step, step);
+            atomic_min(&control->deep_slot, slots[l]);
+            atomic_max(&control->deep_share, convert_int_sat(lane[l] * (scalar)OZ_PIECE_DEEP_SHARE));
+        }
+    }
+}
+
 /* Stops where a triangle is inside another or half in it, or a disc by more than its radius. */
 OZ_INLINE void oz_piece_contacts_check(OzPieceWork *w, const OzPiecePush *push, mask present,
                                        const int *slots, int step)
 {
     mask deep = push->deep & present, swallowed = push->swallowed & present;
-    if (OZ_ANY(deep | swallowed)) {
+    mask warn = !(push->share <= REAL(w->parameters->deep_warn)) & present;
+    mask stop = !(push->share <= REAL(w->parameters->deep_stop)) & present;
+    if (OZ_ANY(deep | swallowed | warn | stop)) {
+        oz_piece_contacts_count(w, push->share, warn, slots, step);
         oz_piece_work_stop_lanes(w, swallowed, OZ_PIECE_STOP_SWALLOWED, step, slots);
-        oz_piece_work_stop_lanes(w, deep, OZ_PIECE_STOP_DEEP, step, slots);
+        oz_piece_work_stop_lanes(w, deep | stop, OZ_PIECE_STOP_DEEP, step, slots);
     }
 }
 

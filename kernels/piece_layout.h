@@ -19,6 +19,7 @@ typedef struct OzPieceParameters {
     scalar middle[2];     /* m: a piece farther than domain from here has escaped             */
     scalar domain;
     scalar stiffness;     /* N/m^2, force of two triangles over their overlap area            */
+    scalar deep_warn, deep_stop; /* shares of a triangle inside another, or of a disc's diameter */
     OzBeamConstants beam;
     OzDiscLaw law[OZ_PIECE_WALLS_MAX + 1]; /* of discs: with other grains, then with each wall  */
     scalar outer_least, outer_most; /* m, of one piece in the outer list: grows with its speed */
@@ -57,6 +58,9 @@ enum {
 
 enum { OZ_PIECE_NEVER = 0x7fffffff };
 
+/* Shares of deep contacts are counted in parts of this. */
+enum { OZ_PIECE_DEEP_SHARE = 1000000 };
+
 /* The device's own words, one set a member. Steps count from the start of the launch. */
 typedef struct OzPieceControl {
     int free_count, wall_count, beam_count; /* of this member: pieces of grains and of walls      */
@@ -69,6 +73,10 @@ typedef struct OzPieceControl {
     int stop_step;    /* first step that stopped; OZ_PIECE_NEVER                                */
     int stop_slot;    /* lowest slot that stopped in that step; OZ_PIECE_NEVER                  */
     int refreshes, rebuilds; /* since the start of the run                                      */
+    int deep_count;   /* deep contacts of this launch, each counted once a step                 */
+    int deep_step;    /* first step with one; OZ_PIECE_NEVER                                    */
+    int deep_slot;    /* the lowest slot in it (a pair's first piece); OZ_PIECE_NEVER           */
+    int deep_share;   /* the greatest share in it, in OZ_PIECE_DEEP_SHARE                       */
 } OzPieceControl;
 
 /* Words of a slot's record, what contacts and beams need of a piece: corners in the world, centre of mass,

@@ -32,6 +32,7 @@ typedef struct OzOverlap {
     real area;      /* m^2, also of a swallowed triangle                                        */
     real energy;    /* m^3, integral of depth: kind i's potential, an estimate for others       */
     real kind;      /* 0 none, 1..6 for kinds i..vi                                             */
+    real share;     /* the largest part of one of them that is inside the other; 0 apart        */
     mask deep;      /* more than half of one of them is inside the other                        */
     mask swallowed; /* one of them is inside the other, and feels nothing                       */
 } OzOverlap;
@@ -242,6 +243,9 @@ OZ_INLINE OzOverlap oz_triangle_overlap(const OzTriangle *a, const OzTriangle *b
     /* all of the smaller one; edges that coincide leave some rounding's area */
     o.swallowed = (crossings < REAL(0.5)) & (REAL(2.0) * o.area > oz_smaller(area_a, area_b));
     real most_a = many ? o.area : part_a, most_b = many ? o.area : part_b;
+    real areas = oz_larger(area_a * area_b, REAL(OZ_TINY));
+    real share = oz_larger(most_a * area_b, most_b * area_a) / areas;
+    o.share = crosses | o.swallowed ? share : REAL(0.0);
     o.deep = crosses & ((REAL(2.0) * most_a > area_a) | (REAL(2.0) * most_b > area_b));
     o.push = oz_choose2(crosses, o.push, oz_vec2(REAL(0.0), REAL(0.0)));
     o.moment = crosses ? o.moment : REAL(0.0);

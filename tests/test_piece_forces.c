@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "compute/piece_forces.h"
+#include "model/place.h"
 
 static const double rest[2] = {0, 0};
 static const double pi = 3.14159265358979323846;
@@ -179,6 +180,55 @@ static void test_disc_hertz(void **state)
     assert_true(fabs(stored / (0.5 * start) - 1) < 1e-4); /* half is the common motion's */
     assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-6);
     rig_close(&rig);
+}
+
+/* A hit without damping of two discs (radius 1 mm, 0.1 m/s) goes v t_c / pi deep: with a contact time for 0.8 mm,
+ * 0.4 of the diameter, it is beyond a share s for t_c (1 - 2 asin(s / 0.4) / pi), and ends at the speed it had. A count
+ * more or less lies between two steps. */
+static void test_deep_discs_are_counted(void **state)
+{
+    (void)state;
+    PieceRig rig;
+    const double time = 0.8e-3 * pi / 0.1, step = 1e-5;
+    char contact[128];
+    snprintf(contact, sizeof contact, "contact: {contact_time: %.17g, restitution: 1, friction: 0}", time);
+    open_discs(&rig, contact, step, 0);
+    rig_advance(&rig, (int64_t)(1.2 * time / step));
+    double expected = time * (1 - 2 * asin(0.25 / 0.4) / pi) / step;
+    assert_true(fabs((double)rig.now.deep_count - expected) <= 1);
+    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-4);
+    rig_close(&rig);
+}
+
+/* A corner of a square pressed into a floor, beams as stiff as need be: counted from a quarter of a triangle, stopped
+ * where it is told to. */
+static void test_a_limit_of_ones_own_ends_a_run(void **state)
+{
+    (void)state;
+    static const char square[] =
+        "model: trigrains\ngravity: [0, 0]\ntime: {step: 1e-7, duration: 1}\n%s"
+        "grains:\n  - {kind: single, shape: square, edge: 2e-3, angle: 45, position: [0, %.17g]}\n"
+        "walls: [{kind: vessel, width: 32e-3, height: 20e-3, thickness: 4e-3}]\n";
+    static const struct {
+        const char *keys;
+        double share; /* of each of the two triangles that share the corner */
+        int deep, stops;
+    } cases[] = {{"", 0.2, 0, 0}, {"", 0.3, 2, 0}, {"guards: {overlap: {stop: 0.28}}\n", 0.3, 2, 1},
+                 {"guards: {overlap: {warn: 0.31}}\n", 0.3, 0, 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        PieceRig rig = {0};
+        char text[1024];
+        double depth = sqrt(2e-6 * cases[k].share); /* each holds half of depth^2, of an area of 1 mm^2 */
+        snprintf(text, sizeof text, square, cases[k].keys, sqrt(2) * 1e-3 - depth);
+        must(oz_scene_parse(&rig.scene, "rig.yaml", text, NULL, 0));
+        must(oz_place_grains(&rig.grains, &rig.scene));
+        rig_start(&rig);
+        OzStatus status = oz_piece_reference_advance(rig.reference, 1);
+        assert_int_equal(status, cases[k].stops ? OZ_ERR_BLOWUP : OZ_OK);
+        must(oz_piece_reference_snapshot(rig.reference, &rig.now));
+        assert_int_equal(rig.now.deep_count, cases[k].deep);
+        rig_close(&rig);
+    }
 }
 
 /* A fast graze slides all the way: the impulse across is friction times that along the normal,
@@ -399,6 +449,8 @@ int main(void)
         cmocka_unit_test(test_counts),
         cmocka_unit_test(test_disc_restitution),
         cmocka_unit_test(test_disc_hertz),
+        cmocka_unit_test(test_deep_discs_are_counted),
+        cmocka_unit_test(test_a_limit_of_ones_own_ends_a_run),
         cmocka_unit_test(test_disc_friction),
         cmocka_unit_test(test_disc_on_triangle),
         cmocka_unit_test(test_moving_floor),

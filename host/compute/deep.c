@@ -7,12 +7,18 @@
 
 void oz_deep_say(const OzScene *scene, const OzDeepFound *found, bool settling)
 {
-    oz_log_line("warning: %s, seed %" PRIu64 ": grain %d overlaps %s by %.3g of %s radius at step "
-                "%lld%s, time %.9g s: deeper than guards.overlap.warn; such contacts are counted "
-                "in deep_count",
-                scene->path, scene->seed, found->grain, found->at_wall ? "a wall" : "another grain",
-                found->depth, found->at_wall ? "its" : "the smaller", (long long)found->step,
-                settling ? " of settling" : "", (double)found->step * scene->step);
+    const char *body = found->at_wall ? "a wall" : "another grain";
+    const char *unit = found->at_wall ? "its radius" : "the smaller radius";
+    if (scene->model == OZ_MODEL_TRIGRAINS) {
+        body = "another body";
+        unit = "a triangle (or of a disc's diameter)";
+    }
+    oz_log_line("warning: %s, seed %" PRIu64 ": grain %d overlaps %s by %.3g of %s at step %lld%s, "
+                "time %.9g s: deeper than guards.overlap.warn; such contacts are counted in "
+                "deep_count",
+                scene->path, scene->seed, found->grain, body, found->depth, unit,
+                (long long)found->step, settling ? " of settling" : "",
+                (double)found->step * scene->step);
 }
 
 void oz_deep_note(OzCrew *crew, int member, const OzDeepFound *found)

@@ -10,8 +10,8 @@ typedef struct OzDeepFound {
     int64_t count; /* deep contacts, each counted once a step; 0: none, and the rest is unset   */
     int64_t step;  /* that the first one was met in, counted from 1 as a member's steps are     */
     int grain;     /* the lowest id in that step, a pair's first grain                          */
-    double depth;  /* the greatest overlap in that step over the smaller radius                 */
-    bool at_wall;  /* it was at a wall                                                          */
+    double depth;  /* the greatest in that step: over the smaller radius; trigrains: a share    */
+    bool at_wall;  /* rods: it was at a wall                                                    */
 } OzDeepFound;
 
 /* Adds to the member's count; a line in the log when it is the first since time 0. */

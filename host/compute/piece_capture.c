@@ -38,6 +38,7 @@ OzStatus oz_piece_capture_snapshot(OzPieceSim *sim, int member, OzSnapshot *snap
     const OzScene *scene = sim->crew.members[member].scene;
     snapshot->step = sim->crew.reached[member];
     snapshot->time = (double)snapshot->step * scene->step;
+    snapshot->deep_count = sim->crew.deep_count[member];
     snapshot->has_contacts = false;
     snapshot->has_ledger = false;
     oz_snapshot_move_walls(snapshot);

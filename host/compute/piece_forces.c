@@ -24,6 +24,15 @@ static void note_fault(Forces *f, OzPieceFault fault, int a, int b)
     }
 }
 
+/* share: as OzOverlap's, or of a disc's diameter. */
+static void judge_depth(Forces *f, double share, int a, int b)
+{
+    f->deep_count += !(share <= f->scene->guards.overlap_warn);
+    if (!(share <= f->scene->guards.overlap_stop)) {
+        note_fault(f, OZ_PIECE_DEEP, a, b);
+    }
+}
+
 static int wall_of(const OzPieces *pieces, int i)
 {
     return i < pieces->free_count ? -1 : pieces->body[i] - (int)pieces->grain_count;
@@ -77,6 +86,7 @@ static void touch_triangles(Forces *f, const OzPieceState *state, int a, int b, 
     if (o.swallowed || o.deep) {
         note_fault(f, o.swallowed ? OZ_PIECE_SWALLOWED : OZ_PIECE_DEEP, a, b);
     }
+    judge_depth(f, o.share, a, b);
     if (o.kind > 0) {
         OzVec2 force = oz_scale2(o.push, stiffness);
         count_touch(f, (OzTouchKind)((int)o.kind - 1), a, b);
@@ -139,9 +149,7 @@ static void touch_disc(Forces *f, const OzPieceState *state, int a, int b, OzVec
         add_load(f, state, a, oz_scale2(d.force, -1), -oz_cross2(place.point, d.force));
         add_load(f, state, b, d.force, oz_cross2(arm, d.force));
     }
-    if (!(place.overlap <= smaller_radius(f->pieces, a, b))) {
-        note_fault(f, OZ_PIECE_DEEP, a, b);
-    }
+    judge_depth(f, place.overlap / (2 * smaller_radius(f->pieces, a, b)), a, b);
 }
 
 static void touch_pair(Forces *f, const OzPieceState *state, int a, int b)
@@ -178,6 +186,7 @@ static void begin(Forces *f)
     memset(f->met, 0, (size_t)(pieces->grain_count + pieces->wall_count) * sizeof *f->met);
     f->sums = (OzPieceSums){.stretch_min = 1, .stretch_max = 1};
     f->power = (OzPieceLedger){0};
+    f->deep_count = 0;
     f->fault = OZ_PIECE_SOUND;
 }
 

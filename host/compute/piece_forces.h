@@ -39,6 +39,7 @@ typedef struct OzPieceForces {
     double *torque;       /* free_count: N m                                  */
     OzPieceSums sums;     /* of the last evaluation                           */
     OzPieceLedger power;  /* W: how fast each entry of the ledger grows       */
+    int64_t deep_count;   /* of the last evaluation: contacts beyond guards.overlap.warn */
     OzPieceFault fault;   /* the first found                                  */
     int fault_a, fault_b; /* its pieces; a beam's ends                        */
 } OzPieceForces;

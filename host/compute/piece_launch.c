@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "compute/cl_try.h"
+#include "compute/deep.h"
 #include "compute/piece_capture.h"
 #include "compute/piece_guard.h"
 #include "compute/piece_pack.h"
@@ -184,6 +185,8 @@ static OzStatus begin_launch(OzPieceSim *sim, int steps)
     OzStatus status = OZ_OK;
     for (int m = 0; m < sim->crew.member_count; m++) {
         sim->control[m].step = oz_crew_goes_on(&sim->crew, m) ? 0 : steps;
+        sim->control[m].deep_count = sim->control[m].deep_share = 0;
+        sim->control[m].deep_step = sim->control[m].deep_slot = OZ_PIECE_NEVER;
         if (!oz_crew_goes_on(&sim->crew, m)) {
             continue;
         }
@@ -197,6 +200,20 @@ static OzStatus begin_launch(OzPieceSim *sim, int steps)
     }
 done:
     return status;
+}
+
+/* Deep contacts of a member that has not counted the launch's steps yet. */
+static void note_deep(OzPieceSim *sim, int member)
+{
+    const OzPieceControl *control = &sim->control[member];
+    const OzPieces *pieces = sim->crew.members[member].grains->pieces;
+    OzDeepFound found = {.count = control->deep_count};
+    if (found.count > 0) {
+        found.step = sim->crew.reached[member] + control->deep_step + 1;
+        found.grain = pieces->body[control->deep_slot];
+        found.depth = (double)control->deep_share / OZ_PIECE_DEEP_SHARE;
+    }
+    oz_deep_note(&sim->crew, member, &found);
 }
 
 /* Says why a guard stopped a member. */
@@ -226,6 +243,7 @@ static OzStatus end_launch(OzPieceSim *sim, int steps)
             continue;
         }
         int own = control->stop_bits ? control->stop_step + 1 : steps;
+        note_deep(sim, m);
         oz_crew_count(&sim->crew, m, own, &most);
         if (control->stop_bits) {
             OZ_TRY(tell_stop(sim, m));

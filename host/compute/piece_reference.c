@@ -28,6 +28,7 @@ struct OzPieceReference {
     OzGear *gear;
     double *position, *angle, *velocity, *spin; /* of all pieces, as last evaluated */
     OzPieceLedger ledger, power;
+    int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */
 };
 
 /* Which forces an evaluation is about. */
@@ -302,6 +303,7 @@ OzStatus oz_piece_reference_advance(OzPieceReference *reference, int64_t step)
     while (reference->step < step) {
         OZ_TRY(method_of(reference)(reference, dt));
         reference->step++;
+        reference->deep_count += reference->forces.deep_count;
         OzPieceState now = show(reference, reference->place, reference->rate, time_of(reference));
         oz_piece_forces_watch(&reference->forces, &now, dt);
         OZ_TRY(oz_piece_forces_check(&reference->forces, reference->step, time_of(reference)));
@@ -325,6 +327,7 @@ OzStatus oz_piece_reference_snapshot(const OzPieceReference *reference, OzSnapsh
                          snapshot->piece_angle, snapshot->piece_velocity, snapshot->piece_spin);
     oz_snapshot_move_walls(snapshot);
     oz_snapshot_join_pieces(snapshot);
+    snapshot->deep_count = r->deep_count;
     snapshot->has_ledger = r->scene->observe.ledger;
     snapshot->piece_ledger = r->ledger;
     return oz_piece_forces_sums(snapshot);

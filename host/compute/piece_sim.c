@@ -115,7 +115,9 @@ static OzStatus upload_member(OzPieceSim *sim, int m)
                                        .wall_count = (int)(pieces->count - pieces->free_count),
                                        .beam_count = (int)pieces->beam_count,
                                        .stop_step = OZ_PIECE_NEVER,
-                                       .stop_slot = OZ_PIECE_NEVER};
+                                       .stop_slot = OZ_PIECE_NEVER,
+                                       .deep_step = OZ_PIECE_NEVER,
+                                       .deep_slot = OZ_PIECE_NEVER};
 done:
     free(start.acceleration);
     free(start.third);

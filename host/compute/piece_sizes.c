@@ -91,6 +91,8 @@ OzStatus oz_piece_sizes_parameters(OzPieceParameters *p, const OzScene *scene,
     p->gravity[0] = scene->gravity[0];
     p->gravity[1] = scene->gravity[1];
     p->stiffness = scene->triangles.stiffness;
+    p->deep_warn = scene->guards.overlap_warn;
+    p->deep_stop = scene->guards.overlap_stop;
     p->beam = oz_piece_laws_beam(scene);
     for (int w = -1; w < scene->wall_count; w++) {
         p->law[w + 1] = oz_piece_laws_disc(scene, w);

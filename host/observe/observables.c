@@ -338,7 +338,7 @@ static const OzColumn list[] = {
     {"avalanche_size", "degrees", "how far the last of them went down; empty before the first", FLAT,
      ALWAYS, false, oz_flat_inclination, 5},
     {"deep_count", "1", "contacts deeper than guards.overlap.warn so far, each counted once a step",
-     RODS, ALWAYS, true, deep_count, 0},
+     ALL, ALWAYS, true, deep_count, 0},
     {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},
     {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, ledger_entry, ELASTIC},
     {"energy_dissipated", "J", "lost in dashpots so far", RODS, LEDGER, false, ledger_entry, DISSIPATED},

@@ -75,7 +75,9 @@ static double rounding(const OzSnapshot *snapshot)
     for (int64_t k = 0; g->pieces && k < g->pieces->beam_count; k++) {
         double length = g->pieces->beam_length[k], way = share * length;
         sum += 0.5 * scene->beams.stiffness * way * way;
-        sum += 2 * scene->beams.stiffness * scene->beams.second_moment / length * share * share;
+        sum += length > 0 ? 2 * scene->beams.stiffness * scene->beams.second_moment / length *
+                                share * share
+                          : 0;
     }
     return sum;
 }

@@ -348,6 +348,12 @@ static const OzKey KEYS[] = {
          "an overlap beyond this ends the run, as do shafts that meet and centres behind walls, "
          "where a contact has no direction any more"},
 
+    {"guards.overlap.warn", NUMBER(1e-6, 0.5, ""), AT(guards.overlap_warn), DEFAULT("0.25"), FLAT,
+     .help = "contacts with more than this part of a triangle inside another, or of a disc's "
+             "diameter, are counted in deep_count, and the first is said"},
+    {"guards.overlap.stop", NUMBER(1e-6, 0.5, ""), AT(guards.overlap_stop), DEFAULT("0.5"), FLAT,
+     .help = "more than this ends the run; beyond a half the law does not know inside from outside"},
+
     {"observe.interval", NUMBER(1e-12, 1e9, "s"), AT(observe.interval), .reload = APPLY,
      .rival = "interval_taps", .write = OZ_WRITE_UNLESS_RIVAL,
      .fallback_help = "a period of the first moving wall, else a hundredth of the duration",

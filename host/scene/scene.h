@@ -173,8 +173,9 @@ typedef struct OzSettle {
     double time_max;  /* s, of the part with drag                                           */
 } OzSettle;
 
-/* What overlaps a run is told of, and which end it. In units of the smaller radius, at a wall of
- * half the radius: kernels/depth.h. */
+/* What overlaps a run is told of, and which end it. Rods: in units of the smaller radius, at a wall of
+ * half the radius (kernels/depth.h). trigrains: part of a triangle inside another, or of a disc's
+ * diameter. */
 typedef struct OzGuards {
     double overlap_warn; /* deeper contacts are counted, the first one is said */
     double overlap_stop; /* a deeper contact ends the run                      */
