@@ -165,7 +165,7 @@ OZ_INLINE void oz_piece_contacts_check(OzPieceWork *w, const OzPiecePush *push, 
 {
     mask deep = push->deep & present, swallowed = push->swallowed & present;
     mask warn = !(push->share <= REAL(w->parameters->deep_warn)) & present;
-    mask stop = !(push->share <= REAL(w->parameters->deep_stop)) & present;
+    mask stop = !(push->share <= REAL(w->parameters->deep_stop)) & present & !swallowed;
     if (OZ_ANY(deep | swallowed | warn | stop)) {
         oz_piece_contacts_count(w, push->share, warn, slots, step);
         oz_piece_work_stop_lanes(w, swallowed, OZ_PIECE_STOP_SWALLOWED, step, slots);

@@ -210,8 +210,9 @@ static const OzExtremeCase rows[] = {
      parting_speed, 0.5, 1.61, 0, RODS},
     {"overlap of 49 % at the start", OVERLAPPING("02551"), NULL, {NULL}, NULL,
      "parting speed, m/s", parting_speed, 2.5, 7.9, 0, RODS},
-    {"overlap of 51 % at the start", OVERLAPPING("02449"), NULL, {NULL}, NULL, NULL, NULL, 0, 0,
-     0, RODS},
+    /* the law goes on beyond a radius, until shafts meet */
+    {"overlap of 51 % at the start", OVERLAPPING("02449"), NULL, {NULL}, NULL,
+     "parting speed, m/s", parting_speed, 2.6, 8.21, 0, RODS},
     /* one contact in the middle carries no rod straight: rounding makes it jump to an end and
      * back; two contacts do. In float a hundred shafts may each turn by a rounding, 1.2e-7
      * diameters at its ends */
