@@ -80,7 +80,7 @@ OZ_INLINE real oz_body_step2(OzBody body, OzShape shape, real dt)
 }
 
 /* The share of its radius that an end may go in a step. Two grains that meet then come no deeper than a
- * radius before their contact is seen, which the guard of overlaps catches, and none passes through a wall. */
+ * radius before their contact is seen, which the guard of depth looks at, and none passes through a wall. */
 #define OZ_BODY_STEP_SHARE 0.5
 
 /* spin after a torque has acted for dt. */
