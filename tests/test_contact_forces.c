@@ -190,6 +190,22 @@ static void test_spring_of_a_sliding_contact(void **state)
     }
 }
 
+/* Where a dashpot pulls at a contact's end, friction's limit is mu times what it pulls with, and
+ * friction still is against the sliding. */
+static void test_friction_of_a_contact_that_pulls(void **state)
+{
+    (void)state;
+    OzLawConstants constants = constants_of(laws[OZ_LAW_HOOKE], OZ_LAW_HOOKE);
+    constants.friction = 0.3;
+    OzContact contact = contact_at(1e-7, -0.2); /* parting */
+    contact.velocity.x = 0.5;
+    OzVec3 spring = {0};
+    OzContactForce force = oz_contact_force(contact, constants, &spring, 1e-6, 1);
+    double pull = mass * (constants.damping * 0.2 - constants.stiffness * 1e-7);
+    assert_true(pull > 0 && fabs(force.force.z / -pull - 1) < 1e-14);
+    assert_true(fabs(force.force.x / (-0.3 * pull) - 1) < 1e-14);
+}
+
 /* A sphere pressed into the floor by a tenth of its radius, sliding: one step of the law. */
 static void slide(const char *point, double *fall, double *slow, double *turn)
 {
@@ -282,6 +298,7 @@ int main(void)
         cmocka_unit_test(test_two_bodies_as_one),
         cmocka_unit_test(test_spring_turns_with_the_pair),
         cmocka_unit_test(test_spring_of_a_sliding_contact),
+        cmocka_unit_test(test_friction_of_a_contact_that_pulls),
         cmocka_unit_test(test_where_a_walls_force_acts),
         cmocka_unit_test(test_springs_share_of_the_first_step),
         cmocka_unit_test(test_round_wall_pushes_inward),
