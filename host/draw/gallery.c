@@ -9,6 +9,7 @@
 #include "draw/framing.h"
 #include "draw/movie.h"
 #include "draw/picture_name.h"
+#include "draw/tryout.h"
 #include "observe/frames.h"
 
 #include <stdio.h>
@@ -27,6 +28,12 @@ struct OzGallery {
     int state_count;
     double drawing, encoding;
 };
+
+/* What is drawn on trial. */
+typedef struct Trial {
+    OzGallery *gallery;
+    const OzSnapshot *snapshot;
+} Trial;
 
 OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *settings,
                            const OzScene *scene)
@@ -207,11 +214,54 @@ done:
     return status;
 }
 
+/* The first picture, and as much of a movie as an encoder takes to have all its memory, or all
+ * there is time for. */
+static OzStatus draw_on_trial(void *argument)
+{
+    enum { FRAMES = 30 };
+    const double longest = 5; /* s */
+    const Trial *trial = argument;
+    OzGallery *gallery = trial->gallery;
+    OzStatus status = OZ_OK;
+    OZ_TRY(open_renderer(gallery));
+    oz_gallery_frame(gallery, trial->snapshot);
+    if (gallery->scene->snapshots.count > 0 && !looks_are_one(gallery)) {
+        OZ_TRY(draw(gallery, trial->snapshot, 1, &gallery->still, &gallery->still_image));
+    }
+    OZ_TRY(draw(gallery, trial->snapshot, 1, &gallery->look, &gallery->image));
+    double start = oz_clock_now();
+    for (int i = 0; gallery->scene->movie.present && i < FRAMES; i++) {
+        OZ_TRY(oz_clock_now() - start < longest ? add_to_movie(gallery) : OZ_OK);
+    }
+done:
+    return status;
+}
+
+/* Before GL and the encoder are in this process, whether they would do. */
+static OzStatus try_drawing(OzGallery *gallery, const OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    OzRenderer **shared = gallery->settings->renderer;
+    char *part = NULL;
+    Trial trial = {gallery, snapshot};
+    if (shared && *shared) {
+        return OZ_OK;
+    }
+    status = oz_tryout_run(draw_on_trial, &trial);
+    if (gallery->scene->movie.present &&
+        oz_file_join(&part, gallery->settings->folder, "movie.mp4.part") == OZ_OK) {
+        remove(part); /* the trial's */
+    }
+    free(part);
+    return status;
+}
+
 OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose)
 {
     OzStatus status = OZ_OK;
     double start = oz_clock_now();
     if (!gallery->renderer) {
+        OZ_TRY(try_drawing(gallery, snapshot));
         OZ_TRY(open_renderer(gallery));
         gallery->drawing += oz_clock_now() - start;
     }
