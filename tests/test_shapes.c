@@ -382,6 +382,82 @@ static void hoppers_have_whole_corners(void **state)
     }
 }
 
+/* Grains of so many millimetres, in corners or pieces far above the limits. */
+static OzPopulation given(double *corners, const double *numbers, int count, double scale)
+{
+    for (int i = 0; i < count; i++) {
+        corners[i] = scale * numbers[i];
+    }
+    return (OzPopulation){.shape = OZ_SHAPE_VERTICES, .vertices = corners, .vertex_count = count};
+}
+
+static const double SQUARE[] = {1, 1, 3, 1, 3, 3, 1, 3};
+static const double HEXAGON[] = {2, 0, 1, 1.732, -1, 1.732, -2, 0, -1, -1.732, 1, -1.732};
+static const double TRIANGLE[] = {0, 0, 4, 0, 2, 3.464};
+static const double SKEWED[] = {0, 0, 4, 0.5, 3.5, 3, 0.2, 2.4};
+static const double U[] = {0, 0, 6, 0, 6, 5, 4.4, 5, 4.4, 1.6, 1.6, 1.6, 1.6, 5, 0, 5};
+
+/* A square given by its corners is the square: a triangle on each edge, a ring of four equal beams,
+ * the middle where it was. Cut along one diagonal, as two triangles, it is soft about that alone.
+ */
+static void given_corners_keep_their_symmetry(void **state)
+{
+    (void)state;
+    double corners[16];
+    OzPatch die = make((OzPopulation){.shape = OZ_SHAPE_SQUARE, .edge = {2e-3, 2e-3}}, 1);
+    OzPatch same = make(given(corners, SQUARE, 8, 1e-3), 1);
+    assert_int_equal(same.triangle_count, 4);
+    assert_int_equal(same.joint_count, 4);
+    for (int k = 0; k < 4; k++) {
+        double a = oz_patch_joint_length(&same, k), b = oz_patch_joint_length(&die, k);
+        assert_true(fabs(a - b) < 1e-12 * b);
+        assert_true(fabs(oz_patch_area(&same, k) - 1e-6) < 1e-18);
+    }
+    check_whole(&same);
+    oz_patch_free(&die);
+    oz_patch_free(&same);
+    OzPatch six = make(given(corners, HEXAGON, 12, 1e-3), 1); /* with four digits */
+    assert_int_equal(six.triangle_count, 6);
+    assert_int_equal(six.joint_count, 6);
+    oz_patch_free(&six);
+}
+
+/* Where the fewest triangles do, they stay. */
+static void other_corners_make_the_fewest_triangles(void **state)
+{
+    (void)state;
+    static const struct {
+        const double *numbers;
+        int count;
+    } shapes[] = {{TRIANGLE, 6}, {SKEWED, 8}, {ARROW, 8}, {ELL, 12}, {U, 16}};
+    for (int i = 0; i < 5; i++) {
+        double corners[16];
+        OzPopulation population = given(corners, shapes[i].numbers, shapes[i].count, 1e-3);
+        OzScene scene = scene_with(&population);
+        OzPatch patch = make(population, 1);
+        assert_int_equal(patch.triangle_count, shapes[i].count / 2 - 2);
+        /* The U's middle lies outside it: its base must be cut along one of two like diagonals. */
+        assert_int_equal(oz_shape_keeps_symmetry(&scene, &population), shapes[i].numbers != U);
+        oz_patch_free(&patch);
+    }
+}
+
+/* A square of which four triangles would be below the limit is two, and is said to be. */
+static void limits_go_before_symmetry(void **state)
+{
+    (void)state;
+    double corners[8];
+    OzPatch patch;
+    OzPopulation population = given(corners, SQUARE, 8, 1e-3);
+    OzScene scene = scene_with(&population);
+    OzRandom random = oz_random_stream(1, 0);
+    scene.beams.area_min = 1.5e-6; /* halves have 2e-6, quarters 1e-6 m^2 */
+    assert_int_equal(oz_shape_make(&patch, &scene, &population, &random), OZ_OK);
+    assert_int_equal(patch.triangle_count, 2);
+    assert_false(oz_shape_keeps_symmetry(&scene, &population));
+    oz_patch_free(&patch);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -395,6 +471,9 @@ int main(void)
         cmocka_unit_test(cuts_random_polygons),
         cmocka_unit_test(refuses_what_is_no_simple_polygon),
         cmocka_unit_test(hoppers_have_whole_corners),
+        cmocka_unit_test(given_corners_keep_their_symmetry),
+        cmocka_unit_test(other_corners_make_the_fewest_triangles),
+        cmocka_unit_test(limits_go_before_symmetry),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

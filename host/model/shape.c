@@ -1,11 +1,13 @@
 /* One grain's triangles. Knows neither where grains lie nor how they move. */
 #include "model/shape.h"
 
+#include "model/symmetry.h"
 #include "model/triangulation.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -75,16 +77,89 @@ static OzStatus make_star(OzPatch *patch, const OzPopulation *population, OzRand
     return status;
 }
 
+/* What a grain has least of. */
+typedef struct Least {
+    double length, area; /* m, m^2 */
+} Least;
+
+static Least least_of(const OzPatch *patch)
+{
+    Least least = {INFINITY, INFINITY};
+    for (int k = 0; k < patch->joint_count; k++) {
+        least.length = fmin(least.length, oz_patch_joint_length(patch, k));
+    }
+    for (int t = 0; t < patch->triangle_count; t++) {
+        least.area = fmin(least.area, oz_patch_area(patch, t));
+    }
+    return least;
+}
+
+/* Sizes a part in 1e9 below a limit meet it: a limit may be the very size of a regular grain. */
+static bool is_within(const Least *least, const OzBeamValues *limits)
+{
+    double slack = 1 - 1e-9;
+    return least->length >= slack * limits->length_min && least->area >= slack * limits->area_min;
+}
+
+/* The outline of a cut polygon with a triangle on each edge about its centre of mass, which keeps
+ * every symmetry. *made stays false where that centre does not see all edges, or a piece would be
+ * below the limits. */
+static OzStatus cut_about_centre(OzPatch *patch, const OzPatch *cut, const OzBeamValues *limits,
+                                 bool *made)
+{
+    OzStatus status = OZ_OK;
+    int n = cut->vertex_count;
+    *made = true;
+    for (int i = 0; i < n; i++) {
+        const double *a = cut->vertex + 2 * i, *b = cut->vertex + 2 * ((i + 1) % n);
+        *made &= a[0] * b[1] - a[1] * b[0] > 0;
+    }
+    if (!*made) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_patch_create(patch, n + 1, n));
+    memcpy(patch->vertex, cut->vertex, (size_t)(2 * n) * sizeof *cut->vertex);
+    fan(patch);
+    OZ_TRY(oz_patch_join(patch));
+    oz_patch_centre(patch);
+    Least least = least_of(patch);
+    *made = is_within(&least, limits);
+done:
+    return status;
+}
+
+/* Into as few triangles as there can be, or where those are less symmetric than the outline about
+ * its middle if that can be. */
 static OzStatus make_vertices(OzPatch *patch, const OzScene *scene, const OzPopulation *population)
 {
+    OzStatus status = OZ_OK;
+    OzPatch about = {0};
+    bool made = false;
     char where[1024];
     snprintf(where, sizeof where, "%s:%d", scene->path, population->line);
-    OzStatus status =
-        oz_triangulation_make(patch, population->vertices, population->vertex_count / 2, where);
-    if (status == OZ_OK) {
-        oz_patch_centre(patch);
+    OZ_TRY(oz_triangulation_make(patch, population->vertices, population->vertex_count / 2, where));
+    oz_patch_centre(patch);
+    if (!oz_symmetry_is_kept(patch)) {
+        OZ_TRY(cut_about_centre(&about, patch, &scene->beams, &made));
     }
+    if (made) {
+        oz_patch_free(patch);
+        *patch = about;
+        about = (OzPatch){0};
+    }
+done:
+    oz_patch_free(&about);
     return status;
+}
+
+bool oz_shape_keeps_symmetry(const OzScene *scene, const OzPopulation *population)
+{
+    OzPatch patch = {0};
+    bool kept = population->shape != OZ_SHAPE_VERTICES ||
+                make_vertices(&patch, scene, population) != OZ_OK ||
+                patch.vertex_count > population->vertex_count / 2 || oz_symmetry_is_kept(&patch);
+    oz_patch_free(&patch);
+    return kept;
 }
 
 static OzStatus make_once(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
@@ -112,30 +187,6 @@ static OzStatus make_once(OzPatch *patch, const OzScene *scene, const OzPopulati
     oz_patch_centre(patch);
 done:
     return status;
-}
-
-/* What a grain has least of. */
-typedef struct Least {
-    double length, area; /* m, m^2 */
-} Least;
-
-static Least least_of(const OzPatch *patch)
-{
-    Least least = {INFINITY, INFINITY};
-    for (int k = 0; k < patch->joint_count; k++) {
-        least.length = fmin(least.length, oz_patch_joint_length(patch, k));
-    }
-    for (int t = 0; t < patch->triangle_count; t++) {
-        least.area = fmin(least.area, oz_patch_area(patch, t));
-    }
-    return least;
-}
-
-/* Sizes a part in 1e9 below a limit meet it: a limit may be the very size of a regular grain. */
-static bool is_within(const Least *least, const OzBeamValues *limits)
-{
-    double slack = 1 - 1e-9;
-    return least->length >= slack * limits->length_min && least->area >= slack * limits->area_min;
 }
 
 static bool is_open(const OzPopulation *population)

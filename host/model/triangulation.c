@@ -3,6 +3,7 @@
 #include "model/triangulation.h"
 
 #include "base/memory.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -236,9 +237,9 @@ OzStatus oz_triangulation_make(OzPatch *patch, const double *corners, int corner
     OzStatus status = OZ_OK;
     Ring ring = {0};
     *patch = (OzPatch){0};
-    if (corner_count < 3 || corner_count > OZ_TRIANGULATION_CORNERS_MAX) {
+    if (corner_count < 3 || corner_count > OZ_CORNERS_MAX) {
         return oz_status_fail(OZ_ERR_INPUT, "%s: a grain of %d corners; expected 3 to %d", where,
-                              corner_count, OZ_TRIANGULATION_CORNERS_MAX);
+                              corner_count, OZ_CORNERS_MAX);
     }
     OZ_TRY(check_twins(corners, corner_count, where));
     OZ_TRY(check_corners(corners, corner_count, where));

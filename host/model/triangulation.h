@@ -4,13 +4,11 @@
 
 #include "model/patch.h"
 
-/* Corners of one polygon: the cutting takes their number cubed. */
-#define OZ_TRIANGULATION_CORNERS_MAX 300
-
 /* Cuts the polygon of corner_count corners (x y in order, either way round) into corner_count - 2
  * triangles with as large a least angle as its own corners allow (Delaunay); the patch is joined.
  * Fails with OZ_ERR_INPUT, the text beginning with where ("scene.yaml:7"), when corners are fewer
- * than 3 or too many, two coincide, one lies on the line of its neighbours, or edges meet. */
+ * than 3 or more than OZ_CORNERS_MAX, two coincide, one lies on the line of its neighbours, or
+ * edges meet. */
 OzStatus oz_triangulation_make(OzPatch *patch, const double *corners, int corner_count,
                                const char *where);
 

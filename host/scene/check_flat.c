@@ -48,10 +48,11 @@ static void check_corners(const Checker *checker, const OzPopulation *grains)
 static void check_vertices(const Checker *checker, const OzPopulation *grains)
 {
     int count = grains->vertex_count;
-    if (grains->shape == OZ_SHAPE_VERTICES && grains->vertices && (count < 6 || count % 2)) {
+    bool wrong = count < 6 || count % 2 || count > 2 * OZ_CORNERS_MAX;
+    if (grains->shape == OZ_SHAPE_VERTICES && grains->vertices && wrong) {
         FAULT(checker, "vertices",
-              "grains.%d.vertices is a list of %d; expected x and y of at least three corners",
-              checker->index, count);
+              "grains.%d.vertices is a list of %d; expected x and y of 3 to %d corners",
+              checker->index, count, OZ_CORNERS_MAX);
     }
 }
 

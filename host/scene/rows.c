@@ -203,7 +203,7 @@ static const OzKey KEYS[] = {
     {"grains[].radius", RANGE(1e-9, 1e3, "m"), GRAIN(radius), .kinds = MADE,
      .shapes = POLYGON | STAR | DISC, REQUIRED, FLAT,
      .help = "of the disc, or to the outer corners"},
-    {"grains[].corners", RANGE(3, 1e3, ""), GRAIN(corners), .kinds = MADE, .shapes = POLYGON | STAR,
+    {"grains[].corners", RANGE(3, OZ_CORNERS_MAX, ""), GRAIN(corners), .kinds = MADE, .shapes = POLYGON | STAR,
      REQUIRED, FLAT, .help = "of the polygon, points of the star; whole numbers"},
     {"grains[].irregularity", FRACTION, GRAIN(irregularity), .kinds = MADE, .shapes = POLYGON,
      DEFAULT("0"), FLAT, .help = "how far corners are moved at random; 0 is a regular polygon"},

@@ -126,6 +126,9 @@ typedef enum OzPopulationKind {
     OZ_GRAINS_FILE     /* every grain of a final.csv, with its position, velocity and size             */
 } OzPopulationKind;
 
+/* Corners of one grain's outline, or points of a star: cutting takes their number cubed. */
+enum { OZ_CORNERS_MAX = 300 };
+
 typedef enum OzShapeKind {
     OZ_SHAPE_SQUARE,   /* four triangles about the middle                                     */
     OZ_SHAPE_POLYGON,  /* a triangle on each edge about the middle; irregular if asked for    */

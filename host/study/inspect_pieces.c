@@ -4,6 +4,7 @@
 #include "compute/start.h"
 #include "compute/trial.h"
 #include "model/beam_limits.h"
+#include "model/shape.h"
 #include "study/inspect_range.h"
 
 #include <math.h>
@@ -39,6 +40,20 @@ static void print_bodies(FILE *file, const OzGrains *grains)
     print_range(file, "triangle", pieces->area, pieces->radius, pieces->free_count, "m^2");
     fprintf(file, "beams              %lld\n", (long long)pieces->beam_count);
     print_range(file, "length", pieces->beam_length, NULL, pieces->beam_count, "m");
+}
+
+/* Grains that are not as symmetric as they look. */
+static void print_symmetry(FILE *file, const OzScene *scene)
+{
+    for (int i = 0; i < scene->population_count; i++) {
+        if (!oz_shape_keeps_symmetry(scene, &scene->populations[i])) {
+            fprintf(
+                file,
+                "symmetry           grains.%d: the outline has one that its triangles have not; "
+                "it bends more on one side, and may begin to turn where it should not\n",
+                i);
+        }
+    }
 }
 
 static void print_walls(FILE *file, const OzScene *scene)
@@ -104,6 +119,7 @@ OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrain
 {
     OzBeamLimit limit;
     print_bodies(file, grains);
+    print_symmetry(file, scene);
     print_walls(file, scene);
     if (scene->precision == OZ_PRECISION_FLOAT) {
         fprintf(file, "precision          float: rounds away what a small step moves; energies and "
