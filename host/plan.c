@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/stage.h"
 #include "compute/part.h"
+#include "compute/resolution.h"
 #include "compute/start.h"
 #include "model/beam_limits.h"
 #include "model/place.h"
@@ -116,7 +117,7 @@ static OzStatus check_contacts(const OzScene *scene, const OzGrains *grains, boo
         }
     }
     free(rows);
-    return status;
+    return status == OZ_OK ? oz_resolution_judge(scene, grains, force) : status;
 }
 
 OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force)

@@ -23,6 +23,7 @@ typedef struct OzSide {
     spot_kind point[3]; /* of a plane                                */
     scalar normal[3], radius, unit;
     scalar offset, speed; /* m, m/s along z, of the wall             */
+    scalar rise, rise_rest; /* units: the offset with all its digits */
 } OzSide;
 
 OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
@@ -40,11 +41,13 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
     }
     side.radius = wall->radius;
     side.unit = w->parameters->length_unit;
-    side.offset = side.speed = 0;
+    side.offset = side.speed = side.rise = side.rise_rest = 0;
     if (OZ_MOVING) {
         size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * (OZ_PLANES + OZ_CYLINDERS) + side.wall;
-        side.offset = w->motion[2 * at];
-        side.speed = w->motion[2 * at + 1];
+        side.offset = w->motion[OZ_MOTION * at];
+        side.speed = w->motion[OZ_MOTION * at + OZ_M_SPEED];
+        side.rise = w->motion[OZ_MOTION * at + OZ_M_RISE];
+        side.rise_rest = w->motion[OZ_MOTION * at + OZ_M_RISE_REST];
     }
     return side;
 }
@@ -62,6 +65,28 @@ OZ_INLINE OzWallDistance oz_enclosure_distance(OzPlace place_, OzVec3 end, const
                           oz_place_to_real(place_.y) * unit + end.y, REAL(0.0));
     return oz_walls_cylinder(from, side->radius);
 }
+
+#if OZ_FINE
+/* The overlap of ends and a wall. */
+OZ_INLINE real oz_enclosure_fine(const OzWork *w, OzGrain grain, const OzSide *side)
+{
+    real unit = grain.radius / grain.fine.radius;
+    scalar counts = w->parameters->inverse_unit;
+    OzPlace from = grain.place; /* of every lane the same */
+    if (side->wall < OZ_PLANES) {
+        from.x = side->point[0];
+        from.y = side->point[1];
+        from.z = side->point[2];
+        OzVec3 normal = oz_vec3(REAL(side->normal[0]), REAL(side->normal[1]), REAL(side->normal[2]));
+        OzFine rise = {REAL(side->rise), REAL(side->rise_rest)};
+        return unit * oz_fine_plane(oz_fine_end(grain.fine, side->sign, from), normal, rise,
+                                    grain.fine.radius);
+    }
+    from.x = from.y = from.z = 0;
+    real room = REAL(side->radius * counts) - grain.fine.radius;
+    return unit * oz_fine_cylinder(oz_fine_end(grain.fine, side->sign, from), room);
+}
+#endif
 
 /* Overlaps that no run may go on with; counts: lanes with an end of their own. */
 OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact, real radius,
@@ -81,9 +106,14 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
     OzGrain grain = oz_work_grains(w, slots);
     OzVec3 end = oz_scale(grain.half_shaft, side->sign);
     OzWallDistance at = oz_enclosure_distance(grain.place, end, side);
+#if OZ_FINE
+    at.overlap = oz_enclosure_fine(w, grain, side);
+    mask near = at.overlap > REAL(0.0);
+#else
+    mask near = at.distance < grain.radius;
+#endif
     /* a sphere in a population of rods touches once, not with two coincident ends */
-    mask present = OZ_EQUAL || side->first ? at.distance < grain.radius
-                                          : oz_dot(end, end) > REAL(0.0);
+    mask present = OZ_EQUAL || side->first ? near : oz_dot(end, end) > REAL(0.0);
     OzContact contact;
     OzVec3 arm, history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
     if (OZ_HISTORY) {

@@ -21,7 +21,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
 #define OZ_FIELDS(X)                                                                               \
     X(parameters, parameters, 1)                                                                   \
     X(control, control, 1)                                                                         \
-    X(scalar, motion, OZ_MOVING ? (z.motion_steps + 1) * 2 * (OZ_PLANES + OZ_CYLINDERS) : 0)              \
+    X(scalar, motion, OZ_MOVING ? (z.motion_steps + 1) * OZ_MOTION * (OZ_PLANES + OZ_CYLINDERS) : 0)              \
     X(real, state, z.blocks *OZ_STATE)                                                             \
     X(real, shape, OZ_EQUAL ? 0 : z.blocks * OZ_SHAPE)                                             \
     X(real, wall_history, OZ_HISTORY ? z.blocks * OZ_WALL_ENDS * 3 : 0)                            \

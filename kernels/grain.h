@@ -1,12 +1,15 @@
 /* Grains as contacts see them, and the contact of two at given points of their shafts. Switches: OZ_EQUAL 1:
  * all grains are alike; OZ_SURFACES 1: each force acts on its own grain's surface (Pournin et al. 2005;
  * breaks angular momentum), 0: both in the middle of the overlap; OZ_AT_CONTACT and OZ_LAW_ID: whether
- * lightness and radius of a contact are needed. */
+ * lightness and radius of a contact are needed; OZ_FINE: overlaps as fine.h has them. */
 #ifndef OZ_KERNELS_GRAIN_H
 #define OZ_KERNELS_GRAIN_H
 
 #include "kernels/closest.h"
 #include "kernels/contact_law.h"
+#if OZ_FINE
+#include "kernels/fine.h"
+#endif
 
 typedef struct OzGrain {
     OzPlace place;
@@ -15,6 +18,9 @@ typedef struct OzGrain {
     OzVec3 rate;          /* rad/s, world frame                                      */
     real radius, mass;    /* m, kg                                                   */
     real inverse_inertia; /* 1/(kg m^2), across the shaft; with OZ_AT_CONTACT only    */
+#if OZ_FINE
+    OzFineGrain fine;
+#endif
 } OzGrain;
 
 /* Velocity of the material point at arm. */
@@ -44,7 +50,11 @@ OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClose
     real inverse = oz_inverse_root(oz_larger(gap2, REAL(OZ_TINY * OZ_TINY)));
     OzVec3 up = oz_vec3(REAL(0.0), REAL(0.0), REAL(1.0));
     contact.normal = oz_choose(*crossed, up, oz_scale(gap, inverse));
+#if OZ_FINE
+    contact.overlap = oz_fine_pair(a.fine, b.fine, at.s, at.t) * (a.radius / a.fine.radius);
+#else
     contact.overlap = a.radius + b.radius - gap2 * inverse;
+#endif
     contact.touching = contact.overlap > REAL(0.0);
     real inside = OZ_SURFACES ? REAL(0.0) : REAL(0.5) * contact.overlap;
     *arm_a = oz_along(from_a, a.radius - inside, contact.normal);

@@ -35,6 +35,7 @@ typedef struct OzParameters {
     scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
     scalar reach_max;     /* m, largest half-length + radius                                  */
     OzUnits units;        /* for the host alone                                               */
+    scalar radius_count;  /* units: the radius in a place's units                             */
     scalar radius, half_length, mass; /* of every grain of an equal population                */
     scalar inverse_mass, inverse_inertia, inverse_inertia_axis;
     OzWallParameters wall[OZ_WALLS_MAX];
@@ -118,6 +119,10 @@ enum { OZ_F_FORCE = 0, OZ_F_TORQUE = 4, OZ_PAIR_FORCE = 8, OZ_PAIR_TORQUE = 4 };
 /* Words of a pair's tangential spring: m, one to spare. */
 enum { OZ_SPRING = 4 };
 
+/* Words of a wall's motion at one step: displacement and velocity along z; the displacement in units, whole ones and the
+ * rest. */
+enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_MOTION };
+
 /* Words of a slot's load: force and torque, each with one word to spare. */
 enum { OZ_LOAD = 8 };
 
@@ -134,8 +139,16 @@ enum {
     OZ_STATE = 26
 };
 
-/* Words of a block's shapes, for populations that are not all equal. */
-enum { OZ_B_RADIUS, OZ_B_HALF_LENGTH, OZ_B_MASS, OZ_B_INVERSE_INERTIA, OZ_B_INVERSE_AXIS, OZ_SHAPE };
+/* Words of a block's shapes, for populations that are not all equal; the count is the radius in a place's units. */
+enum {
+    OZ_B_RADIUS,
+    OZ_B_HALF_LENGTH,
+    OZ_B_MASS,
+    OZ_B_INVERSE_INERTIA,
+    OZ_B_INVERSE_AXIS,
+    OZ_B_COUNT,
+    OZ_SHAPE
+};
 
 /* Words of a block's reference: place and half-shaft when a list was made, and the grain's skin in that list: how
  * far it may move before the list must be made again. */

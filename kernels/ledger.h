@@ -75,7 +75,7 @@ OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
 /* Velocity of a wall along z at the start of a step. */
 OZ_INLINE scalar oz_ledger_wall_speed(const OzWork *w, int wall, int step)
 {
-    return OZ_MOVING ? w->motion[2 * ((size_t)step * (OZ_PLANES + OZ_CYLINDERS) + wall) + 1] : 0;
+    return OZ_MOVING ? w->motion[OZ_MOTION * ((size_t)step * (OZ_PLANES + OZ_CYLINDERS) + wall) + OZ_M_SPEED] : 0;
 }
 
 OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)

@@ -95,6 +95,9 @@ OZ_INLINE OzGrain oz_pairs_grains(const OzWork *w, const OzPairs *pairs, int sec
                             : OZ_LANES_LOAD(pairs->word[OZ_P_RADII + second] + at);
     grain.mass = OZ_EQUAL ? REAL(w->parameters->mass)
                           : OZ_LANES_LOAD(pairs->word[OZ_P_MASSES + second] + at);
+#if OZ_FINE
+    grain.fine = oz_work_fine(w, (second ? pairs->b : pairs->a) + at);
+#endif
     return grain;
 }
 

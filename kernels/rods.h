@@ -101,7 +101,11 @@ OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance 
                                       OzVec3 *arm)
 {
     contact->normal = wall.normal;
+#if OZ_FINE
+    contact->overlap = wall.overlap;
+#else
     contact->overlap = grain.radius - wall.distance;
+#endif
     contact->touching = (contact->overlap > REAL(0.0)) & present;
     real inside = OZ_SURFACES ? REAL(0.0) : REAL(0.5) * contact->overlap;
     *arm = oz_along(end, inside - grain.radius, wall.normal);

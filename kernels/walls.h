@@ -9,6 +9,9 @@
 typedef struct OzWallDistance {
     OzVec3 normal; /* unit vector into the free side        */
     real distance; /* m, of the cap's centre from the wall  */
+#if OZ_FINE
+    real overlap; /* m, of the cap and the wall */
+#endif
 } OzWallDistance;
 
 /* from_point: cap centre minus a point of the plane, the plane's motion included. */

@@ -117,6 +117,44 @@ OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
     return grain;
 }
 
+/* Three words, from `word` on, of items in an array of blocks of `words` words. */
+OZ_INLINE OzVec3 oz_work_fetch3(global const real *blocks, const int *items, int words, int word)
+{
+    return oz_vec3(oz_lanes_fetch(blocks, items, words, word),
+                   oz_lanes_fetch(blocks, items, words, word + 1),
+                   oz_lanes_fetch(blocks, items, words, word + 2));
+}
+
+#if OZ_FINE
+OZ_INLINE OzQuaternion oz_work_fetch_turn(const OzWork *w, const int *slots, int word)
+{
+    OzVec3 first = oz_work_fetch3(w->state, slots, OZ_STATE, word);
+    OzQuaternion turn = {first.x, first.y, first.z,
+                         oz_lanes_fetch(w->state, slots, OZ_STATE, word + 3)};
+    return turn;
+}
+
+/* All digits of where grains are. */
+OZ_INLINE OzFineGrain oz_work_fine(const OzWork *w, const int *slots)
+{
+    OzFineGrain fine;
+    real counts = REAL(w->parameters->inverse_unit);
+    fine.place = oz_work_geometry(w, slots).place;
+    fine.rest = oz_work_fetch3(w->state, slots, OZ_STATE, OZ_S_REST);
+    fine.radius = OZ_EQUAL ? REAL(w->parameters->radius_count)
+                           : oz_lanes_fetch(w->shape, slots, OZ_SHAPE, OZ_B_COUNT);
+    fine.half_shaft = REAL(0.0);
+    if (!OZ_ROUND) {
+        fine.half_shaft =
+            counts * (OZ_EQUAL ? REAL(w->parameters->half_length)
+                               : oz_lanes_fetch(w->shape, slots, OZ_SHAPE, OZ_B_HALF_LENGTH));
+        fine.axis = oz_fine_axis(oz_work_fetch_turn(w, slots, OZ_S_TURN),
+                                 oz_work_fetch_turn(w, slots, OZ_S_TURN_REST));
+    }
+    return fine;
+}
+#endif
+
 /* What contacts want beside that. */
 OZ_INLINE void oz_work_load_motion(const OzWork *w, const int *slots, OzGrain *grain)
 {
@@ -133,18 +171,13 @@ OZ_INLINE OzGrain oz_work_grains(const OzWork *w, const int *slots)
 {
     OzGrain grain = oz_work_geometry(w, slots);
     oz_work_load_motion(w, slots, &grain);
+#if OZ_FINE
+    grain.fine = oz_work_fine(w, slots);
+#endif
     return grain;
 }
 
-/* Three words, from `word` on, of items in an array of blocks of `words` words. */
-OZ_INLINE OzVec3 oz_work_fetch3(global const real *blocks, const int *items, int words, int word)
-{
-    return oz_vec3(oz_lanes_fetch(blocks, items, words, word),
-                   oz_lanes_fetch(blocks, items, words, word + 1),
-                   oz_lanes_fetch(blocks, items, words, word + 2));
-}
-
-/* The same, written. */
+/* Three words written likewise. */
 OZ_INLINE void oz_work_put3(global real *blocks, const int *items, int words, int word, OzVec3 v)
 {
     oz_lanes_put(blocks, items, words, word, v.x);

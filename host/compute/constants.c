@@ -10,10 +10,10 @@ OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *val
 {
     OzContactConstants constants = oz_calibrate_contact(scene, values);
     OzLawConstants law = {.stiffness = constants.stiffness,
-                 .damping = constants.damping,
-                 .tangential_stiffness = constants.tangential_stiffness,
-                 .tangential_damping = constants.tangential_damping,
-                 .friction = values->friction};
+                          .damping = constants.damping,
+                          .tangential_stiffness = constants.tangential_stiffness,
+                          .tangential_damping = constants.tangential_damping,
+                          .friction = values->friction};
     return law;
 }
 
@@ -46,9 +46,9 @@ static double extent(const OzScene *scene, const OzGrains *grains)
     return far;
 }
 
-/* The unit of a place in single precision: 2^-22 to 2^-17 of the smallest diameter, the finest with which
- * one and a half times the extent stays within 2^30 units (differences of two places must fit 32 bits). At 40, 450
- * and 4500 diameters this leaves rounding of 1e-7, 5e-7 and 4e-6 diameters. */
+/* The unit of a place in single precision: 2^-22 to 2^-17 of the smallest diameter, the finest with
+ * which one and a half times the extent stays within 2^30 units (differences of two places must fit
+ * 32 bits). At 40, 450 and 4500 diameters this leaves rounding of 1e-7, 5e-7 and 4e-6 diameters. */
 static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *grains)
 {
     double smallest = 1e-3, far = extent(scene, grains);
@@ -61,10 +61,11 @@ static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *
             return OZ_OK;
         }
     }
-    return oz_status_fail(OZ_ERR_INPUT,
-                          "%s: the scene reaches %g m from the origin, %.3g times the smallest diameter; "
-                          "precision: float holds 5461, precision: double any",
-                          scene->path, far, far / smallest);
+    return oz_status_fail(
+        OZ_ERR_INPUT,
+        "%s: the scene reaches %g m from the origin, %.3g times the smallest diameter; "
+        "precision: float holds 5461, precision: double any",
+        scene->path, far, far / smallest);
 }
 
 static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *from, double unit)
@@ -102,6 +103,7 @@ static void fill_shapes(OzParameters *parameters, const OzGrains *grains)
     }
     if (grains->count > 0) {
         parameters->radius = grains->diameter[0] / 2;
+        parameters->radius_count = parameters->radius / parameters->length_unit;
         parameters->half_length = grains->length[0] / 2;
         parameters->mass = grains->mass[0];
         parameters->inverse_mass = 1 / grains->mass[0];

@@ -38,14 +38,24 @@ done:
     return status;
 }
 
+static void put_motion(double words[OZ_MOTION], const OzMotion *motion, double time,
+                       const OzParameters *p)
+{
+    double offset, speed;
+    oz_constants_motion(motion, time, &offset, &speed);
+    words[OZ_M_OFFSET] = offset / p->units.length;
+    words[OZ_M_SPEED] = speed / oz_units_speed(&p->units);
+    words[OZ_M_RISE] = rint(offset / p->length_unit);
+    words[OZ_M_RISE_REST] = offset / p->length_unit - words[OZ_M_RISE];
+}
+
 OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps)
 {
     OzStatus status = OZ_OK;
     int64_t first = sim->crew.step;
     const OzScene *scene = sim->crew.members[member].scene;
-    const OzUnits *units = &sim->parameters[member].units;
     int walls = sim->arrays.switches.planes + sim->arrays.switches.cylinders;
-    size_t count = 2 * (size_t)(steps + 1) * (size_t)walls;
+    size_t count = OZ_MOTION * (size_t)(steps + 1) * (size_t)walls;
     double *motion = NULL;
     void *narrow = NULL;
     OZ_TRY(OZ_NEW(&motion, count));
@@ -53,11 +63,9 @@ OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps)
     for (int k = 0; k < (sim->crew.walls_still ? 0 : steps + 1); k++) {
         double time = (double)(sim->parameters[member].dt > 0 ? first + k : first) * scene->step;
         for (int w = 0; w < walls; w++) {
-            double *words = motion + 2 * ((size_t)k * (size_t)walls + (size_t)w);
-            oz_constants_motion(&scene->walls[sim->wall_order[w]].motion, time, &words[0],
-                                &words[1]);
-            words[0] /= units->length;
-            words[1] /= oz_units_speed(units);
+            double *words = motion + OZ_MOTION * ((size_t)k * (size_t)walls + (size_t)w);
+            put_motion(words, &scene->walls[sim->wall_order[w]].motion, time,
+                       &sim->parameters[member]);
         }
     }
     oz_pack_scalars(narrow, motion, count, sim->arrays.switches.is_double);

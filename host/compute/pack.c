@@ -102,6 +102,7 @@ static void put_shape(void *shape, const OzSwitches *s, const OzParameters *p,
 {
     double words[OZ_SHAPE], inertia = oz_units_inertia(&p->units);
     words[OZ_B_RADIUS] = grains->diameter[i] / 2 / p->units.length;
+    words[OZ_B_COUNT] = grains->diameter[i] / 2 / p->length_unit;
     words[OZ_B_HALF_LENGTH] = grains->length[i] / 2 / p->units.length;
     words[OZ_B_MASS] = grains->mass[i] / p->units.mass;
     words[OZ_B_INVERSE_INERTIA] = inertia / grains->inertia[i];

@@ -1,6 +1,8 @@
 /* Deriving switches from a scene. */
 #include "compute/switches.h"
 
+#include "compute/resolution.h"
+
 #include <string.h>
 
 static bool all_equal(const OzGrains *grains)
@@ -71,6 +73,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.smooth = scene->contact.law == OZ_LAW_HOOKE && scene->contact.damping == OZ_DAMPING_SMOOTH;
     s.at_contact = scene->contact.restitution_at == OZ_RESTITUTION_CONTACT && !s.round;
     s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
+    s.fine = oz_resolution_is_fine(scene, grains);
     s.planes = count_walls(scene, OZ_WALL_PLANE);
     s.cylinders = count_walls(scene, OZ_WALL_CYLINDER);
     s.ledger = scene->observe.ledger;

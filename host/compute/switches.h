@@ -24,6 +24,7 @@
     X(LINE, line, "two-point contacts of parallel shafts")                                         \
     X(SMOOTH, smooth, NULL)                                                                        \
     X(AT_CONTACT, at_contact, NULL)                                                                \
+    X(FINE, fine, NULL)                                                                            \
     X(GYROSCOPIC, gyroscopic, "gyroscopic term")                                                   \
     X(PLANES, planes, "plane walls")                                                               \
     X(CYLINDERS, cylinders, "cylinder walls")                                                      \

@@ -2,7 +2,7 @@
 #include "study/inspect_verdict.h"
 
 #include "base/clock.h"
-#include "compute/constants.h"
+#include "compute/resolution.h"
 #include "draw/renderer.h"
 #include "model/beam_limits.h"
 #include "model/predict.h"
@@ -107,33 +107,6 @@ static void print_stability(FILE *file, const OzVerdict *v, const OzPrediction *
     }
 }
 
-/* A place is a whole number of units in single precision; what a grain at rest sinks in must be
- * many of them. */
-static OzStatus print_resolution(FILE *file, const OzVerdict *v, const OzPrediction *rows,
-                                 int count)
-{
-    OzStatus status = OZ_OK;
-    OzParameters parameters;
-    int order[OZ_WALLS_MAX];
-    const double *g = v->scene->gravity;
-    double stiffest = 0, gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    OZ_TRY(oz_constants_fill(&parameters, order, v->scene, v->grains));
-    for (int i = 0; i < count; i++) {
-        stiffest = fmax(stiffest, rows[i].constants.stiffness);
-    }
-    if (v->scene->precision == OZ_PRECISION_FLOAT) {
-        fprintf(file, "  resolution       places to %.2g m (float)", parameters.length_unit);
-        if (v->scene->contact.law == OZ_LAW_HOOKE && gravity > 0 && stiffest > 0) {
-            double overlap = gravity / stiffest, units = overlap / parameters.length_unit;
-            fprintf(file, "; a grain at rest sinks in by %.2g m, %.3g times that%s", overlap, units,
-                    units < 100 ? ": too few, take precision: double" : "");
-        }
-        fputc('\n', file);
-    }
-done:
-    return status;
-}
-
 static OzStatus print_contacts(FILE *file, const OzVerdict *v)
 {
     OzStatus status = OZ_OK;
@@ -142,7 +115,7 @@ static OzStatus print_contacts(FILE *file, const OzVerdict *v)
     OZ_TRY(oz_predict_scene(&rows, &count, v->scene, v->grains));
     print_restitution(file, v->scene, rows, count);
     print_stability(file, v, rows, count);
-    OZ_TRY(print_resolution(file, v, rows, count));
+    OZ_TRY(oz_resolution_print(file, v->scene, v->grains));
 done:
     free(rows);
     return status;

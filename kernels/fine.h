@@ -1,0 +1,186 @@
+/* Overlaps of equal digits however light a contact is (switch OZ_FINE, single precision). A place is an integer and a
+ * carried remainder, a turn likewise; a float of the difference of two places, from which radii are taken, would leave of
+ * an overlap what is above a unit. Here differences are taken in integers, remainders are counted in, and products and
+ * sums keep their rounding (Dekker 1971, Knuth's sum of two). All in units of a place. */
+#ifndef OZ_KERNELS_FINE_H
+#define OZ_KERNELS_FINE_H
+
+#include "kernels/vec3.h"
+
+/* A sum, and what its digits could not hold. */
+typedef struct OzFine {
+    real high, low;
+} OzFine;
+
+OZ_INLINE OzFine oz_fine_add(OzFine sum, real x)
+{
+#pragma OPENCL FP_CONTRACT OFF
+    real whole = sum.high + x, part = whole - sum.high;
+    OzFine next = {whole, sum.low + ((sum.high - (whole - part)) + (x - part))};
+    return next;
+}
+
+OZ_INLINE OzFine oz_fine_add_product(OzFine sum, real a, real b)
+{
+#pragma OPENCL FP_CONTRACT OFF
+    real product = a * b;
+    OzFine next = oz_fine_add(sum, product);
+    next.low += fma(a, b, -product);
+    return next;
+}
+
+/* The same sum, with as much of it as goes in its first number. */
+OZ_INLINE OzFine oz_fine_tidy(OzFine sum)
+{
+#pragma OPENCL FP_CONTRACT OFF
+    real whole = sum.high + sum.low;
+    OzFine next = {whole, sum.low - (whole - sum.high)};
+    return next;
+}
+
+/* Adds factor (x.high + x.low). */
+OZ_INLINE OzFine oz_fine_add_share(OzFine sum, real factor, OzFine x)
+{
+    OzFine next = oz_fine_add_product(sum, factor, x.high);
+    next.low += factor * x.low;
+    return next;
+}
+
+/* Adds the product of two. */
+OZ_INLINE OzFine oz_fine_add_both(OzFine sum, OzFine a, OzFine b)
+{
+    OzFine next = oz_fine_add_share(sum, a.high, b);
+    next.low += a.low * b.high;
+    return next;
+}
+
+OZ_INLINE OzFine oz_fine_minus(OzFine a)
+{
+    OzFine minus = {-a.high, -a.low};
+    return minus;
+}
+
+typedef struct OzFineVec3 {
+    OzFine x, y, z;
+} OzFineVec3;
+
+/* A grain's place and shaft. */
+typedef struct OzFineGrain {
+    OzPlace place;
+    OzVec3 rest;     /* of the place                                  */
+    real radius;
+    real half_shaft; /* 0 among spheres, whose axis is not looked at  */
+    OzFineVec3 axis; /* unit vector                                   */
+} OzFineGrain;
+
+/* The axis of a turn with its remainder: body z turned into the world, over the turn's length squared, which a float
+ * keeps to its own digits only. */
+OZ_INLINE OzFineVec3 oz_fine_axis(OzQuaternion turn, OzQuaternion rest)
+{
+    OzFine x = {turn.x, rest.x}, y = {turn.y, rest.y}, z = {turn.z, rest.z}, w = {turn.w, rest.w};
+    OzFine none = {REAL(0.0), REAL(0.0)}, longer = {REAL(-1.0), REAL(0.0)};
+    OzFine bodies = oz_fine_add_both(oz_fine_add_both(none, w, w), z, z);
+    OzFine across = oz_fine_add_both(oz_fine_add_both(none, x, x), y, y);
+    longer = oz_fine_add(oz_fine_add(longer, bodies.high), across.high);
+    real excess = longer.high + (longer.low + (bodies.low + across.low));
+    OzFineVec3 axis;
+    axis.x = oz_fine_add_both(oz_fine_add_both(none, x, z), w, y);
+    axis.y = oz_fine_add_both(oz_fine_add_both(none, y, z), oz_fine_minus(w), x);
+    axis.x.high *= REAL(2.0);
+    axis.x.low *= REAL(2.0);
+    axis.y.high *= REAL(2.0);
+    axis.y.low *= REAL(2.0);
+    axis.z = oz_fine_add(bodies, -across.high);
+    axis.z.low -= across.low;
+    axis.x.low -= excess * axis.x.high;
+    axis.y.low -= excess * axis.y.high;
+    axis.z.low -= excess * axis.z.high;
+    return axis;
+}
+
+/* The difference of two coordinates with their remainders. */
+OZ_INLINE OzFine oz_fine_apart(place a, place b, real rest)
+{
+    place count = a - b;
+    OzFine apart;
+    apart.high = oz_place_to_real(count);
+    apart.low = oz_place_to_real(count - oz_place_from_real(apart.high)) + rest;
+    return apart;
+}
+
+/* Adds the square. */
+OZ_INLINE OzFine oz_fine_add_square(OzFine sum, OzFine x)
+{
+    OzFine tidy = oz_fine_tidy(x);
+    OzFine next = oz_fine_add_product(sum, tidy.high, tidy.high);
+    next.low += tidy.low * (REAL(2.0) * tidy.high + tidy.low);
+    return next;
+}
+
+/* By how much a point is nearer to the origin than `reach`: the difference of squares over the sum. `square` is its
+ * distance squared. */
+OZ_INLINE real oz_fine_nearer(OzFine square, real reach)
+{
+    real distance = sqrt(oz_larger(square.high, REAL(0.0)));
+    OzFine excess = oz_fine_add_product(square, -reach, reach);
+    return -(excess.high + excess.low) / (distance + reach);
+}
+
+/* Overlap of two grains at points of their shafts, given in half-shafts: s of a, t of b. That these are floats does not
+ * matter: between closest points the distance does not change when one slides. */
+OZ_INLINE real oz_fine_pair(OzFineGrain a, OzFineGrain b, real s, real t)
+{
+    OzFine sum = {REAL(0.0), REAL(0.0)};
+    OzFine x = oz_fine_apart(a.place.x, b.place.x, a.rest.x - b.rest.x);
+    OzFine y = oz_fine_apart(a.place.y, b.place.y, a.rest.y - b.rest.y);
+    OzFine z = oz_fine_apart(a.place.z, b.place.z, a.rest.z - b.rest.z);
+    if (!OZ_ROUND) {
+        real along_a = s * a.half_shaft, along_b = -t * b.half_shaft;
+        x = oz_fine_add_share(oz_fine_add_share(x, along_a, a.axis.x), along_b, b.axis.x);
+        y = oz_fine_add_share(oz_fine_add_share(y, along_a, a.axis.y), along_b, b.axis.y);
+        z = oz_fine_add_share(oz_fine_add_share(z, along_a, a.axis.z), along_b, b.axis.z);
+    }
+    sum = oz_fine_add_square(sum, x);
+    sum = oz_fine_add_square(sum, y);
+    sum = oz_fine_add_square(sum, z);
+    return oz_fine_nearer(sum, a.radius + b.radius);
+}
+
+/* Where an end of a grain is (sign: of the half-shaft that leads to it), seen from a point. */
+OZ_INLINE OzFineVec3 oz_fine_end(OzFineGrain grain, real sign, OzPlace from)
+{
+    OzFineVec3 end;
+    end.x = oz_fine_apart(grain.place.x, from.x, grain.rest.x);
+    end.y = oz_fine_apart(grain.place.y, from.y, grain.rest.y);
+    end.z = oz_fine_apart(grain.place.z, from.z, grain.rest.z);
+    if (!OZ_ROUND) {
+        end.x = oz_fine_add_share(end.x, sign * grain.half_shaft, grain.axis.x);
+        end.y = oz_fine_add_share(end.y, sign * grain.half_shaft, grain.axis.y);
+        end.z = oz_fine_add_share(end.z, sign * grain.half_shaft, grain.axis.z);
+    }
+    return end;
+}
+
+/* Overlap of an end and a plane, from whose point the end is seen. rise: how far the plane has moved along z. */
+OZ_INLINE real oz_fine_plane(OzFineVec3 end, OzVec3 normal, OzFine rise, real radius)
+{
+    OzFine sum = {REAL(0.0), REAL(0.0)};
+    sum = oz_fine_add_share(sum, normal.x, end.x);
+    sum = oz_fine_add_share(sum, normal.y, end.y);
+    sum = oz_fine_add_share(sum, normal.z, end.z);
+    sum = oz_fine_add_share(sum, -normal.z, rise);
+    sum = oz_fine_add(sum, -radius);
+    return -(sum.high + sum.low);
+}
+
+/* Overlap of an end, seen from the axis, and the upright cylinder that it is in; room: how far it may be from the
+ * axis. */
+OZ_INLINE real oz_fine_cylinder(OzFineVec3 end, real room)
+{
+    OzFine sum = {REAL(0.0), REAL(0.0)};
+    sum = oz_fine_add_square(sum, end.x);
+    sum = oz_fine_add_square(sum, end.y);
+    return -oz_fine_nearer(sum, room);
+}
+
+#endif
