@@ -260,7 +260,7 @@ static void test_guards_name_the_grain(void **state)
     open_lone(&rig, "", "");
     rig.grains.velocity[1] = NAN;
     rig_start(&rig);
-    must_blow_up(&rig, "grain 0 is NaN");
+    must_blow_up(&rig, "grain 0 is no number");
 }
 
 static void test_steps_are_absolute(void **state)

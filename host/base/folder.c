@@ -354,3 +354,19 @@ done:
     free(marker);
     return status;
 }
+
+OzStatus oz_folder_create_file(FILE **file, const char *path, const char *name)
+{
+    OzStatus status = OZ_OK;
+    char *whole = NULL;
+    *file = NULL;
+    OZ_TRY(oz_folder_note(path, name));
+    OZ_TRY(oz_file_join(&whole, path, name));
+    *file = fopen(whole, "w");
+    if (!*file) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", whole, strerror(errno));
+    }
+done:
+    free(whole);
+    return status;
+}

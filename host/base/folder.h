@@ -11,6 +11,7 @@
 #include "base/status.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 
 /* What a command does in a folder. Lists end with NULL; NULL for none. */
 typedef struct OzFolderUse {
@@ -44,6 +45,9 @@ void oz_folder_close(OzFolder *folder);
  * marker of its own. Refuses a file that is there and that no marker names. In a folder without a
  * marker it does nothing. */
 OzStatus oz_folder_note(const char *path, const char *name);
+
+/* Notes a file and opens it for writing, empty. Fails with OZ_ERR_FILE, naming it. */
+OzStatus oz_folder_create_file(FILE **file, const char *path, const char *name);
 
 /* Whether the folder's marker names it. */
 bool oz_folder_names(const char *path, const char *name);

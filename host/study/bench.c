@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "study/bench_features.h"
@@ -45,6 +46,7 @@ typedef struct Bench {
     int setting_count;
     double seconds; /* of a row of weight 1 */
     char *folder;
+    OzFolder owned; /* the folder, in use */
     FILE *csv;
     OzBenchBed first; /* an6, or the first scene given, settled */
     OzBenchTile tile; /* made when the first large bed needs it */
@@ -132,16 +134,11 @@ static void warn_of_others(void)
 static OzStatus open_bench(Bench *bench)
 {
     OzStatus status = OZ_OK;
-    char *path = NULL;
+    const OzFolderUse use = {.keep = true};
     OZ_TRY(read_sizes(bench));
     OZ_TRY(oz_file_join(&bench->folder, NULL, bench->options->out ? bench->options->out : "bench"));
-    OZ_TRY(oz_file_make_folder(bench->folder));
-    OZ_TRY(oz_file_join(&path, bench->folder, "bench.csv"));
-    bench->csv = fopen(path, "w");
-    if (!bench->csv) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        goto done;
-    }
+    OZ_TRY(oz_folder_open(&bench->owned, bench->folder, &use));
+    OZ_TRY(oz_folder_create_file(&bench->csv, bench->folder, "bench.csv"));
     warn_of_others();
     OZ_TRY(oz_bench_limits_device(&bench->device, bench->options));
     OZ_TRY(oz_bench_limits_print(&bench->device, bench->options, stdout));
@@ -149,7 +146,6 @@ static OzStatus open_bench(Bench *bench)
     share_budget(bench);
     oz_bench_table_begin(stdout, bench->csv);
 done:
-    free(path);
     return status;
 }
 
@@ -388,6 +384,7 @@ static OzStatus draw_plot(const Bench *bench)
 {
     OzStatus status = OZ_OK;
     char *path = NULL;
+    OZ_TRY(oz_folder_note(bench->folder, "bench.png"));
     OZ_TRY(oz_file_join(&path, bench->folder, "bench.png"));
     OZ_TRY(oz_bench_plot_draw(path, bench->device.name, bench->rows, bench->row_count));
 done:
@@ -425,6 +422,7 @@ static OzStatus close_bench(Bench *bench, OzStatus status)
     }
     oz_bench_bed_free_tile(&bench->tile);
     oz_bench_bed_free(&bench->first);
+    oz_folder_close(&bench->owned);
     free(bench->folder);
     free(bench);
     if (status != OZ_OK) {

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "compute/probe.h"
 #include "compute/sim.h"
 #include "model/place.h"
@@ -277,14 +278,8 @@ OzStatus oz_bench_features_print(const OzBenchBed *bed, const OzOptions *options
                                  const char *folder, FILE *text)
 {
     OzStatus status = OZ_OK;
-    char *path = NULL;
     FILE *csv = NULL;
-    OZ_TRY(oz_file_join(&path, folder, "features.csv"));
-    csv = fopen(path, "w");
-    if (!csv) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        goto done;
-    }
+    OZ_TRY(oz_folder_create_file(&csv, folder, "features.csv"));
     fprintf(csv, "changed,us_per_step,changed_us_per_step,difference_us,spread_us,percent,"
                  "pairs_per_grain,changed_pairs_per_grain\n");
     fprintf(text,
@@ -299,6 +294,5 @@ done:
     if (csv) {
         fclose(csv);
     }
-    free(path);
     return status;
 }

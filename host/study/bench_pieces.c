@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "compute/piece_capture.h"
 #include "compute/piece_phases.h"
 #include "compute/piece_settle.h"
@@ -166,21 +167,15 @@ OzStatus oz_bench_pieces_print(const OzBenchBed *bed, const OzOptions *options, 
     OzStatus status = OZ_OK;
     Result result = {0};
     Job job = {.bed = bed, .options = options, .result = &result};
-    char name[256], *path = NULL;
+    char name[256];
     FILE *csv = NULL;
     snprintf(name, sizeof name, "pieces_%s.csv", bed->scene.name);
-    OZ_TRY(oz_file_join(&path, folder, name));
     OZ_TRY(oz_apart_run(measure, &job, &result, sizeof result));
-    csv = fopen(path, "w");
-    if (!csv) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        goto done;
-    }
+    OZ_TRY(oz_folder_create_file(&csv, folder, name));
     print_table(&result, bed->scene.name, text, csv);
 done:
     if (csv) {
         fclose(csv);
     }
-    free(path);
     return status;
 }

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "compute/capture.h"
 #include "compute/phases.h"
@@ -294,15 +295,12 @@ static void print_part(int p, const Share *part, double step, FILE *text, FILE *
     fprintf(csv, "\n");
 }
 
-static OzStatus print_all(const Share part[PART_COUNT], const char *path, FILE *text)
+static OzStatus print_all(const Share part[PART_COUNT], const char *folder, const char *name,
+                          FILE *text)
 {
     OzStatus status = OZ_OK;
     FILE *csv = NULL;
-    csv = fopen(path, "w");
-    if (!csv) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        goto done;
-    }
+    OZ_TRY(oz_folder_create_file(&csv, folder, name));
     fprintf(csv, "part,us_per_call,calls_per_step,us_per_step,percent_of_step\n");
     fprintf(text, "%-22s %12s %13s %11s %9s  %s\n", "part", "us a call", "calls a step",
             "us a step", "of a step", "how measured");
@@ -321,18 +319,16 @@ OzStatus oz_bench_shares_print(OzBenchBed *bed, const OzOptions *options, const 
 {
     OzStatus status = OZ_OK;
     Share part[PART_COUNT] = {{0}};
-    char *movie = NULL, table[256], *path = NULL;
+    char *movie = NULL, table[256];
     part[PART_DRAW].seconds = part[PART_ENCODE].seconds = NAN;
     snprintf(table, sizeof table, "%s.csv", name);
     OZ_TRY(oz_file_join(&movie, folder, name));
-    OZ_TRY(oz_file_join(&path, folder, table));
     Shares s = {.bed = bed, .options = options, .folder = movie, .part = part};
     OZ_TRY(oz_apart_run(measure, &s, part, sizeof part));
     fprintf(text, "\nshares of %lld grains of %s, float (of a CPU: processor time)\n",
             (long long)bed->grains.count, bed->scene.name);
-    OZ_TRY(print_all(part, path, text));
+    OZ_TRY(print_all(part, folder, table, text));
 done:
     free(movie);
-    free(path);
     return status;
 }

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "model/predict.h"
@@ -51,6 +52,7 @@ typedef struct Report {
     OzReportPoint *points;
     int count;
     char *folder;
+    OzFolder owned; /* the folder, in use */
 } Report;
 
 /* "scenes/report/bounce.yaml" is the case "bounce"; *pieces is NULL unless it is one of trigrains,
@@ -204,11 +206,12 @@ done:
 static OzStatus study_scenes(Report *report)
 {
     OzStatus status = OZ_OK;
+    const OzFolderUse use = {.keep = true};
     const OzOptions *options = report->options;
     double start = oz_clock_now();
     OZ_TRY(OZ_NEW(&report->points, options->path_count * METHODS_MOST * RUNGS));
     OZ_TRY(open_devices(report));
-    OZ_TRY(oz_file_make_folder(report->folder));
+    OZ_TRY(oz_folder_open(&report->owned, report->folder, &use));
     for (int i = 0; i < options->path_count; i++) {
         const OzReportCase *row = NULL;
         const OzReportPieceCase *pieces = NULL;
@@ -262,6 +265,7 @@ done:
     }
     free(report.device_list);
     free(report.points);
+    oz_folder_close(&report.owned);
     free(report.folder);
     if (status != OZ_OK) {
         oz_log_line("%s", oz_status_text());

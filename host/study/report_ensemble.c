@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/memory.h"
 #include "model/place.h"
 #include "model/predict.h"
@@ -180,14 +181,16 @@ OzStatus oz_report_ensemble_run(const OzOptions *options, const char *folder)
 {
     OzStatus status = OZ_OK;
     OzEnsemblePoint *points = NULL;
-    OzIntegrator asked;
+    OzIntegrator asked = OZ_INTEGRATOR_EULER;
     char *title = NULL;
     double contact_time = 0;
     int count = 0, rungs = options->quick ? RUNGS_QUICK : RUNGS;
+    const OzFolderUse use = {.keep = true};
+    OzFolder owned = {0};
     OZ_TRY(check_seeds(options));
     OZ_TRY(look_at_scene(&contact_time, &title, &asked, options));
     OZ_TRY(OZ_NEW(&points, rungs * OZ_PREDICT_INTEGRATORS));
-    OZ_TRY(oz_file_make_folder(folder));
+    OZ_TRY(oz_folder_open(&owned, folder, &use));
     for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
         bool chosen = !is_set(options, "integrator") || i == (int)asked;
         for (int r = 0; chosen && r < rungs; r++) {
@@ -202,5 +205,6 @@ OzStatus oz_report_ensemble_run(const OzOptions *options, const char *folder)
 done:
     free(points);
     free(title);
+    oz_folder_close(&owned);
     return status;
 }

@@ -2,6 +2,7 @@
 #include "study/report_ensemble_table.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/student.h"
 #include "scene/keys.h"
@@ -204,13 +205,9 @@ OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,
                                         const OzEnsemblePoint *points, int count)
 {
     OzStatus status = OZ_OK;
-    char *path = NULL;
-    OZ_TRY(oz_file_join(&path, folder, "ensemble.csv"));
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        goto done;
-    }
+    FILE *file = NULL;
+    OZ_TRY(oz_folder_create_file(&file, folder, "ensemble.csv"));
+    OZ_TRY(oz_folder_note(folder, "ensemble.png"));
     Shown shown = choose_shown(points, count);
     write_header(file, shown);
     for (int i = 0; i < count; i++) {
@@ -218,11 +215,11 @@ OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,
     }
     bool whole = !ferror(file);
     if (fclose(file) != 0 || !whole) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s/ensemble.csv: %s", folder,
+                                strerror(errno));
         goto done;
     }
     OZ_TRY(draw(folder, title, points, count));
 done:
-    free(path);
     return status;
 }

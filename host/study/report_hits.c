@@ -3,6 +3,7 @@
 #include "study/report_hits.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "compute/piece_reference.h"
@@ -245,6 +246,8 @@ OzStatus oz_report_hits_run(const OzOptions *options, const char *folder)
 {
     OzStatus status = OZ_OK;
     OzPlan plan = {0};
+    const OzFolderUse use = {.keep = true};
+    OzFolder owned = {0};
     OzReportHits *meetings = NULL;
     FILE *csv = NULL;
     char path[PATH_SIZE];
@@ -254,12 +257,10 @@ OzStatus oz_report_hits_run(const OzOptions *options, const char *folder)
     }
     OZ_TRY(oz_plan_create(&plan, options));
     OZ_TRY(OZ_NEW(&meetings, plan.count));
-    OZ_TRY(oz_file_make_folder(folder));
+    OZ_TRY(oz_folder_open(&owned, folder, &use));
+    OZ_TRY(oz_folder_create_file(&csv, folder, "hits.csv"));
+    OZ_TRY(oz_folder_note(folder, "hits.png"));
     snprintf(path, sizeof path, "%s/hits.csv", folder);
-    csv = fopen(path, "w");
-    if (!csv) {
-        OZ_TRY(oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno)));
-    }
     status = follow_all(meetings, &plan, csv);
     if (fclose(csv) != 0 && status == OZ_OK) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
@@ -271,5 +272,6 @@ OzStatus oz_report_hits_run(const OzOptions *options, const char *folder)
 done:
     free(meetings);
     oz_plan_free(&plan);
+    oz_folder_close(&owned);
     return status;
 }

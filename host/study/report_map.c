@@ -2,6 +2,7 @@
 #include "study/report_map.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "compute/reference.h"
 #include "model/contact.h"
@@ -175,12 +176,13 @@ OzStatus oz_report_map_draw(const char *folder)
 {
     OzStatus status = OZ_OK;
     char path[PATH_SIZE];
-    OZ_TRY(oz_file_make_folder(folder));
+    FILE *csv = NULL;
+    const OzFolderUse use = {.keep = true};
+    OzFolder owned = {0};
+    OZ_TRY(oz_folder_open(&owned, folder, &use));
+    OZ_TRY(oz_folder_create_file(&csv, folder, "stability.csv"));
+    OZ_TRY(oz_folder_note(folder, "stability.png"));
     snprintf(path, sizeof path, "%s/stability.csv", folder);
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-    }
     fprintf(csv, "integrator,steps_per_contact,restitution,amplitude,verdict,meaning\n");
     for (int i = 0; status == OZ_OK && i < OZ_PREDICT_INTEGRATORS; i++) {
         status = write_map(csv, i);
@@ -192,5 +194,6 @@ OzStatus oz_report_map_draw(const char *folder)
     OZ_TRY(draw(folder, path));
     oz_log_line("%s/stability.csv and stability.png", folder);
 done:
+    oz_folder_close(&owned);
     return status;
 }

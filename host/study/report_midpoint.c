@@ -2,6 +2,7 @@
 #include "study/report_midpoint.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "compute/drive.h"
 #include "compute/piece_forces.h"
 #include "model/place.h"
@@ -183,15 +184,9 @@ OzStatus oz_report_midpoint_study(const char *path, const char *folder, const Oz
 {
     OzStatus status = OZ_OK;
     OzDevice device = {0};
-    char *csv_path = NULL;
     FILE *csv = NULL;
     OZ_TRY(oz_device_open(&device, options->device, options->threads));
-    OZ_TRY(oz_file_join(&csv_path, folder, "midpoint.csv"));
-    csv = fopen(csv_path, "w");
-    if (!csv) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", csv_path, strerror(errno));
-        goto done;
-    }
+    OZ_TRY(oz_folder_create_file(&csv, folder, "midpoint.csv"));
     fprintf(csv, "force_point,time,kinetic,unaccounted\n");
     printf("where the force of two triangles acts\n  %-9s %12s %14s %14s %14s\n", "", "loop's work",
            "kinetic/peak", "later", "injected");
@@ -199,9 +194,9 @@ OzStatus oz_report_midpoint_study(const char *path, const char *folder, const Oz
     OZ_TRY(study_point(OZ_FORCE_MIDPOINT, path, &device, options, csv));
 done:
     if (csv && fclose(csv) != 0 && status == OZ_OK) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", csv_path, strerror(errno));
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s/midpoint.csv: %s", folder,
+                                strerror(errno));
     }
-    free(csv_path);
     oz_device_close(&device);
     return status;
 }

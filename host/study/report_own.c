@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "scene/keys.h"
@@ -158,11 +159,9 @@ static OzStatus study(OzReportStart *start, OzReportMeans *means, const char *pa
     OzStatus status = OZ_OK;
     OzReportPaths paths;
     OzReportPath advised;
-    char *csv = NULL;
     double tolerance = options->tolerance > 0 ? options->tolerance : tolerance_default;
     OZ_TRY(oz_report_path_study(&paths, start, options, device));
-    OZ_TRY(oz_file_join(&csv, folder, "paths.csv"));
-    OZ_TRY(oz_report_path_write(csv, &paths));
+    OZ_TRY(oz_report_path_write(folder, &paths));
     OZ_TRY(oz_report_start_say(stdout, start));
     oz_report_path_print(stdout, &paths, start);
     OZ_TRY(choose_advice(&advised, &paths, start, tolerance));
@@ -171,7 +170,22 @@ static OzStatus study(OzReportStart *start, OzReportMeans *means, const char *pa
     oz_report_means_print(stdout, means);
     print_advice(&paths, means, start, &advised, tolerance);
 done:
-    free(csv);
+    return status;
+}
+
+/* A folder of the scene's own in the report's, which says so. */
+static OzStatus open_own(OzFolder *owned, const char *folder, const char *name)
+{
+    OzStatus status = OZ_OK;
+    const OzFolderUse use = {.keep = true};
+    char *path = NULL, *noted = NULL;
+    OZ_TRY(oz_file_join(&path, folder, name));
+    OZ_TRY(oz_file_join(&noted, name, ""));
+    OZ_TRY(oz_folder_note(folder, noted));
+    OZ_TRY(oz_folder_open(owned, path, &use));
+done:
+    free(path);
+    free(noted);
     return status;
 }
 
@@ -181,14 +195,15 @@ OzStatus oz_report_own_study(const char *path, const char *folder, const OzOptio
     OzStatus status = OZ_OK;
     OzReportStart start = {0};
     OzReportMeans *means = NULL;
-    char *own = NULL;
+    const char *own = NULL;
+    OzFolder owned = {0};
     double begin = oz_clock_now();
     OZ_TRY(OZ_NEW(&means, 1));
     oz_log_line("%s: no answer is known for this scene: paths, means and stability are studied",
                 path);
     OZ_TRY(oz_report_start_find(&start, path, options, device));
-    OZ_TRY(oz_file_join(&own, folder, start.scene.name));
-    OZ_TRY(oz_file_make_folder(own));
+    OZ_TRY(open_own(&owned, folder, start.scene.name));
+    own = owned.path;
     printf("%s: %lld grain%s, paths from %s\n", path, (long long)start.grains.count,
            start.grains.count == 1 ? "" : "s", start.how);
     OZ_TRY(study(&start, means, path, own, options, device));
@@ -196,6 +211,6 @@ OzStatus oz_report_own_study(const char *path, const char *folder, const OzOptio
 done:
     oz_report_start_free(&start);
     free(means);
-    free(own);
+    oz_folder_close(&owned);
     return status;
 }

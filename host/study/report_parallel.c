@@ -2,6 +2,7 @@
 #include "study/report_parallel.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -174,15 +175,16 @@ static OzStatus draw(const char *folder)
 OzStatus oz_report_parallel_study(const char *path, const char *folder, const OzOptions *options)
 {
     OzStatus status = OZ_OK;
-    char name[PATH_SIZE];
-    snprintf(name, sizeof name, "%s/aligned.csv", folder);
-    FILE *csv = fopen(name, "w");
-    if (!csv) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", name, strerror(errno));
-    }
+    FILE *csv = NULL;
+    OZ_TRY(oz_folder_create_file(&csv, folder, "aligned.csv"));
+    OZ_TRY(oz_folder_note(folder, "aligned.png"));
     status = write_rows(csv, path, options);
     if (fclose(csv) != 0 && status == OZ_OK) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", name, strerror(errno));
+        status =
+            oz_status_fail(OZ_ERR_FILE, "cannot write %s/aligned.csv: %s", folder, strerror(errno));
     }
-    return status == OZ_OK ? draw(folder) : status;
+    OZ_TRY(status);
+    OZ_TRY(draw(folder));
+done:
+    return status;
 }

@@ -2,6 +2,7 @@
 #include "study/report_path.h"
 
 #include "base/clock.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "compute/drive.h"
@@ -385,11 +386,12 @@ void oz_report_path_print(FILE *file, const OzReportPaths *paths, const OzReport
     }
 }
 
-OzStatus oz_report_path_write(const char *file, const OzReportPaths *paths)
+OzStatus oz_report_path_write(const char *folder, const OzReportPaths *paths)
 {
-    FILE *csv = fopen(file, "w");
-    if (!csv) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", file, strerror(errno));
+    FILE *csv = NULL;
+    OzStatus status = oz_folder_create_file(&csv, folder, "paths.csv");
+    if (status != OZ_OK) {
+        return status;
     }
     fprintf(csv, "integrator,substeps,steps_per_cycle,step,largest_stable_step,horizon,"
                  "error_diameters,wall_per_second,reason\n");
@@ -405,5 +407,7 @@ OzStatus oz_report_path_write(const char *file, const OzReportPaths *paths)
         }
     }
     bool whole = !ferror(csv);
-    return fclose(csv) == 0 && whole ? OZ_OK : oz_status_fail(OZ_ERR_FILE, "cannot write %s", file);
+    return fclose(csv) == 0 && whole
+               ? OZ_OK
+               : oz_status_fail(OZ_ERR_FILE, "cannot write %s/paths.csv", folder);
 }

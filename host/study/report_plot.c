@@ -1,6 +1,7 @@
 /* Talking to gnuplot. */
 #include "study/report_plot.h"
 
+#include "base/folder.h"
 #include "base/log.h"
 #include "study/report_table.h"
 
@@ -195,7 +196,8 @@ static void send_picture(FILE *gnuplot, const char *terminal, const char *path, 
 OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzReportPoint *points,
                              int count)
 {
-    char path[1024];
+    OzStatus status = OZ_OK;
+    char path[1024], name[2][1024];
     if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
         oz_log_line("no pictures in %s: gnuplot is not installed", folder);
         return OZ_OK;
@@ -203,17 +205,22 @@ OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzRep
     if (count_bad(points, count) == count) {
         return OZ_OK;
     }
+    snprintf(name[0], sizeof name[0], "%s.png", points[0].scene);
+    snprintf(name[1], sizeof name[1], "%s.svg", points[0].scene);
+    OZ_TRY(oz_folder_note(folder, name[0]));
+    OZ_TRY(oz_folder_note(folder, name[1]));
     FILE *gnuplot = popen("gnuplot", "w");
     if (!gnuplot) {
         return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
     }
     send_data(gnuplot, points, count);
-    snprintf(path, sizeof path, "%s/%s.png", folder, points[0].scene);
-    send_picture(gnuplot, "pngcairo", path, device, points, count);
-    snprintf(path, sizeof path, "%s/%s.svg", folder, points[0].scene);
-    send_picture(gnuplot, "svg", path, device, points, count);
-    if (pclose(gnuplot) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s", path);
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, name[i]);
+        send_picture(gnuplot, i == 0 ? "pngcairo" : "svg", path, device, points, count);
     }
-    return OZ_OK;
+    if (pclose(gnuplot) != 0) {
+        status = oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s", path);
+    }
+done:
+    return status;
 }

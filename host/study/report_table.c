@@ -2,6 +2,7 @@
 #include "study/report_table.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "scene/keys.h"
 
 #include <errno.h>
@@ -157,11 +158,7 @@ OzStatus oz_report_table_write(const char *folder, const OzReportPoint *points, 
     char *path = NULL;
     FILE *file = NULL;
     OZ_TRY(oz_file_join(&path, folder, "report.csv"));
-    file = fopen(path, "w");
-    if (!file) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        goto done;
-    }
+    OZ_TRY(oz_folder_create_file(&file, folder, "report.csv"));
     fprintf(file, "scene,quantity,integrator,precision,steps_per_contact,step,"
                   "evaluations_per_simulated_s,truth,error_rms,error_max,wall_per_simulated_s,"
                   "wall_low,wall_high,pareto,reason,device,substeps\n");
