@@ -7,7 +7,7 @@
 #include "hand_bed.h"
 #include "observe/final.h"
 
-/* Unequal grains with friction: kernels that others' tests build too. */
+/* The features of test_scale.c's beds, whose kernels serve here too. */
 static const char rods[] =
     "model: rods\n"
     "precision: %s\n"
@@ -29,7 +29,8 @@ static const char pieces[] =
     "  - {kind: single, shape: square, edge: 2e-3, position: [0, 5e-3]}\n"
     "  - {kind: single, shape: square, edge: 2e-3, position: [9e-3, 5e-3]}\n"
     "walls:\n"
-    "  - {kind: vessel, width: 4e-2, height: 2e-2}\n";
+    "  - {kind: vessel, width: 4e-2, height: 2e-2, motion: {frequency: 1, "
+    "amplitude: 1e-4}}\n";
 
 static const char *const precisions[] = {"float", "double"};
 
