@@ -42,28 +42,13 @@ struct OzEnsemble {
     OzInclinationFit inclination; /* of a sweep over a drum's speed */
 };
 
-/* A table is written under another name and renamed last: its presence says that the ensemble has
- * ended. */
 static OzStatus in_folder(const OzEnsemble *e, const char *name, char **path)
 {
     return oz_file_join(path, e->folder, name);
 }
 
-static OzStatus open_table(const OzEnsemble *e, const char *name, FILE **file)
-{
-    OzStatus status = OZ_OK;
-    char *path = NULL;
-    OZ_TRY(in_folder(e, name, &path));
-    OZ_TRY(oz_folder_note(e->folder, name));
-    *file = fopen(path, "w");
-    if (!*file) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-    }
-done:
-    free(path);
-    return status;
-}
-
+/* A table is written under another name and renamed last: its presence says that the ensemble has
+ * ended. */
 OzStatus oz_ensemble_create(OzEnsemble **ensemble, const char *folder, const char *key)
 {
     OzStatus status = OZ_OK;
@@ -71,8 +56,8 @@ OzStatus oz_ensemble_create(OzEnsemble **ensemble, const char *folder, const cha
     OZ_TRY(OZ_NEW(&e, 1));
     e->folder = folder;
     e->key = key;
-    OZ_TRY(open_table(e, "members.csv.part", &e->members));
-    OZ_TRY(open_table(e, "ensemble.csv.part", &e->table));
+    OZ_TRY(oz_folder_create_file(&e->members, folder, "members.csv.part"));
+    OZ_TRY(oz_folder_create_file(&e->table, folder, "ensemble.csv.part"));
     *ensemble = e;
     e = NULL;
 done:

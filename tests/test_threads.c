@@ -1,18 +1,7 @@
 /* The same bits whatever the number of threads. A driver reads that number once, so each run is a
  * program of its own. ORZO_NEEDS_DEVICE. */
 #include "program.h"
-
-/* One scene that one work-item does; its kernels are test_run's. */
-static const char bed[] = "model: rods\n"
-                          "time: {step: 2e-5, taps: 2}\n"
-                          "contact: {contact_time: 6e-4, restitution: 0.5}\n"
-                          "grains:\n"
-                          "  - {kind: random, count: 29, diameter: 1e-3, aspect: 2}\n"
-                          "  - {kind: random, count: 1, diameter: 1e-3, aspect: 1}\n"
-                          "walls:\n"
-                          "  - {kind: plane, motion: {frequency: 50, acceleration_ratio: 2}}\n"
-                          "  - {kind: cylinder, diameter: 8e-3}\n"
-                          "settle: {drag: 70, time_max: 0.02, rest_time: 0.01}\n";
+#include "run_bed.h"
 
 /* Grains of any shape thrown into a shaken vessel; its kernels are those of the extreme cases. */
 static const char flat[] =
