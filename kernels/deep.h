@@ -47,14 +47,16 @@ OZ_INLINE void oz_deep_judge(OzWork *w, OzDeep deep, const int *slots, int step)
     oz_work_stop_lanes(w, met, OZ_STOP_MET, step, slots);
 }
 
-/* slots: of the first grain. A step moves an end by half a radius at most, so that none passes
- * unseen from below deep_look to where shafts meet. */
-OZ_INLINE void oz_deep_guard(OzWork *w, OzDeep deep, const int *slots, int step)
+/* slots: of the first grain. Tells whether any contact was worth a look. A step moves an end by half a
+ * radius at most, so that none passes unseen from below deep_look to where shafts meet. */
+OZ_INLINE int oz_deep_guard(OzWork *w, OzDeep deep, const int *slots, int step)
 {
     mask look = deep.counts & oz_depth_beyond(deep.overlap, deep.unit, w->parameters->deep_look);
-    if (OZ_ANY(look)) {
+    int found = OZ_ANY(look);
+    if (found) {
         oz_deep_judge(w, deep, slots, step);
     }
+    return found;
 }
 
 #endif

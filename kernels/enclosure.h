@@ -93,9 +93,8 @@ OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact
                                   mask counts, int step)
 {
     OzDeep deep = {contact.overlap, contact.rate, REAL(0.5) * radius, radius, counts, OZ_DEEP_WALL};
-    mask lost = counts & !(contact.overlap <= REAL(2.0) * radius);
-    oz_deep_guard(w, deep, slots, step);
-    if (OZ_ANY(lost)) {
+    if (oz_deep_guard(w, deep, slots, step)) {
+        mask lost = counts & !(contact.overlap <= REAL(2.0) * radius);
         oz_work_stop_lanes(w, lost, OZ_STOP_ESCAPED, step, slots);
     }
 }
