@@ -257,7 +257,10 @@ static void assert_interrupted(pid_t child, const char *folder)
     double start = now_seconds();
     kill(child, SIGINT);
     assert_int_equal(wait_for(child, 10), 130);
-    assert_true(now_seconds() - start < 1.5); /* a second, on a machine that has others to serve */
+    /* 0.1 s on an idle machine: a launch, two pictures, the files. Forty times that is left for a
+     * machine whose cores ten others want as well; waiting for the run's end would take a minute.
+     */
+    assert_true(now_seconds() - start < 4);
     snprintf(path, sizeof path, "%s/final.csv", folder);
     assert_int_equal(count_lines(path), 31);
     snprintf(path, sizeof path, "%s/log.txt", folder);

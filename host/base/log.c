@@ -7,11 +7,14 @@
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 /* stderr's lock is that of these too. */
 static FILE *file;
+static bool opened; /* a log.txt, once at least */
+static char *early; /* lines from before        */
 static bool progress_shown;
 static double pace = 10;       /* s between plain progress lines              */
 static double next_plain = -1; /* on oz_clock_now, of the next; -1: not begun */
@@ -24,10 +27,28 @@ static void clear_progress(void)
     }
 }
 
+/* Adds a line to those that wait for a log.txt to be opened. Without memory for it it is lost
+ * there. */
+static void keep_early(const char *format, va_list arguments)
+{
+    char *longer = NULL, *line = NULL;
+    if (vasprintf(&line, format, arguments) < 0) {
+        return;
+    }
+    if (asprintf(&longer, "%s%s\n", early ? early : "", line) >= 0) {
+        free(early);
+        early = longer;
+    }
+    free(line);
+}
+
 /* A file that takes no more is said once, then left alone. */
 static void write_file(const char *format, va_list arguments)
 {
     if (!file) {
+        if (!opened) {
+            keep_early(format, arguments);
+        }
         return;
     }
     vfprintf(file, format, arguments);
@@ -129,5 +150,9 @@ OzStatus oz_log_open(const char *path)
     if (!file) {
         return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
     }
+    fputs(early ? early : "", file);
+    free(early);
+    early = NULL;
+    opened = true;
     return OZ_OK;
 }

@@ -1,6 +1,7 @@
-/* Quiet lines for people: to stderr, and to the run's log.txt once that is open. One log per process,
- * whose lines may come from any thread. A stderr that takes no lines (closed, its reader gone) loses
- * them and nothing else; a log.txt that takes none is said on stderr once and closed. */
+/* Quiet lines for people: to stderr, and to the run's log.txt once that is open. One log per
+ * process, whose lines may come from any thread. A stderr that takes no lines (closed, its reader
+ * gone) loses them and nothing else; a log.txt that takes none is said on stderr once and closed.
+ */
 #ifndef OZ_BASE_LOG_H
 #define OZ_BASE_LOG_H
 
@@ -23,7 +24,8 @@ void oz_log_progress(const char *format, ...) __attribute__((format(printf, 1, 2
  * count begins again. */
 void oz_log_pace(double seconds);
 
-/* Lines go to this file too, from now on; NULL path closes it. */
+/* Lines go to this file too, from now on, and first those that came before any such file; NULL path
+ * closes it. */
 OzStatus oz_log_open(const char *path);
 
 #endif
