@@ -37,8 +37,8 @@ static const struct {
     const char *name, *value, *help;
 } option_rows[] = {
     {'o', "-o", "DIR",
-     "folder to write (default runs/<scene name>; of bench: bench, of report: report)"},
-    {'O', "--overwrite", NULL, "replace a finished run there"},
+     "folder to write (default runs/<scene name>; of draw DIR/draw, of bench and report their names)"},
+    {'O', "--overwrite", NULL, "replace the run that is there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
     {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all"},
     {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},

@@ -89,7 +89,7 @@ static OzStatus settle(OzCourse *course)
     if (status == OZ_OK && seconds > 0) {
         const char *first = course->members[0]->name;
         const char *others = course->member_count > 1 ? " and companions " : " ";
-        oz_log_line("%s%ssettled in %.3f s (%.1f s of computing)", first, first[0] ? others : "",
+        oz_log_line("%s%ssettling took %.3f s (%.1f s of computing)", first, first[0] ? others : "",
                     seconds, oz_clock_now() - start);
     }
     return status;

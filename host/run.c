@@ -305,6 +305,9 @@ static void log_costs(const Run *run)
     OzStudioTimes pictures = oz_studio_take_times(run->studio);
     double steps = counts.steps > 0 ? (double)counts.steps : 1;
     double waited = pictures.waited / run->course_count;
+    if (spent <= 0) {
+        return; /* ended before its first step */
+    }
     if (pictures.waited > 0) {
         snprintf(waiting, sizeof waiting, ", of which %.2f s waiting for pictures", waited);
         snprintf(beside, sizeof beside,

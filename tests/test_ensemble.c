@@ -287,7 +287,7 @@ static void test_nonsense_is_refused(void **state)
     run("--set 'sweep={contact.friction: [0.1, -1]}'", "bad", 2);
     run("--set 'sweep={contact.friction: 0.1}'", "bad", 2);
     run("--set 'sweep={seed: [1, 2]}' --seeds 1..2", "bad", 2);
-    run("--seeds 1..4", "seeds", 2); /* holds a finished run */
+    run("--seeds 1..4", "seeds", 2); /* holds a run that has ended */
 }
 
 /* Lists that hold next to nothing, for all members: they grow at moments that are not every

@@ -83,7 +83,7 @@ static void test_what_a_user_added(void **state)
     shell("cp -r shown added");
     keep("added/notes.txt");
     keep("added/snapshots/holiday.png");
-    expect(2, "added holds a finished run", "run shown.yaml -o added");
+    expect(2, "added holds a run that has ended", "run shown.yaml -o added");
     assert_true(same_files("added/movie.mp4", "shown/movie.mp4"));
     expect(0, "30 grains", "run bed.yaml -o added --overwrite --until 0");
     assert_kept("added/notes.txt");

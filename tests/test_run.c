@@ -73,7 +73,7 @@ static void test_finished_runs_are_kept(void **state)
 {
     (void)state;
     expect(0, "30 grains", "run shown.yaml -o kept --until 0.02");
-    expect(2, "kept holds a finished run; expected another folder (-o) or --overwrite",
+    expect(2, "kept holds a run that has ended; expected another folder (-o) or --overwrite",
            "run bed.yaml -o kept");
     assert_true(is_playable("kept/movie.mp4"));
     expect(0, "30 grains", "run bed.yaml -o kept --overwrite --until 0.01");

@@ -125,8 +125,8 @@ static OzStatus check_results(const char *folder, const OzFolderUse *use, const 
     }
     if (find_held(folder, use->endings, marker)) {
         return oz_status_fail(
-            OZ_ERR_INPUT, "%s holds a finished run; expected another folder (-o) or --overwrite",
-            folder);
+            OZ_ERR_INPUT,
+            "%s holds a run that has ended; expected another folder (-o) or --overwrite", folder);
     }
     found = find_held(folder, use->results, marker);
     if (found || holds_members(folder, marker)) {
@@ -181,12 +181,33 @@ done:
     return status;
 }
 
-/* The folder that this one lies in may be a run's, with members below it. */
+/* The name of the folder that this one lies in, also of one that is not there yet. */
+static OzStatus parent_of(char **parent, const char *folder)
+{
+    if (oz_file_exists(folder)) {
+        return oz_file_join(parent, folder, "..");
+    }
+    OzStatus status = oz_memory_text(parent, folder);
+    char *end = status == OZ_OK ? *parent + strlen(*parent) : NULL;
+    while (end && end > *parent && end[-1] == '/') {
+        *--end = '\0';
+    }
+    char *slash = status == OZ_OK ? strrchr(*parent, '/') : NULL;
+    if (slash) {
+        slash[slash == *parent] = '\0';
+    } else if (status == OZ_OK) {
+        free(*parent);
+        status = oz_memory_text(parent, ".");
+    }
+    return status;
+}
+
+/* It may be a run's, with members below it. */
 static OzStatus check_parent(const char *folder)
 {
     OzStatus status = OZ_OK;
     char *parent = NULL;
-    OZ_TRY(oz_file_join(&parent, folder, ".."));
+    OZ_TRY(parent_of(&parent, folder));
     OZ_TRY(check_lock(parent));
 done:
     free(parent);

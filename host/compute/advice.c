@@ -9,6 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* Of the step that goes with an advised contact time: a hit then returns what was asked to a few
+ * per cent with any integrator (README, "What a step costs"). */
+static const double STEPS_PER_CONTACT = 30;
+
 /* The deepest contact of a grain, and what pushes. */
 typedef struct Press {
     OzTouchLast contact;
@@ -137,8 +141,12 @@ static void blame_softness(char *text, size_t size, const OzSnapshot *now, int64
     if (own != scene->contact.contact_time) {
         snprintf(key, sizeof key, "walls.%d.", press->wall);
     }
-    snprintf(text, size, "%s %scontact.contact_time %.2g s would do (with time.step %.2g s)", why,
-             key, own / times, scene->step / times);
+    double needed = own / times, step = needed / STEPS_PER_CONTACT;
+    size_t used =
+        (size_t)snprintf(text, size, "%s %scontact.contact_time %.2g s would do", why, key, needed);
+    if (scene->step > step && used < size) {
+        snprintf(text + used, size - used, " (with time.step %.2g s)", step);
+    }
 }
 
 void oz_advice_write(char *text, size_t size, const OzSnapshot *now, int64_t grain)

@@ -8,7 +8,7 @@
 void oz_deep_say(const OzScene *scene, const OzDeepFound *found, bool settling)
 {
     const char *body = found->at_wall ? "a wall" : "another grain";
-    const char *unit = found->at_wall ? "its radius" : "the smaller radius";
+    const char *unit = found->at_wall ? "half its radius" : "the smaller radius";
     if (scene->model == OZ_MODEL_TRIGRAINS) {
         body = "another body";
         unit = "a triangle (or of a disc's diameter)";

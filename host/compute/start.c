@@ -194,7 +194,8 @@ OzStatus oz_start_judge(const OzScene *scene, const OzGrains *grains, bool force
     describe(text, sizeof text, &start, grains->pieces != NULL);
     if (start.refused > 0 && !force) {
         return oz_status_fail(OZ_ERR_INPUT,
-                              "%s: %s; expected less than %g of the smaller radius, or --force",
+                              "%s: %s; expected less than %g of the smaller radius, "
+                              "settle.overlaps: remove, or --force",
                               scene->path, text, OZ_START_MOST);
     }
     oz_log_line("warning: %s: %s", scene->path, text);

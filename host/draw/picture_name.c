@@ -13,13 +13,17 @@ enum {
     NUMBER_SIZE = 400   /* the longest double in digits                       */
 };
 
+/* Whether pictures are called after taps: where there are any, unless times were asked for. */
+static bool is_by_tap(const OzScene *scene)
+{
+    const OzSnapshotSettings *shots = &scene->snapshots;
+    return scene->period > 0 && (shots->tap_count > 0 || shots->count == 0);
+}
+
 /* What snapshot i was asked for: a tap or a time. */
 static double asked(const OzScene *scene, int i)
 {
-    const OzSnapshotSettings *shots = &scene->snapshots;
-    return i < shots->tap_count ? shots->taps[i]
-           : scene->period > 0  ? shots->times[i] / scene->period
-                                : shots->times[i];
+    return is_by_tap(scene) ? scene->snapshots.taps[i] : scene->snapshots.times[i];
 }
 
 static bool share_a_step(const OzScene *scene, int i, int k)
@@ -43,7 +47,7 @@ static bool all_differ(const OzScene *scene, int decimals)
 
 int oz_picture_name_decimals(const OzScene *scene)
 {
-    int decimals = scene->period > 0 ? TAP_DECIMALS : TIME_DECIMALS;
+    int decimals = is_by_tap(scene) ? TAP_DECIMALS : TIME_DECIMALS;
     while (decimals < MOST_DECIMALS && !all_differ(scene, decimals)) {
         decimals++;
     }
@@ -65,7 +69,7 @@ static int find_asked(const OzScene *scene, double time)
 void oz_picture_name_make(const OzScene *scene, double time, int decimals, char *name, size_t size)
 {
     int found = find_asked(scene, time);
-    double period = scene->period;
+    double period = is_by_tap(scene) ? scene->period : 0;
     double number = found >= 0 ? asked(scene, found) : period > 0 ? time / period : time;
     double off = fabs(number - round(number)) * period;
     if (!(period > 0)) {

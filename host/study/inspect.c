@@ -189,7 +189,7 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     Inspection in = {0};
     OZ_TRY(open_all(&in, options));
     const OzVerdict verdict = {options,    &in.scene,     &in.grains,
-                               &in.device, &in.rehearsal, in.burst[0] != '\0'};
+                               &in.device, &in.rehearsal, in.burst};
     OZ_TRY(print_all(file, &verdict));
     OZ_TRY(judge(options, &in.scene, &in.grains));
     if (in.burst[0]) {

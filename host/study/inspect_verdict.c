@@ -232,7 +232,7 @@ static OzStatus print_cost(FILE *file, const OzVerdict *v)
     OzSchedule schedule = oz_schedule_create(v->scene, -1);
     if (v->rehearsal->steps == 0) {
         fprintf(file, "  cost             %lld steps, not timed%s\n", (long long)schedule.last_step,
-                v->stops ? ": a guard stops them" : "");
+                v->burst[0] ? ": a guard stops them" : "");
     } else {
         double computing = print_computing(file, v, schedule.last_step);
         double drawing = print_movie(file, v, &schedule);
@@ -255,6 +255,9 @@ OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
     OzStatus status = OZ_OK;
     bool flat = verdict->scene->model == OZ_MODEL_TRIGRAINS;
     fputs("verdict\n", file);
+    if (verdict->burst[0]) {
+        fprintf(file, "  runs             NO: %s\n", verdict->burst);
+    }
     if (verdict->grains->count > 0) {
         OZ_TRY(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
     }

@@ -14,7 +14,7 @@ typedef struct OzVerdict {
     const OzGrains *grains;
     const OzDevice *device;
     const OzRehearsal *rehearsal; /* as far as it came          */
-    bool stops;                   /* a guard stopped it there    */
+    const char *burst;            /* why a guard stopped it there; "": none did */
 } OzVerdict;
 
 /* Prints restitution, stability, cost in wall time and memory, what single precision resolves, and

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/folder.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "draw/gallery.h"
 #include "inputs.h"
 #include "observe/frames.h"
@@ -75,6 +76,20 @@ static OzStatus refuse_physics(const OzOptions *options)
                                 names);
 }
 
+/* A scene without a title is called after the run's folder: every run's own file is scene.yaml. */
+static OzStatus take_name(OzScene *scene, const char *folder)
+{
+    char *real = realpath(folder, NULL);
+    const char *slash = real ? strrchr(real, '/') : NULL;
+    OzStatus status = OZ_OK;
+    if (slash && slash[1]) {
+        free(scene->name);
+        status = oz_memory_text(&scene->name, slash + 1);
+    }
+    free(real);
+    return status;
+}
+
 /* The scene as it was run, and with the settings. `movie=false` leaves the movie out but not how it
  * looks, which is how single pictures look too. */
 static OzStatus load_scenes(Redraw *r, const OzOptions *options)
@@ -91,6 +106,7 @@ static OzStatus load_scenes(Redraw *r, const OzOptions *options)
     OZ_TRY(oz_scene_load(&r->scene, r->scene_path, settings, count));
     OZ_TRY(refuse_physics(options));
     r->scene.movie.present &= count == options->setting_count;
+    OZ_TRY(take_name(&r->scene, options->paths[0]));
 done:
     return status;
 }
