@@ -250,22 +250,67 @@ done:
     return status;
 }
 
-/* Whether each combination can be loaded; their grains are placed later, one after the other. */
+/* What is wrong with members, so far. */
+typedef struct Wrongs {
+    char text[8192];
+    size_t used;
+} Wrongs;
+
+/* A member's scene is read with its values as settings; what is wrong with such a value is told as
+ * it was written, in the sweep. Each line of a failure once. */
+static void add_wrong(Wrongs *wrongs, const OzSweep *sweep, const char *line, size_t length)
+{
+    char told[1024];
+    snprintf(told, sizeof told, "%.*s", (int)length, line);
+    for (int k = 0; k < sweep->key_count; k++) {
+        const OzSweepKey *key = &sweep->keys[k];
+        size_t own = strlen(key->path);
+        if (strncmp(line, "--set ", 6) == 0 && strncmp(line + 6, key->path, own) == 0 &&
+            line[6 + own] == '=') {
+            snprintf(told, sizeof told, "%s: in the sweep, %.*s", key->place, (int)(length - 6),
+                     line + 6);
+        }
+    }
+    if (!strstr(wrongs->text, told) && wrongs->used < sizeof wrongs->text) {
+        wrongs->used +=
+            (size_t)snprintf(wrongs->text + wrongs->used, sizeof wrongs->text - wrongs->used,
+                             "%s%s", wrongs->used ? "\n" : "", told);
+    }
+}
+
+static void add_failure(Wrongs *wrongs, const OzSweep *sweep)
+{
+    for (const char *line = oz_status_text(); *line; line += *line == '\n') {
+        size_t length = strcspn(line, "\n");
+        add_wrong(wrongs, sweep, line, length);
+        line += length;
+    }
+}
+
+/* Whether each combination can be loaded, all errors in one go; their grains are placed later, one
+ * after the other. */
 static OzStatus try_values(OzPlan *plan)
 {
     OzStatus status = OZ_OK;
     OzStage stage;
+    Wrongs wrongs = {.used = 0};
     int count = plan->scene.sweep.count;
     oz_stage_begin(&stage, "reading %d scenes of the sweep", count);
     for (int v = 0; status == OZ_OK && v < count; v++) {
         OzScene scene;
         oz_stage_say(&stage, "reading scenes of the sweep: %d of %d", v, count);
         status = load_scene(plan, v * plan->seed_count, &scene);
-        status = status == OZ_OK ? oz_inputs_add_scene(&plan->inputs, &scene) : status;
+        if (status == OZ_OK) {
+            status = oz_inputs_add_scene(&plan->inputs, &scene);
+        } else if (status == OZ_ERR_INPUT) {
+            add_failure(&wrongs, &plan->scene.sweep);
+            status = OZ_OK;
+        }
         oz_scene_free(&scene);
     }
     oz_stage_end(&stage);
-    return status;
+    return status == OZ_OK && wrongs.used > 0 ? oz_status_fail(OZ_ERR_INPUT, "%s", wrongs.text)
+                                              : status;
 }
 
 static OzStatus check_values(OzPlan *plan)

@@ -41,6 +41,18 @@ static void test_check_ends_as_a_run_would(void **state)
     expect(0, "exit status: 0 done", "--help");
 }
 
+/* Wrong values of a sweep are told where they stand, all in one go. */
+static void test_wrong_values_of_a_sweep(void **state)
+{
+    (void)state;
+    write_file("swept.yaml",
+               "%ssweep:\n  contact.friction: [0.1, -1]\n  contact.restitution: [0.5, 3]\n", bed);
+    expect(2, "swept.yaml:13: in the sweep, contact.friction=-1: contact.friction is -1; expected",
+           "run swept.yaml");
+    assert_true(contains("said", "swept.yaml:14: in the sweep, contact.restitution=3: "));
+    assert_int_equal(count_lines("said"), 2);
+}
+
 static void test_check_refuses_deep_starts(void **state)
 {
     (void)state;
@@ -294,6 +306,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_check_ends_as_a_run_would),
+        cmocka_unit_test(test_wrong_values_of_a_sweep),
         cmocka_unit_test(test_check_refuses_deep_starts),
         cmocka_unit_test(test_check_is_short),
         cmocka_unit_test(test_verdict_comes_first),

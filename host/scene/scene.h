@@ -245,8 +245,9 @@ typedef struct OzSnapshotSettings {
 
 /* One key that takes several values. */
 typedef struct OzSweepKey {
-    char *path;    /* "contact.friction" */
-    char **values; /* as written         */
+    char *path;    /* "contact.friction"               */
+    char *place;   /* "scene.yaml:12", for messages    */
+    char **values; /* as written                       */
     int count;
 } OzSweepKey;
 

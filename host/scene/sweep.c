@@ -104,6 +104,10 @@ static OzStatus read_key(OzSweepKey *key, const OzNode *entry, int model, bool z
     }
     check_key(entry, model, faults);
     OZ_TRY(oz_memory_text(&key->path, entry->key));
+    if (asprintf(&key->place, "%s:%d", entry->source->name, entry->line) < 0) {
+        key->place = NULL;
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a sweep");
+    }
     OZ_TRY(read_values(key, entry, zip, faults));
 done:
     return status;
@@ -255,6 +259,7 @@ void oz_sweep_free(OzSweep *sweep)
     for (int k = 0; k < sweep->key_count; k++) {
         free_texts(sweep->keys[k].values, sweep->keys[k].count);
         free(sweep->keys[k].path);
+        free(sweep->keys[k].place);
     }
     free(sweep->keys);
     free_texts(sweep->values, sweep->count);
