@@ -23,10 +23,8 @@ typedef struct OzBody {
     OzVec3 spin;         /* kg m^2/s or rad/s, see above                                    */
     OzQuaternion turn;
     OzQuaternion turn_rest; /* what turn could not hold yet                                 */
-#if defined(OZ_HOST) || OZ_INTEGRATOR_ID == 2
-    OzVec3 acceleration; /* m/s^2, of the step before (velocity-verlet)                     */
+    OzVec3 acceleration; /* m/s^2, of the step before (OZ_MOVES_BEFORE)                     */
     OzVec3 torque;       /* N m, of the step before                                         */
-#endif
 } OzBody;
 
 /* Force and torque on a grain, gravity included. */

@@ -8,7 +8,7 @@
 #if OZ_PLANES + OZ_CYLINDERS > 0
 
 /* The step at whose beginning walls stand where the forces of this step meet them. */
-#if defined(OZ_MOVES_BEFORE)
+#if OZ_MOVES_BEFORE
 #define OZ_ENCLOSURE_STEP(step) ((step) + 1)
 #else
 #define OZ_ENCLOSURE_STEP(step) (step)
@@ -121,7 +121,7 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
     OzContactForce parts =
         oz_rods_wall(grain, end, at, oz_vec3(REAL(0.0), REAL(0.0), REAL(side->speed)), present,
                      w->parameters->wall[side->wall].law, &history, w->parameters->dt,
-                     OZ_HISTORY_SHARE, &contact, &arm);
+                     oz_integrate_share(), &contact, &arm);
     if (OZ_HISTORY) {
         oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index, history);
     }

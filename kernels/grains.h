@@ -55,7 +55,7 @@ OZ_INLINE OzBody oz_grains_load(const OzWork *w, int block)
     body.spin = oz_work_load3(words + OZ_S_SPIN);
     body.turn = oz_grains_load_quaternion(words + OZ_S_TURN);
     body.turn_rest = oz_grains_load_quaternion(words + OZ_S_TURN_REST);
-#if OZ_INTEGRATOR_ID == 2
+#if OZ_MOVES_BEFORE
     body.acceleration = oz_work_load3(words + OZ_S_ACCELERATION);
     body.torque = oz_work_load3(words + OZ_S_TORQUE);
 #endif
@@ -73,7 +73,7 @@ OZ_INLINE void oz_grains_store(OzWork *w, int block, OzBody body)
     oz_work_store3(words + OZ_S_SPIN, body.spin);
     oz_grains_store_quaternion(words + OZ_S_TURN, body.turn);
     oz_grains_store_quaternion(words + OZ_S_TURN_REST, body.turn_rest);
-#if OZ_INTEGRATOR_ID == 2
+#if OZ_MOVES_BEFORE
     oz_work_store3(words + OZ_S_ACCELERATION, body.acceleration);
     oz_work_store3(words + OZ_S_TORQUE, body.torque);
 #endif
@@ -167,7 +167,7 @@ OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape,
     }
 }
 
-#if defined(OZ_MOVES_BEFORE)
+#if OZ_MOVES_BEFORE
 /* The part of a step before the forces. */
 OZ_INLINE void oz_grains_before(OzWork *w, int block, int step)
 {
@@ -200,17 +200,17 @@ OZ_INLINE void oz_grains_block(OzWork *w, int block, int step)
         mask present = oz_grains_present(w, block);
         body.velocity = oz_where(present, body.velocity);
         body.spin = oz_where(present, body.spin);
-#if OZ_INTEGRATOR_ID == 2
+#if OZ_MOVES_BEFORE
         body.acceleration = oz_where(present, body.acceleration);
         body.torque = oz_where(present, body.torque);
 #endif
     }
     oz_grains_guard(w, block, body, shape, step);
     oz_grains_store(w, block, body);
-#if !defined(OZ_MOVES_BEFORE) || OZ_LEDGER
+#if !OZ_MOVES_BEFORE || OZ_LEDGER
     oz_grains_record(w, block, body, shape, body.velocity, body.spin);
 #endif
-#if !defined(OZ_MOVES_BEFORE)
+#if !OZ_MOVES_BEFORE
     oz_grains_watch(w, block, body, shape, &w->control->stale_step, step);
 #endif
 }

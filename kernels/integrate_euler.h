@@ -1,11 +1,10 @@
 /* Explicit Euler, the "forward Euler" of Pournin et al. (2005): places move with the old velocities.
- * First order; gains energy in every contact (restitution comes out too high). */
+ * First order; the tangential spring enters the force before it
+ * is advanced (share 0); gains energy in every contact (restitution comes out too high). */
 #ifndef OZ_KERNELS_INTEGRATE_EULER_H
 #define OZ_KERNELS_INTEGRATE_EULER_H
 
 #include "kernels/body.h"
-
-#define OZ_EULER_SHARE 0.0 /* the tangential spring enters the force before it is advanced */
 
 OZ_INLINE void oz_euler_after(OzBody *body, OzShape shape, OzLoad load, real dt,
                                   scalar inverse_unit)

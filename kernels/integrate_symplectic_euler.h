@@ -1,11 +1,10 @@
 /* Symplectic Euler: velocities first, then places with the new velocities. First order in position and
- * velocity, without secular drift of energy for a spring. */
+ * velocity, without secular drift of energy for a spring. Tangential springs are advanced before the force (share 1): the
+ * velocity seen is the one that moved the grain here. */
 #ifndef OZ_KERNELS_INTEGRATE_SYMPLECTIC_EULER_H
 #define OZ_KERNELS_INTEGRATE_SYMPLECTIC_EULER_H
 
 #include "kernels/body.h"
-
-#define OZ_SYMPLECTIC_EULER_SHARE 1.0 /* the velocity seen is the one that moved the grain here */
 
 OZ_INLINE void oz_symplectic_euler_after(OzBody *body, OzShape shape, OzLoad load, real dt,
                                   scalar inverse_unit)

@@ -2,13 +2,12 @@
  * contacts stay second order.
  *   before: x += v dt + a dt^2/2, the turn with the spin of mid-step; forces then see v + a dt
  *   after:  v += (a_old + a_new) dt/2
- * A first force evaluation with dt = 0 gives the first acceleration. */
+ * Tangential springs by the trapezoidal rule (share 1/2). A first force evaluation with dt = 0 gives the first
+ * acceleration. */
 #ifndef OZ_KERNELS_INTEGRATE_VELOCITY_VERLET_H
 #define OZ_KERNELS_INTEGRATE_VELOCITY_VERLET_H
 
 #include "kernels/body.h"
-
-#define OZ_VELOCITY_VERLET_SHARE 0.5 /* trapezoidal rule for the tangential spring */
 
 OZ_INLINE void oz_velocity_verlet_before(OzBody *body, OzShape shape, real dt, scalar inverse_unit)
 {

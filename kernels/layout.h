@@ -134,7 +134,7 @@ enum {
     OZ_S_SPIN = 9,
     OZ_S_TURN = 12,
     OZ_S_TURN_REST = 16,
-    OZ_S_ACCELERATION = 20, /* velocity-verlet only */
+    OZ_S_ACCELERATION = 20, /* with OZ_MOVES_BEFORE only */
     OZ_S_TORQUE = 23,
     OZ_STATE = 26
 };

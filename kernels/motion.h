@@ -18,7 +18,7 @@ OZ_INLINE void oz_motion_region(OzWork *w, int region, int step)
     }
 }
 
-#if defined(OZ_MOVES_BEFORE)
+#if OZ_MOVES_BEFORE
 /* The part of a step before the forces. */
 OZ_INLINE void oz_motion_before_region(OzWork *w, int region, int step)
 {

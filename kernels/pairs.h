@@ -221,7 +221,7 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
     OzClosest closest = {OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST] + at),
                          OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST + 1] + at)};
     OzPairForce pair = oz_rods_touch(one, other, apart, closest, law, &springs, w->parameters->dt,
-                                     OZ_HISTORY_SHARE);
+                                     oz_integrate_share());
     if (OZ_HISTORY) {
         oz_pairs_store_springs(w, items, springs);
     }

@@ -27,7 +27,7 @@ kernel void oz_repeat_grains(OZ_WORK_ARGUMENTS, int repeats)
     OZ_WORK_OPEN(0)
     for (int k = 0; k < repeats; k++) {
         for (int region = FIRST; region < z.regions; region += EVERY) {
-#if defined(OZ_MOVES_BEFORE)
+#if OZ_MOVES_BEFORE
             oz_motion_before_region(&w, region, 0);
 #endif
             oz_motion_region(&w, region, 0);

@@ -161,7 +161,7 @@ OZ_INLINE void forces_and_motion(OzWork *w, int item, int stride, int step)
 #endif
 }
 
-#if defined(OZ_MOVES_BEFORE)
+#if OZ_MOVES_BEFORE
 OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
 {
     EACH_REGION
@@ -213,7 +213,7 @@ kernel void oz_advance(OZ_WORK_ARGUMENTS, int last)
     for (;; step++) {
         int ends = w.control->stop_bits != 0;
         OZ_WORK_MEET();
-#if defined(OZ_MOVES_BEFORE)
+#if OZ_MOVES_BEFORE
         if (step < last && !ends && !moved) {
             move_before(&w, item, stride, step);
             moved = 1;

@@ -29,7 +29,7 @@ OZ_INLINE int due_forces(const OzWork *w, int step)
     return due(w, step) && w->control->stale_places > step;
 }
 
-#if defined(OZ_MOVES_BEFORE)
+#if OZ_MOVES_BEFORE
 kernel void oz_before(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION

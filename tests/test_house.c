@@ -66,7 +66,7 @@ static bool arrow_is_allowed(const char *path, const char *header)
     room_of(from, path);
     room_of(to, header);
     if (begins(header, "kernels/")) {
-        return floor_of(from) >= floor_of("model");
+        return floor_of(from) >= floor_of("scene");
     }
     return floor_of(to) >= 0 && (strcmp(from, to) == 0 || floor_of(to) < floor_of(from));
 }

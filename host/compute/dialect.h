@@ -21,7 +21,8 @@ static _Thread_local OzSwitches dialect;
 #define OZ_LINE             dialect.line
 #define OZ_SMOOTH           dialect.smooth
 #define OZ_AT_CONTACT       dialect.at_contact
-#define OZ_INTEGRATOR_ID    (-1) /* none: the host compiles them all */
+#define OZ_INTEGRATOR_ID    dialect.integrator
+#define OZ_MOVES_BEFORE     dialect.moves_before
 
 #include "kernels/integrate.h"
 #include "kernels/rods.h"

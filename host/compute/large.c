@@ -66,7 +66,7 @@ OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *devi
     large->interval = 8;
     for (int p = 0; p < PHASE_COUNT; p++) {
         bool absent =
-            (p == PHASE_before && switches->integrator != OZ_INTEGRATOR_VELOCITY_VERLET) ||
+            (p == PHASE_before && !switches->moves_before) ||
             (p == PHASE_ledger && !switches->ledger);
         if (!absent) {
             large->kernel[p] = clCreateKernel(program, kernel_names[p], &code);

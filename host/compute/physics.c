@@ -2,9 +2,9 @@
 #include "compute/dialect.h"
 
 static const double shares[] = {
-    [OZ_INTEGRATOR_EULER] = OZ_EULER_SHARE,
-    [OZ_INTEGRATOR_SYMPLECTIC_EULER] = OZ_SYMPLECTIC_EULER_SHARE,
-    [OZ_INTEGRATOR_VELOCITY_VERLET] = OZ_VELOCITY_VERLET_SHARE,
+#define SHARE(NAME, name, choice, flat_choice, share, first) [OZ_INTEGRATOR_##NAME] = share,
+    OZ_INTEGRATORS(SHARE)
+#undef SHARE
 };
 
 OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGrains *grains)

@@ -7,26 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One row for each integrator: moves before the forces, velocities they see, moves after. */
-typedef struct Method {
-    void (*before)(OzBody *body, OzShape shape, real dt, scalar inverse_unit);
-    OzVec3 (*seen_velocity)(OzBody body, real dt);
-    OzVec3 (*seen_spin)(OzBody body, OzShape shape, real dt);
-    void (*after)(OzBody *body, OzShape shape, OzLoad load, real dt, scalar inverse_unit);
-} Method;
-
-static const Method methods[] = {
-    [OZ_INTEGRATOR_EULER] = {.after = oz_euler_after},
-    [OZ_INTEGRATOR_SYMPLECTIC_EULER] = {.after = oz_symplectic_euler_after},
-    [OZ_INTEGRATOR_VELOCITY_VERLET] = {oz_velocity_verlet_before, oz_velocity_verlet_seen_velocity,
-                                       oz_velocity_verlet_seen_spin, oz_velocity_verlet_after},
-};
-
-static const Method *method_of(const OzReference *r)
-{
-    return &methods[r->scene->integrator];
-}
-
 static OzVec3 axis_of(const OzReference *r, int i)
 {
     return oz_quaternion_axis(r->body[i].turn);
@@ -101,17 +81,12 @@ done:
 
 static void move_before(OzReference *r, double dt)
 {
-    const Method *method = method_of(r);
-    double force_time = (double)r->step * r->scene->step + (method->before ? dt : 0);
+    double force_time = (double)r->step * r->scene->step + (dialect.moves_before ? dt : 0);
     for (int i = 0; i < r->count; i++) {
         OzBody *body = &r->body[i];
-        if (method->before) {
-            method->before(body, r->shape[i], dt, 1);
-            r->seen[i] = grain_with(r, i, method->seen_velocity(*body, dt),
-                                    method->seen_spin(*body, r->shape[i], dt));
-        } else {
-            r->seen[i] = grain_now(r, i);
-        }
+        oz_integrate_before(body, r->shape[i], dt, 1);
+        r->seen[i] = grain_with(r, i, oz_integrate_seen_velocity(*body, dt),
+                                oz_integrate_seen_spin(*body, r->shape[i], dt));
     }
     for (int w = 0; w < r->physics.wall_count; w++) {
         const OzMotion *motion = &r->scene->walls[r->physics.wall_order[w]].motion;
@@ -179,7 +154,7 @@ static void move_after(OzReference *r, double dt)
     for (int i = 0; i < r->count; i++) {
         OzLoad load = r->load[i];
         load.force = oz_along(load.force, r->shape[i].mass, gravity);
-        method_of(r)->after(&r->body[i], r->shape[i], load, dt, 1);
+        oz_integrate_after(&r->body[i], r->shape[i], load, dt, 1);
     }
 }
 
@@ -249,7 +224,7 @@ OzStatus oz_reference_advance(OzReference *reference, int64_t step)
 {
     OzStatus status = OZ_OK;
     dialect = reference->physics.switches;
-    if (!reference->primed && method_of(reference)->before && step > 0) {
+    if (!reference->primed && dialect.moves_before && step > 0) {
         OZ_TRY(make_step(reference, 0));
     }
     reference->primed = true;

@@ -142,11 +142,12 @@ void oz_sim_free(OzSim *sim)
     free(sim);
 }
 
-/* velocity-verlet needs the first accelerations: forces at the start, over no time. */
+/* Where places move before the forces, the first accelerations are needed: forces at the start, over
+ * no time. */
 OzStatus oz_sim_prime(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    if (sim->arrays.switches.integrator != OZ_INTEGRATOR_VELOCITY_VERLET || sim->primed) {
+    if (!sim->arrays.switches.moves_before || sim->primed) {
         return OZ_OK;
     }
     double step = sim->parameters[0].dt;

@@ -27,6 +27,15 @@ static bool all_round(const OzGrains *grains)
     return grains->count > 0;
 }
 
+/* Trigrains' own have nothing to do with these kernels. */
+static bool moves_before(OzIntegrator integrator)
+{
+#define FIRST(NAME, name, choice, flat_choice, share, first) [OZ_INTEGRATOR_##NAME] = first,
+    static const bool moves[OZ_INTEGRATORS_END] = {OZ_INTEGRATORS(FIRST)};
+#undef FIRST
+    return moves[integrator];
+}
+
 static int count_walls(const OzScene *scene, OzWallKind kind)
 {
     int count = 0;
@@ -62,6 +71,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.lanes = s.is_double ? device->double_lanes : device->float_lanes;
     s.group = device->group;
     s.integrator = (int)scene->integrator;
+    s.moves_before = moves_before(scene->integrator);
     s.round = all_round(grains);
     s.equal = all_equal(grains);
     derive_friction(&s, scene);

@@ -13,6 +13,7 @@
     X(LANES, lanes, NULL)                                                                          \
     X(GROUP, group, NULL)                                                                          \
     X(INTEGRATOR_ID, integrator, NULL)                                                             \
+    X(MOVES_BEFORE, moves_before, NULL)                                                            \
     X(ROUND, round, NULL)                                                                          \
     X(EQUAL, equal, NULL)                                                                          \
     X(FRICTION, friction, "friction")                                                              \

@@ -36,11 +36,11 @@ static void invert_velocity_verlet(double rho, double theta, double *stiffness, 
     *damping = (creal(a) * cimag(c) - creal(c) * cimag(a)) / determinant;
 }
 
-/* In the order of OzIntegrator. */
 static void (*const inverses[])(double rho, double theta, double *stiffness, double *damping) = {
-    [OZ_INTEGRATOR_EULER] = invert_euler,
-    [OZ_INTEGRATOR_SYMPLECTIC_EULER] = invert_symplectic_euler,
-    [OZ_INTEGRATOR_VELOCITY_VERLET] = invert_velocity_verlet,
+#define INVERSE(NAME, name, choice, flat_choice, share, first)                                     \
+    [OZ_INTEGRATOR_##NAME] = invert_##name,
+    OZ_INTEGRATORS(INVERSE)
+#undef INVERSE
 };
 
 /* What is turned until the mean restitution is right, and what follows from it. */

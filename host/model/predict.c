@@ -112,17 +112,15 @@ static double limit_velocity_verlet(double kappa, double gamma)
     return 2 / (gamma + sqrt(gamma * gamma + kappa));
 }
 
-/* One row for each integrator, in the order of OzIntegrator. */
 static const struct {
     void (*step)(Hit *hit);
     void (*polynomial)(double K, double G, double coefficients[3]);
     double (*limit)(double kappa, double gamma);
 } methods[] = {
-    [OZ_INTEGRATOR_EULER] = {step_euler, polynomial_euler, limit_euler},
-    [OZ_INTEGRATOR_SYMPLECTIC_EULER] = {step_symplectic_euler, polynomial_symplectic_euler,
-                                        limit_symplectic_euler},
-    [OZ_INTEGRATOR_VELOCITY_VERLET] = {step_velocity_verlet, polynomial_velocity_verlet,
-                                       limit_velocity_verlet},
+#define METHOD(NAME, name, choice, flat_choice, share, first)                                      \
+    [OZ_INTEGRATOR_##NAME] = {step_##name, polynomial_##name, limit_##name},
+    OZ_INTEGRATORS(METHOD)
+#undef METHOD
 };
 
 double oz_predict_largest_step(OzIntegrator integrator, double stiffness, double damping)

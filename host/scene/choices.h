@@ -8,16 +8,12 @@
 /* Named choices, in the order of their enums; "": not for this model. */
 static const char *const MODELS[] = {
     [OZ_MODEL_RODS] = "rods", [OZ_MODEL_TRIGRAINS] = "trigrains", NULL};
-static const char *const INTEGRATORS[] = {[OZ_INTEGRATOR_EULER] = "euler",
-                                          [OZ_INTEGRATOR_SYMPLECTIC_EULER] = "symplectic-euler",
-                                          [OZ_INTEGRATOR_VELOCITY_VERLET] = "velocity-verlet",
-                                          NULL};
-static const char *const FLAT_INTEGRATORS[] = {"",
-                                               "",
-                                               [OZ_INTEGRATOR_VELOCITY_VERLET] = "velocity-verlet",
-                                               [OZ_INTEGRATOR_GEAR4] = "gear4",
-                                               [OZ_INTEGRATOR_RK4] = "rk4",
-                                               NULL};
+#define OZ_CHOICES_SOLID(NAME, name, choice, flat_choice, share, first) choice,
+#define OZ_CHOICES_BOTH(NAME, name, choice, flat_choice, share, first)  flat_choice,
+#define OZ_CHOICES_FLAT(NAME, choice)                                   choice,
+static const char *const INTEGRATORS[] = {OZ_INTEGRATORS(OZ_CHOICES_SOLID) NULL};
+static const char *const FLAT_INTEGRATORS[] = {
+    OZ_INTEGRATORS(OZ_CHOICES_BOTH) OZ_TRIGRAINS_INTEGRATORS(OZ_CHOICES_FLAT) NULL};
 static const char *const PRECISIONS[] = {
     [OZ_PRECISION_FLOAT] = "float", [OZ_PRECISION_DOUBLE] = "double", NULL};
 static const char *const BROADPHASES[] = {[OZ_BROADPHASE_HASH] = "hash",

@@ -7,19 +7,13 @@
 #define OZ_SCENE_SCENE_H
 
 #include "base/status.h"
+#include "kernels/integrators.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
 typedef enum OzModelKind { OZ_MODEL_RODS, OZ_MODEL_TRIGRAINS } OzModelKind;
-typedef enum OzIntegrator {
-    OZ_INTEGRATOR_EULER,
-    OZ_INTEGRATOR_SYMPLECTIC_EULER,
-    OZ_INTEGRATOR_VELOCITY_VERLET,
-    OZ_INTEGRATOR_GEAR4, /* trigrains: predictor-corrector of fourth order          */
-    OZ_INTEGRATOR_RK4    /* trigrains, on the host's reference only                 */
-} OzIntegrator;
 typedef enum OzPrecision { OZ_PRECISION_FLOAT, OZ_PRECISION_DOUBLE } OzPrecision;
 typedef enum OzBroadphase {
     OZ_BROADPHASE_HASH,      /* hashed uniform grid on the device             */
