@@ -22,7 +22,7 @@ typedef struct OzContact {
     real rate;       /* m/s, d(overlap)/dt                                                 */
     OzVec3 velocity; /* m/s, of b relative to a at the contact                             */
     real mass;       /* kg, effective: 1/mass = 1/mass_a + 1/mass_b; of the grain at a wall */
-    real radius;     /* m, effective: 1/radius = 1/radius_a + 1/radius_b; hertz-mindlin only */
+    real radius;     /* m, effective: 1/radius = 1/radius_a + 1/radius_b; of the grain at a wall */
     real lightness;  /* root of (mass that the contact feels, rotation included, / mass)   */
     mask touching;
 } OzContact;

@@ -1,5 +1,5 @@
 /* The law of the scene, Coulomb friction, and both put together: from a contact to what it does.
- * Switches (constant on a device): OZ_LAW_ID (row in the list of laws), OZ_ATTRACTION_CLAMP (f_n >= 0),
+ * Switches (constant on a device): OZ_LAW_ID (the law's row in laws.h), OZ_ATTRACTION_CLAMP (f_n >= 0),
  * OZ_FRICTION, OZ_HISTORY (a tangential spring exists), OZ_SLIP_SCALE (P: the force alone is limited and the
  * spring grows on; otherwise the spring is cut back to what the sliding contact carries). */
 #ifndef OZ_KERNELS_CONTACT_LAW_H
@@ -8,17 +8,17 @@
 #include "kernels/contact_hertz.h"
 #include "kernels/contact_hertz_mindlin.h"
 #include "kernels/contact_hooke.h"
+#include "kernels/laws.h"
 
 OZ_INLINE OzResponse oz_contact_response(OzContact c, OzLawConstants law)
 {
-    OzResponse response;
-    if (OZ_LAW_ID == 2) {
-        response = oz_contact_hertz_mindlin(c, law);
-    } else if (OZ_LAW_ID == 1) {
-        response = oz_contact_hertz(c, law);
-    } else {
-        response = oz_contact_hooke(c, law);
+    OzResponse response = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+#define OZ_CONTACT_LAW_ROW(NAME, name, choice, linear, stiffness, damping)                         \
+    if (OZ_LAW_ID == OZ_LAW_##NAME) {                                                              \
+        response = oz_contact_##name(c, law);                                                      \
     }
+    OZ_LAWS(OZ_CONTACT_LAW_ROW)
+#undef OZ_CONTACT_LAW_ROW
     if (OZ_ATTRACTION_CLAMP) {
         response.dashpot = oz_larger(response.dashpot, -response.spring);
     }

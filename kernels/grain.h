@@ -1,7 +1,7 @@
 /* Grains as contacts see them, and the contact of two at given points of their shafts. Switches: OZ_EQUAL 1:
  * all grains are alike; OZ_SURFACES 1: each force acts on its own grain's surface (Pournin et al. 2005;
- * breaks angular momentum), 0: both in the middle of the overlap; OZ_AT_CONTACT and OZ_LAW_ID: whether
- * lightness and radius of a contact are needed; OZ_FINE: overlaps as fine.h has them. */
+ * breaks angular momentum), 0: both in the middle of the overlap; OZ_AT_CONTACT: whether
+ * a contact's lightness is needed; OZ_FINE: overlaps as fine.h has them. */
 #ifndef OZ_KERNELS_GRAIN_H
 #define OZ_KERNELS_GRAIN_H
 
@@ -62,7 +62,7 @@ OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClose
     contact.velocity = oz_minus(oz_grain_velocity_at(b, *arm_b), oz_grain_velocity_at(a, *arm_a));
     contact.rate = -oz_dot(contact.velocity, contact.normal);
     contact.mass = OZ_EQUAL ? REAL(0.5) * a.mass : a.mass * b.mass / (a.mass + b.mass);
-    contact.radius = OZ_LAW_ID == 2 ? a.radius * b.radius / (a.radius + b.radius) : REAL(0.0);
+    contact.radius = a.radius * b.radius / (a.radius + b.radius); /* left out where no law reads it */
     contact.lightness = REAL(1.0);
     if (OZ_AT_CONTACT) {
         real yield =

@@ -126,7 +126,8 @@ static void blame_softness(char *text, size_t size, const OzSnapshot *now, int64
 {
     const OzScene *scene = now->scene;
     bool hooke = scene->contact.law == OZ_LAW_HOOKE;
-    double times = excess_of_hit(press, now, grain, hooke ? 2 : 2.5);
+    double times =
+        excess_of_hit(press, now, grain, oz_contact_is_linear(scene->contact.law) ? 2 : 2.5);
     times =
         1.05 * fmax(1, hooke ? fmax(times, excess_of_weight(press, now)) : times); /* 2 digits */
     const char *why = "contacts are too soft for what pushes them; a smaller time.step does not "

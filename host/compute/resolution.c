@@ -78,7 +78,7 @@ static bool gravity_matters(const Pace *pace, const OzScene *scene)
 static double overlap_of(const OzScene *scene, const OzGrains *grains,
                          const OzContactValues *values, int wall, const Pace *pace, bool rests)
 {
-    if (values->law == OZ_LAW_HOOKE) {
+    if (oz_contact_is_linear(values->law)) {
         double stiffness = oz_calibrate_contact(scene, values).stiffness;
         return rests ? pace->gravity / stiffness : pace->start / sqrt(stiffness);
     }
@@ -172,7 +172,8 @@ OzStatus oz_resolution_print(FILE *file, const OzScene *scene, const OzGrains *g
     fputc('\n', file);
     if (isfinite(r.gain)) {
         fprintf(file,
-                "                   speeds up to %.3g m/s, told apart by %.2g; gravity adds %.3g of these "
+                "                   speeds up to %.3g m/s, told apart by %.2g; gravity adds %.3g "
+                "of these "
                 "in a step\n",
                 r.speed, r.speed_digit, r.gain / r.speed_digit);
     }

@@ -6,6 +6,7 @@
 #include "compute/piece_start.h"
 #include "compute/sort_axis.h"
 #include "compute/touch.h"
+#include "model/contact.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -61,7 +62,7 @@ static bool is_read(const Look *look, int64_t i)
 static void take(Look *look, OzStartOverlap overlap, double radius, double stop, bool read)
 {
     const OzTouchLast *last = &look->touch.last;
-    double power = look->scene->contact.law == OZ_LAW_HOOKE ? 2 : 2.5; /* of the energy */
+    double power = oz_contact_is_linear(look->scene->contact.law) ? 2 : 2.5; /* of the energy */
     double force = power * last->energy / last->overlap;
     overlap.depth = last->overlap;
     overlap.energy = last->energy;

@@ -231,7 +231,7 @@ static void iterate(Bed *bed, OzStiffness *result)
 
 bool oz_stiffness_applies(const OzScene *scene)
 {
-    return scene->model == OZ_MODEL_RODS && scene->contact.law == OZ_LAW_HOOKE;
+    return scene->model == OZ_MODEL_RODS && oz_contact_is_linear(scene->contact.law);
 }
 
 OzStatus oz_stiffness_measure(OzStiffness *result, const OzSnapshot *now)

@@ -2,6 +2,7 @@
 #include "compute/switches.h"
 
 #include "compute/resolution.h"
+#include "model/contact.h"
 
 #include <string.h>
 
@@ -45,21 +46,20 @@ static int count_walls(const OzScene *scene, OzWallKind kind)
     return count;
 }
 
-static bool has_spring(const OzContactValues *values)
+static bool has_spring(const OzContactValues *values, const OzScene *scene)
 {
-    return values->law == OZ_LAW_HERTZ_MINDLIN ||
-           (values->law == OZ_LAW_HOOKE && values->tangential_stiffness > 0);
+    return oz_contact_constants_of(values, &scene->contact).tangential_stiffness > 0;
 }
 
 /* Whether any contact of the scene has friction, and whether any of these has a spring. */
 static void derive_friction(OzSwitches *s, const OzScene *scene)
 {
     s->friction = scene->contact.friction > 0;
-    s->history = s->friction && has_spring(&scene->contact);
+    s->history = s->friction && has_spring(&scene->contact, scene);
     for (int w = 0; w < scene->wall_count; w++) {
         const OzContactValues *values = &scene->walls[w].contact;
         s->friction |= values->friction > 0;
-        s->history |= values->friction > 0 && has_spring(values);
+        s->history |= values->friction > 0 && has_spring(values, scene);
         s->moving |= scene->walls[w].motion.present;
     }
 }

@@ -58,22 +58,44 @@ double oz_units_energy(const OzUnits *units)
     return units->mass * oz_units_speed(units) * oz_units_speed(units);
 }
 
-/* Constants of `law: hertz`: N/m^(3/2) and 1/s; of `hertz-mindlin`: Pa and 1; of `hooke`: 1/s^2 and
- * 1/s. */
+/* What constants of laws are counted in, by the names that kernels/laws.h gives them. */
+typedef enum Dimension {
+    ONE,
+    PER_TIME,  /* 1/s, of a damping per unit of mass     */
+    PER_TIME2, /* 1/s^2, of a stiffness per unit of mass */
+    PRESSURE,  /* Pa                                     */
+    HERTZIAN   /* N/m^(3/2)                              */
+} Dimension;
+
+static double unit_of(Dimension dimension, const OzUnits *u)
+{
+    double acceleration = u->length / (u->time * u->time);
+    switch (dimension) {
+    case PER_TIME:
+        return 1 / u->time;
+    case PER_TIME2:
+        return 1 / (u->time * u->time);
+    case PRESSURE:
+        return u->mass * acceleration / (u->length * u->length);
+    case HERTZIAN:
+        return u->mass * acceleration / (u->length * sqrt(u->length));
+    default:
+        return 1;
+    }
+}
+
 static void count_law(OzLawConstants *law, const OzUnits *u, int id)
 {
-    double acceleration = u->length / (u->time * u->time), stiffness = 1 / (u->time * u->time);
-    double tangential = stiffness, damping = 1 / u->time;
-    if (id == OZ_LAW_HERTZ) {
-        stiffness = u->mass * acceleration / (u->length * sqrt(u->length));
-        tangential = 1; /* there is none */
-    } else if (id == OZ_LAW_HERTZ_MINDLIN) {
-        stiffness = tangential = u->mass * acceleration / (u->length * u->length);
-        damping = 1;
-    }
+#define ROW(NAME, name, choice, linear, stiffness, damping) [OZ_LAW_##NAME] = {stiffness, damping},
+    static const struct {
+        Dimension stiffness, damping;
+    } dimensions[] = {OZ_LAWS(ROW)};
+#undef ROW
+    double stiffness = unit_of(dimensions[id].stiffness, u);
+    double damping = unit_of(dimensions[id].damping, u);
     law->stiffness /= stiffness;
     law->damping /= damping;
-    law->tangential_stiffness /= tangential;
+    law->tangential_stiffness /= stiffness;
     law->tangential_damping /= damping;
 }
 

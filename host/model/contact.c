@@ -149,7 +149,8 @@ static double hertz_damping(double e, OzAttraction attraction)
 }
 
 /* 1/E* and 1/G* are the sums of both bodies' (1 - nu^2)/E and (2 - nu)/G. */
-static OzContactConstants hertz_mindlin(const OzContactValues *one, const OzContactValues *other)
+static OzContactConstants constants_hertz_mindlin(const OzContactValues *one,
+                                                  const OzContactValues *other)
 {
     const OzContactValues *body[2] = {one, other};
     double compliance = 0, shear_compliance = 0;
@@ -166,16 +167,38 @@ static OzContactConstants hertz_mindlin(const OzContactValues *one, const OzCont
     return constants;
 }
 
+static OzContactConstants constants_hertz(const OzContactValues *one, const OzContactValues *other)
+{
+    (void)other; /* they are of the contact, not of its bodies */
+    return (OzContactConstants){.stiffness = one->hertz_stiffness,
+                                .damping = one->normal_damping_rate,
+                                .tangential_damping = one->tangential_damping_rate};
+}
+
+static OzContactConstants constants_hooke(const OzContactValues *one, const OzContactValues *other)
+{
+    (void)other;
+    return oz_contact_constants(one);
+}
+
+#define ROW(NAME, name, choice, linear, stiffness, damping) [OZ_LAW_##NAME] = constants_##name,
+static OzContactConstants (*const constants_of[])(const OzContactValues *one,
+                                                  const OzContactValues *other) = {OZ_LAWS(ROW)};
+#undef ROW
+
+#define ROW(NAME, name, choice, linear, stiffness, damping) [OZ_LAW_##NAME] = linear,
+static const bool is_linear[] = {OZ_LAWS(ROW)};
+#undef ROW
+
 OzContactConstants oz_contact_constants_of(const OzContactValues *values,
                                            const OzContactValues *grains)
 {
-    if (values->law == OZ_LAW_HERTZ_MINDLIN) {
-        return hertz_mindlin(values, grains);
-    }
-    if (values->law == OZ_LAW_HERTZ) {
-        return (OzContactConstants){.stiffness = values->hertz_stiffness,
-                                    .damping = values->normal_damping_rate,
-                                    .tangential_damping = values->tangential_damping_rate};
-    }
-    return oz_contact_constants(values);
+    OzContactConstants constants = constants_of[values->law](values, grains);
+    constants.law = values->law;
+    return constants;
+}
+
+bool oz_contact_is_linear(OzLaw law)
+{
+    return is_linear[law];
 }

@@ -19,6 +19,7 @@ typedef struct OzContactConstants {
     double duration;             /* s, of a free binary hit; below contact_time with clamp; 0 where
                                     it depends on speed (hertz, hertz-mindlin)                  */
     bool smooth;                 /* the dashpot grows from nothing: kernels/contact_hooke.h     */
+    OzLaw law;
 } OzContactConstants;
 
 /* `law: hooke`. `damping: constant`, `attraction: allow`: kappa = (pi^2 + ln^2 e) / t_c^2, gamma =
@@ -31,6 +32,10 @@ OzContactConstants oz_contact_constants(const OzContactValues *values);
  * `values` (the same for two grains, a wall's otherwise). */
 OzContactConstants oz_contact_constants_of(const OzContactValues *values,
                                            const OzContactValues *grains);
+
+/* Whether the law's force grows with the overlap itself and not with its power 3/2
+ * (kernels/laws.h). */
+bool oz_contact_is_linear(OzLaw law);
 
 /* The restitution of a contact that may not pull, for a damping ratio gamma / (2 sqrt(kappa)) >= 0:
  * 1 at 0, falling towards 0 (Schwager & Poeschel 2007). */

@@ -14,31 +14,37 @@ static const double pi = 3.14159265358979323846;
 /* One hit in units of step and approach speed: overlap grows while rate > 0. */
 typedef struct Hit {
     double overlap, rate, acceleration;
-    double stiffness, damping; /* K = kappa dt^2, G = gamma dt; Hertzian: force over overlap^1.5, and
-                                  G or alpha */
+    double stiffness, damping; /* K = kappa dt^2, G = gamma dt; Hertzian: force over overlap^1.5,
+                                  and G or alpha */
     bool clamp, smooth;
     OzLaw law;
 } Hit;
 
-/* The force of the law, pushing apart. */
-static double hit_repulsion(const Hit *hit, double rate)
+/* The forces of the laws, pushing apart, at an overlap x. */
+static double repulsion_hooke(const Hit *hit, double x, double rate)
 {
-    double x = fmax(hit->overlap, 0);
-    if (hit->law == OZ_LAW_HERTZ_MINDLIN) {
-        return hit->stiffness * x * sqrt(x) +
-               hit->damping * sqrt(hit->stiffness * sqrt(x)) * rate;
-    }
-    if (hit->law == OZ_LAW_HERTZ) {
-        return hit->stiffness * x * sqrt(x) + hit->damping * rate;
-    }
     double swing2 = hit->stiffness * x * x;
     double damping = hit->damping * (hit->smooth ? sqrt(swing2 / (swing2 + rate * rate)) : 1);
     return hit->stiffness * x + damping * rate;
 }
 
+static double repulsion_hertz(const Hit *hit, double x, double rate)
+{
+    return hit->stiffness * x * sqrt(x) + hit->damping * rate;
+}
+
+static double repulsion_hertz_mindlin(const Hit *hit, double x, double rate)
+{
+    return hit->stiffness * x * sqrt(x) + hit->damping * sqrt(hit->stiffness * sqrt(x)) * rate;
+}
+
+#define ROW(NAME, name, choice, linear, stiffness, damping) [OZ_LAW_##NAME] = repulsion_##name,
+static double (*const repulsions[])(const Hit *hit, double x, double rate) = {OZ_LAWS(ROW)};
+#undef ROW
+
 static double hit_acceleration(const Hit *hit, double rate)
 {
-    double repulsion = hit_repulsion(hit, rate);
+    double repulsion = repulsions[hit->law](hit, fmax(hit->overlap, 0), rate);
     if (hit->overlap <= 0 || (hit->clamp && repulsion < 0)) {
         return 0;
     }
@@ -210,7 +216,8 @@ OzPredictedHits oz_predict_hits(OzIntegrator integrator, double step,
     Hit hit = {.stiffness = constants->stiffness * step * step,
                .damping = constants->damping * step,
                .clamp = attraction == OZ_ATTRACTION_CLAMP,
-               .smooth = constants->smooth};
+               .smooth = constants->smooth,
+               .law = constants->law};
     return average_hits(integrator, hit, hit_step_limit(constants->duration, step));
 }
 
@@ -244,7 +251,7 @@ static bool sticking_is_stable(const OzScene *scene, const OzContactValues *valu
 static OzPrediction predict_kind(const OzScene *scene, const OzContactValues *values, int wall,
                                  const OzGrains *grains)
 {
-    bool linear = values->law == OZ_LAW_HOOKE;
+    bool linear = oz_contact_is_linear(values->law);
     OzPrediction row = {.wall = wall, .values = *values, .closed_form = NAN};
     double step = scene->step;
     if (linear) {
@@ -261,7 +268,8 @@ static OzPrediction predict_kind(const OzScene *scene, const OzContactValues *va
     OzEigenvalues eigenvalues =
         oz_predict_eigenvalues(scene->integrator, c.stiffness * step * step, c.damping * step);
     row.radius = eigenvalues.radius;
-    if (linear && values->attraction == OZ_ATTRACTION_ALLOW && !c.smooth && eigenvalues.theta > 0) {
+    if (values->law == OZ_LAW_HOOKE && values->attraction == OZ_ATTRACTION_ALLOW && !c.smooth &&
+        eigenvalues.theta > 0) {
         row.closed_form = pow(eigenvalues.rho, pi / eigenvalues.theta);
     }
     row.largest_step = oz_predict_largest_step(scene->integrator, c.stiffness, c.damping);

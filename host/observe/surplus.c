@@ -61,15 +61,14 @@ static double rounding(const OzSnapshot *snapshot)
     const OzScene *scene = snapshot->scene;
     const OzGrains *g = snapshot->grains;
     double share = scene->precision == OZ_PRECISION_FLOAT ? 4e-6 : 1e-8, sum = 0;
-    bool hooke = scene->contact.law == OZ_LAW_HOOKE;
-    bool linear_known = hooke && scene->contact.contact_time > 0; /* not so without discs */
-    double linear =
-        linear_known ? oz_contact_constants_of(&scene->contact, &scene->contact).stiffness : 0;
-    double hertz = hooke ? 0 : oz_hertz_hit(scene, &scene->contact, -1, g).stiffness;
+    bool is_linear = oz_contact_is_linear(scene->contact.law);
+    double linear = oz_contact_constants_of(&scene->contact, &scene->contact).stiffness;
+    linear = isfinite(linear) ? linear : 0; /* without discs no contact time is given */
+    double hertz = is_linear ? 0 : oz_hertz_hit(scene, &scene->contact, -1, g).stiffness;
     for (int64_t i = 0; i < snapshot->count; i++) {
         double way = share * g->diameter[i];
-        sum += hooke ? 0.5 * g->mass[i] * linear * way * way
-                     : 0.4 * g->mass[i] * hertz * way * way * sqrt(way);
+        sum += is_linear ? 0.5 * g->mass[i] * linear * way * way
+                         : 0.4 * g->mass[i] * hertz * way * way * sqrt(way);
         sum += g->pieces ? 0.5 * scene->triangles.stiffness * g->diameter[i] * way * way : 0;
     }
     for (int64_t k = 0; g->pieces && k < g->pieces->beam_count; k++) {

@@ -22,10 +22,9 @@ static const char *const BROADPHASES[] = {[OZ_BROADPHASE_HASH] = "hash",
                                           NULL};
 static const char *const FLAT_BROADPHASES[] = {
     [OZ_BROADPHASE_HASH] = "hash", [OZ_BROADPHASE_ALL_PAIRS] = "all_pairs", NULL};
-static const char *const LAWS[] = {[OZ_LAW_HOOKE] = "hooke",
-                                   [OZ_LAW_HERTZ] = "hertz",
-                                   [OZ_LAW_HERTZ_MINDLIN] = "hertz-mindlin",
-                                   NULL};
+#define OZ_CHOICES_LAW(NAME, name, choice, linear, stiffness, damping) choice,
+static const char *const LAWS[] = {OZ_LAWS(OZ_CHOICES_LAW) NULL};
+/* Of discs: kernels/disc.h knows these two. */
 static const char *const FLAT_LAWS[] = {[OZ_LAW_HOOKE] = "hooke", [OZ_LAW_HERTZ] = "hertz", NULL};
 static const char *const OVERLAPS[] = {
     [OZ_OVERLAPS_KEEP] = "keep", [OZ_OVERLAPS_REMOVE] = "remove", NULL};

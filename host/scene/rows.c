@@ -24,11 +24,13 @@ enum {
     POLYGON = 1 << OZ_SHAPE_POLYGON,
     STAR = 1 << OZ_SHAPE_STAR,
     VERTICES = 1 << OZ_SHAPE_VERTICES,
-    DISC = 1 << OZ_SHAPE_DISC,
-    HOOKE = 1 << OZ_LAW_HOOKE,
-    HERTZ = 1 << OZ_LAW_HERTZ,
-    MINDLIN = 1 << OZ_LAW_HERTZ_MINDLIN
+    DISC = 1 << OZ_SHAPE_DISC
 };
+
+/* A bit for each law, of its name. */
+#define LAW_BIT(NAME, name, choice, linear, stiffness, damping) NAME = 1 << OZ_LAW_##NAME,
+enum { OZ_LAWS(LAW_BIT) };
+#undef LAW_BIT
 
 /* The models a row belongs to; without one of these it belongs to all. */
 #define SOLID .models = 1 << OZ_MODEL_RODS
@@ -151,11 +153,11 @@ static const OzKey KEYS[] = {
     {"contact.contact_time", CONTACT_TIME, AT(contact.contact_time), .reload = APPLY, REQUIRED,
      .laws = HOOKE, .help = "duration of a free binary hit of two centres"},
     {"contact.restitution", FRACTION, AT(contact.restitution), .reload = APPLY, REQUIRED,
-     .laws = HOOKE | MINDLIN, .help = "speed after over speed before a central hit"},
+     .laws = HOOKE | HERTZ_MINDLIN, .help = "speed after over speed before a central hit"},
     {"contact.youngs_modulus", MODULUS, AT(contact.youngs_modulus), .reload = APPLY, REQUIRED,
-     .laws = MINDLIN, SOLID, .help = "of the grains' material"},
+     .laws = HERTZ_MINDLIN, SOLID, .help = "of the grains' material"},
     {"contact.poisson_ratio", POISSON, AT(contact.poisson_ratio), .reload = APPLY, REQUIRED,
-     .laws = MINDLIN, SOLID, .help = "of the grains' material"},
+     .laws = HERTZ_MINDLIN, SOLID, .help = "of the grains' material"},
     {"contact.hertz_stiffness", NUMBER(1e-12, 1e30, "N/m^1.5"), AT(contact.hertz_stiffness),
      .reload = APPLY, REQUIRED, .laws = HERTZ, .help = "force over overlap^1.5"},
     {"contact.normal_damping_rate", DAMPING_RATE, AT(contact.normal_damping_rate), .reload = APPLY,

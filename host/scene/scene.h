@@ -8,6 +8,7 @@
 
 #include "base/status.h"
 #include "kernels/integrators.h"
+#include "kernels/laws.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -20,7 +21,6 @@ typedef enum OzBroadphase {
     OZ_BROADPHASE_ALL_PAIRS, /* every pair, on the device: to test with       */
     OZ_BROADPHASE_SORT_AXIS  /* P's sort by highest point, on the host        */
 } OzBroadphase;
-typedef enum OzLaw { OZ_LAW_HOOKE, OZ_LAW_HERTZ, OZ_LAW_HERTZ_MINDLIN } OzLaw;
 typedef enum OzSlip { OZ_SLIP_CUT, OZ_SLIP_SCALE } OzSlip;
 typedef enum OzAttraction { OZ_ATTRACTION_ALLOW, OZ_ATTRACTION_CLAMP } OzAttraction;
 typedef enum OzDamping { OZ_DAMPING_CONSTANT, OZ_DAMPING_SMOOTH } OzDamping;
