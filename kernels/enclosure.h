@@ -5,7 +5,7 @@
 
 #include "kernels/grains.h"
 
-#if OZ_PLANES + OZ_CYLINDERS > 0
+#if OZ_WALL_COUNT > 0
 
 /* The step at whose beginning walls stand where the forces of this step meet them. */
 #if OZ_MOVES_BEFORE
@@ -20,10 +20,11 @@ typedef struct OzSide {
     real sign;   /* of the half-shaft that leads to the end: 1 or -1 */
     int index;   /* among all ends at all walls                      */
     int first;   /* the first end: a sphere has no other             */
-    spot_kind point[3]; /* of a plane                                */
-    scalar normal[3], radius, unit;
-    scalar offset, speed; /* m, m/s along z, of the wall             */
-    scalar rise, rise_rest; /* units: the offset with all its digits */
+    OzWallShape shape;
+    spot_kind point[3];     /* the shape's                             */
+    scalar unit;
+    scalar offset, speed;   /* m, m/s along z, of the wall             */
+    scalar rise, rise_rest; /* units: the offset with all its digits   */
 } OzSide;
 
 OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
@@ -34,16 +35,14 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
     side.wall = index / ends;
     side.first = index % ends == 0;
     side.sign = REAL(side.first ? 1.0 : -1.0);
-    global const OzWallParameters *wall = &w->parameters->wall[side.wall];
+    side.shape = w->parameters->wall[side.wall].shape;
     for (int c = 0; c < 3; c++) {
-        side.point[c] = (spot_kind)wall->point[c];
-        side.normal[c] = wall->normal[c];
+        side.point[c] = (spot_kind)side.shape.point[c];
     }
-    side.radius = wall->radius;
     side.unit = w->parameters->length_unit;
     side.offset = side.speed = side.rise = side.rise_rest = 0;
     if (OZ_MOVING) {
-        size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * (OZ_PLANES + OZ_CYLINDERS) + side.wall;
+        size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * OZ_WALL_COUNT + side.wall;
         side.offset = w->motion[OZ_MOTION * at];
         side.speed = w->motion[OZ_MOTION * at + OZ_M_SPEED];
         side.rise = w->motion[OZ_MOTION * at + OZ_M_RISE];
@@ -55,15 +54,10 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
 OZ_INLINE OzWallDistance oz_enclosure_distance(OzPlace place_, OzVec3 end, const OzSide *side)
 {
     scalar unit = side->unit;
-    if (side->wall < OZ_PLANES) {
-        OzVec3 from = oz_vec3(oz_place_to_real(place_.x - side->point[0]) * unit + end.x,
-                              oz_place_to_real(place_.y - side->point[1]) * unit + end.y,
-                              oz_place_to_real(place_.z - side->point[2]) * unit + end.z - side->offset);
-        return oz_walls_plane(from, side->normal[0], side->normal[1], side->normal[2]);
-    }
-    OzVec3 from = oz_vec3(oz_place_to_real(place_.x) * unit + end.x,
-                          oz_place_to_real(place_.y) * unit + end.y, REAL(0.0));
-    return oz_walls_cylinder(from, side->radius);
+    OzVec3 from = oz_vec3(oz_place_to_real(place_.x - side->point[0]) * unit + end.x,
+                          oz_place_to_real(place_.y - side->point[1]) * unit + end.y,
+                          oz_place_to_real(place_.z - side->point[2]) * unit + end.z - side->offset);
+    return oz_wall_distance(from, side->shape);
 }
 
 #if OZ_FINE
@@ -71,20 +65,13 @@ OZ_INLINE OzWallDistance oz_enclosure_distance(OzPlace place_, OzVec3 end, const
 OZ_INLINE real oz_enclosure_fine(const OzWork *w, OzGrain grain, const OzSide *side)
 {
     real unit = grain.radius / grain.fine.radius;
-    scalar counts = w->parameters->inverse_unit;
     OzPlace from = grain.place; /* of every lane the same */
-    if (side->wall < OZ_PLANES) {
-        from.x = side->point[0];
-        from.y = side->point[1];
-        from.z = side->point[2];
-        OzVec3 normal = oz_vec3(REAL(side->normal[0]), REAL(side->normal[1]), REAL(side->normal[2]));
-        OzFine rise = {REAL(side->rise), REAL(side->rise_rest)};
-        return unit * oz_fine_plane(oz_fine_end(grain.fine, side->sign, from), normal, rise,
-                                    grain.fine.radius);
-    }
-    from.x = from.y = from.z = 0;
-    real room = REAL(side->radius * counts) - grain.fine.radius;
-    return unit * oz_fine_cylinder(oz_fine_end(grain.fine, side->sign, from), room);
+    from.x = side->point[0];
+    from.y = side->point[1];
+    from.z = side->point[2];
+    OzFine rise = {REAL(side->rise), REAL(side->rise_rest)};
+    return unit * oz_wall_overlap(oz_fine_end(grain.fine, side->sign, from), side->shape, rise,
+                                  grain.fine.radius, w->parameters->inverse_unit);
 }
 #endif
 

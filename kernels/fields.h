@@ -6,7 +6,7 @@
 #ifndef OZ_KERNELS_FIELDS_H
 #define OZ_KERNELS_FIELDS_H
 
-#define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * (OZ_PLANES + OZ_CYLINDERS))
+#define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
 
 /* A region's sums of energy, J, and a contact's words for them (see ledger.h). */
 enum { OZ_L_DISSIPATED, OZ_L_SPRING, OZ_L_WALLS, OZ_LEDGER_WORDS };
@@ -21,7 +21,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
 #define OZ_FIELDS(X)                                                                               \
     X(parameters, parameters, 1)                                                                   \
     X(control, control, 1)                                                                         \
-    X(scalar, motion, OZ_MOVING ? (z.motion_steps + 1) * OZ_MOTION * (OZ_PLANES + OZ_CYLINDERS) : 0)              \
+    X(scalar, motion, OZ_MOVING ? (z.motion_steps + 1) * OZ_MOTION * OZ_WALL_COUNT : 0)              \
     X(real, state, z.blocks *OZ_STATE)                                                             \
     X(real, shape, OZ_EQUAL ? 0 : z.blocks * OZ_SHAPE)                                             \
     X(real, wall_history, OZ_HISTORY ? z.blocks * OZ_WALL_ENDS * 3 : 0)                            \

@@ -161,26 +161,4 @@ OZ_INLINE OzFineVec3 oz_fine_end(OzFineGrain grain, real sign, OzPlace from)
     return end;
 }
 
-/* Overlap of an end and a plane, from whose point the end is seen. rise: how far the plane has moved along z. */
-OZ_INLINE real oz_fine_plane(OzFineVec3 end, OzVec3 normal, OzFine rise, real radius)
-{
-    OzFine sum = {REAL(0.0), REAL(0.0)};
-    sum = oz_fine_add_share(sum, normal.x, end.x);
-    sum = oz_fine_add_share(sum, normal.y, end.y);
-    sum = oz_fine_add_share(sum, normal.z, end.z);
-    sum = oz_fine_add_share(sum, -normal.z, rise);
-    sum = oz_fine_add(sum, -radius);
-    return -(sum.high + sum.low);
-}
-
-/* Overlap of an end, seen from the axis, and the upright cylinder that it is in; room: how far it may be from the
- * axis. */
-OZ_INLINE real oz_fine_cylinder(OzFineVec3 end, real room)
-{
-    OzFine sum = {REAL(0.0), REAL(0.0)};
-    sum = oz_fine_add_square(sum, end.x);
-    sum = oz_fine_add_square(sum, end.y);
-    return -oz_fine_nearer(sum, room);
-}
-
 #endif

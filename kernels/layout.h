@@ -5,14 +5,13 @@
 
 #include "kernels/contact.h"
 #include "kernels/units.h"
+#include "kernels/wall_shape.h"
 
 enum { OZ_WALLS_MAX = 16 }; /* walls of a scene: bounds OzParameters, which sits in constant memory */
 
-/* A wall as kernels see it. Planes come first, then cylinders. */
+/* A wall as kernels see it. They come in the order of their kinds. */
 typedef struct OzWallParameters {
-    scalar point[3];  /* plane: units of length_unit (double: m) */
-    scalar normal[3]; /* plane: unit vector into the free side   */
-    scalar radius;    /* cylinder, m                             */
+    OzWallShape shape; /* its point in units of length_unit (double: m) */
     OzLawConstants law;
 } OzWallParameters;
 

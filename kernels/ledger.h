@@ -70,12 +70,12 @@ OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
     }
 }
 
-#if OZ_PLANES + OZ_CYLINDERS > 0
+#if OZ_WALL_COUNT > 0
 
 /* Velocity of a wall along z at the start of a step. */
 OZ_INLINE scalar oz_ledger_wall_speed(const OzWork *w, int wall, int step)
 {
-    return OZ_MOVING ? w->motion[OZ_MOTION * ((size_t)step * (OZ_PLANES + OZ_CYLINDERS) + wall) + OZ_M_SPEED] : 0;
+    return OZ_MOVING ? w->motion[OZ_MOTION * ((size_t)step * OZ_WALL_COUNT + wall) + OZ_M_SPEED] : 0;
 }
 
 OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
@@ -110,7 +110,7 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
 OZ_INLINE void oz_ledger_region(OzWork *w, int region, int step)
 {
     oz_ledger_pairs(w, region);
-#if OZ_PLANES + OZ_CYLINDERS > 0
+#if OZ_WALL_COUNT > 0
     oz_ledger_walls(w, region, step);
 #endif
 }

@@ -10,7 +10,7 @@ OZ_INLINE void oz_motion_region(OzWork *w, int region, int step)
 #if !OZ_SCATTER
     oz_loads_gather_region(w, region);
 #endif
-#if OZ_PLANES + OZ_CYLINDERS > 0
+#if OZ_WALL_COUNT > 0
     oz_enclosure_region(w, region, step);
 #endif
     for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {

@@ -6,7 +6,7 @@
 
 #include "kernels/contact_line.h"
 #include "kernels/depth.h"
-#include "kernels/walls.h"
+#include "kernels/wall.h"
 
 /* What a pair of grains does to both. */
 typedef struct OzPairForce {

@@ -1,38 +1,34 @@
-/* Walls as signed distances. A wall touches the cap at an end of a shaft (Pournin et al. 2005, sec. 3.2):
- * two contacts for a rod lying flat, one for a sphere. */
+/* THE list of walls. Scene choices, the kernels' and the host's distances, the room for grains and pictures are made of
+ * it: a row whose functions do not exist does not compile. Names alone: host/scene reads it too. */
 #ifndef OZ_KERNELS_WALLS_H
 #define OZ_KERNELS_WALLS_H
 
-#include "kernels/vec3.h"
+/* X(NAME, name, choice, fine), a row each, of rods' walls:
+ *   fine   1: kernels/wall_<name>.h has oz_wall_<name>_fine, too: the overlap of light contacts with all digits that
+ *          places carry; 0: precision: float refuses scenes that need it
+ * kernels/wall_<name>.h has oz_wall_<name>(from, wall) and is included by wall.h; host/scene/wall_shape.c fills the
+ * numbers that it reads (shape_<name>); host/model/column.c bounds the room for grains placed at random
+ * (bound_by_<name>). The keys of a wall name it under `.kinds` in host/scene/rows.c. Pictures show kinds without a
+ * drawing of their own (host/draw/container.c) by level lines, found by distance. */
+#define OZ_WALLS(X)                                                                                \
+    X(PLANE, plane, "plane", 1)                                                                    \
+    X(CYLINDER, cylinder, "cylinder", 1)
 
-/* Where a cap's centre stands against a wall. */
-typedef struct OzWallDistance {
-    OzVec3 normal; /* unit vector into the free side        */
-    real distance; /* m, of the cap's centre from the wall  */
-#if OZ_FINE
-    real overlap; /* m, of the cap and the wall */
-#endif
-} OzWallDistance;
+/* X(NAME, name, choice), of trigrains: a smooth straight wall from one point to another; a toothed floor of a width
+ * about a point; two slopes with an opening between them, and upright sides above; the inside of a toothed circle;
+ * bottom and two sides. host/model/piece_walls.c cuts each into strips of triangles (add_<name>), host/model/basin.c
+ * says what lies inside (inside_<name>). */
+#define OZ_TRIGRAINS_WALLS(X)                                                                      \
+    X(SEGMENT, segment, "segment")                                                                 \
+    X(FLOOR, floor, "floor")                                                                       \
+    X(HOPPER, hopper, "hopper")                                                                    \
+    X(DRUM, drum, "drum")                                                                          \
+    X(VESSEL, vessel, "vessel")
 
-/* from_point: cap centre minus a point of the plane, the plane's motion included. */
-OZ_INLINE OzWallDistance oz_walls_plane(OzVec3 from_point, scalar nx, scalar ny, scalar nz)
-{
-    OzWallDistance wall;
-    wall.normal = oz_vec3(REAL(nx), REAL(ny), REAL(nz));
-    wall.distance = oz_dot(from_point, wall.normal);
-    return wall;
-}
-
-/* Inside of an upright cylinder about the z axis; from_axis: cap centre, its z not used. On the axis
- * itself any direction serves: nothing is in reach there. */
-OZ_INLINE OzWallDistance oz_walls_cylinder(OzVec3 from_axis, scalar radius)
-{
-    OzWallDistance wall;
-    real r2 = from_axis.x * from_axis.x + from_axis.y * from_axis.y;
-    real inverse = oz_inverse_root(oz_larger(r2, REAL(OZ_TINY)));
-    wall.normal = oz_vec3(-from_axis.x * inverse, -from_axis.y * inverse, REAL(0.0));
-    wall.distance = REAL(radius) - r2 * inverse;
-    return wall;
-}
+#define OZ_WALLS_ID(NAME, name, choice, fine) OZ_WALL_##NAME,
+#define OZ_WALLS_FLAT_ID(NAME, name, choice)  OZ_WALL_##NAME,
+typedef enum OzWallKind {
+    OZ_WALLS(OZ_WALLS_ID) OZ_TRIGRAINS_WALLS(OZ_WALLS_FLAT_ID) OZ_WALLS_END
+} OzWallKind;
 
 #endif

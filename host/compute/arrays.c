@@ -9,17 +9,16 @@
 #include <string.h>
 
 /* The list's switches, on the host. */
-#define OZ_LANES     (s->lanes)
-#define OZ_ROUND     (s->round)
-#define OZ_EQUAL     (s->equal)
-#define OZ_HISTORY   (s->history)
-#define OZ_PLANES    (s->planes)
-#define OZ_CYLINDERS (s->cylinders)
-#define OZ_MOVING    (s->moving)
-#define OZ_LEDGER    (s->ledger)
-#define OZ_LINE      (s->line)
-#define OZ_RESORT    (s->resort)
-#define OZ_GROUP     (s->group)
+#define OZ_LANES      (s->lanes)
+#define OZ_ROUND      (s->round)
+#define OZ_EQUAL      (s->equal)
+#define OZ_HISTORY    (s->history)
+#define OZ_WALL_COUNT (s->walls)
+#define OZ_MOVING     (s->moving)
+#define OZ_LEDGER     (s->ledger)
+#define OZ_LINE       (s->line)
+#define OZ_RESORT     (s->resort)
+#define OZ_GROUP      (s->group)
 
 static size_t scalar_bytes(const OzSwitches *s)
 {

@@ -3,6 +3,7 @@
 
 #include "compute/units.h"
 #include "model/calibrate.h"
+#include "scene/wall_shape.h"
 
 #include <string.h>
 
@@ -37,10 +38,10 @@ static double extent(const OzScene *scene, const OzGrains *grains)
         far = larger(far, fabs(grains->position[i]));
     }
     for (int w = 0; w < scene->wall_count; w++) {
-        const OzWall *wall = &scene->walls[w];
-        far = larger(far, wall->kind == OZ_WALL_CYLINDER ? wall->diameter / 2 : 0);
-        for (int c = 0; c < 3 && wall->kind == OZ_WALL_PLANE; c++) {
-            far = larger(far, fabs(wall->point[c]));
+        OzWallShape shape = oz_wall_shape_of(&scene->walls[w]);
+        far = larger(far, shape.radius);
+        for (int c = 0; c < 3; c++) {
+            far = larger(far, fabs(shape.point[c]));
         }
     }
     return far;
@@ -70,19 +71,18 @@ static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *
 
 static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *from, double unit)
 {
+    to->shape = oz_wall_shape_of(from);
     for (int c = 0; c < 3; c++) {
-        double units = from->point[c] / unit;
-        to->point[c] = unit < 1 ? round(units) : units;
-        to->normal[c] = from->normal[c];
+        double units = to->shape.point[c] / unit;
+        to->shape.point[c] = unit < 1 ? round(units) : units;
     }
-    to->radius = from->diameter / 2;
     to->law = oz_constants_law(scene, &from->contact);
 }
 
 static int fill_walls(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene)
 {
     int count = 0;
-    for (int kind = OZ_WALL_PLANE; kind <= OZ_WALL_CYLINDER; kind++) {
+    for (int kind = 0; kind < OZ_WALLS_END; kind++) {
         for (int w = 0; w < scene->wall_count && count < OZ_WALLS_MAX; w++) {
             if ((int)scene->walls[w].kind == kind) {
                 fill_wall(&parameters->wall[count], scene, &scene->walls[w],

@@ -8,7 +8,7 @@
 #include "kernels/layout.h"
 
 /* Fills parameters for a scene. length_unit is chosen for single precision (1 in double): as fine as the
- * extent of the scene allows. Walls are put in kernel order, planes first; wall_order[k] receives the scene
+ * extent of the scene allows. Walls are put in kernel order, kind by kind; wall_order[k] receives the scene
  * index of kernel wall k. Fails with OZ_ERR_INPUT when the scene is too wide for single precision. */
 OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
                            const OzScene *scene, const OzGrains *grains);

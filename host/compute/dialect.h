@@ -21,6 +21,7 @@ static _Thread_local OzSwitches dialect;
 #define OZ_LINE             dialect.line
 #define OZ_SMOOTH           dialect.smooth
 #define OZ_AT_CONTACT       dialect.at_contact
+#define OZ_WALL_KINDS       (-1) /* the host knows them all */
 #define OZ_INTEGRATOR_ID    dialect.integrator
 #define OZ_MOVES_BEFORE     dialect.moves_before
 
@@ -43,13 +44,10 @@ OZ_INLINE void oz_dialect_store3(double *to, OzVec3 v)
 OZ_INLINE OzWallDistance oz_dialect_wall(const OzPhysics *physics, int w, OzPlace place, OzVec3 end,
                                          double offset)
 {
-    const OzWallParameters *wall = &physics->parameters.wall[w];
+    OzWallShape wall = physics->parameters.wall[w].shape;
     OzVec3 cap = oz_vec3(place.x + end.x, place.y + end.y, place.z + end.z);
-    if (w >= dialect.planes) {
-        return oz_walls_cylinder(cap, wall->radius);
-    }
-    OzVec3 point = oz_vec3(wall->point[0], wall->point[1], wall->point[2] + offset);
-    return oz_walls_plane(oz_minus(cap, point), wall->normal[0], wall->normal[1], wall->normal[2]);
+    OzVec3 point = oz_vec3(wall.point[0], wall.point[1], wall.point[2] + offset);
+    return oz_wall_distance(oz_minus(cap, point), wall);
 }
 
 /* One end of a grain at kernel wall w; history, contact and arm as for oz_rods_wall. */

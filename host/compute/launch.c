@@ -54,7 +54,7 @@ OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps)
     OzStatus status = OZ_OK;
     int64_t first = sim->crew.step;
     const OzScene *scene = sim->crew.members[member].scene;
-    int walls = sim->arrays.switches.planes + sim->arrays.switches.cylinders;
+    int walls = sim->arrays.switches.walls;
     size_t count = OZ_MOTION * (size_t)(steps + 1) * (size_t)walls;
     double *motion = NULL;
     void *narrow = NULL;

@@ -175,7 +175,7 @@ OzStatus oz_phases_measure(OzPhases *phases, OzSim *sim, const char *source_dir)
     OzSwitches switches = sim->arrays.switches;
     *phases = (OzPhases){NAN, NAN, NAN, NAN, NAN};
     OZ_TRY(build(sim, &switches, source_dir, &whole));
-    switches.planes = switches.cylinders = switches.moving = 0;
+    switches.walls = switches.wall_kinds = switches.moving = 0;
     OZ_TRY(build(sim, &switches, source_dir, &free_of_walls));
     OZ_TRY(time_standing(phases, sim, whole, free_of_walls));
 done:

@@ -51,7 +51,7 @@ OzStatus oz_probe_read(OzProbe *probe, const OzSim *sim)
     OzStatus status = OZ_OK;
     const OzSwitches *s = &sim->arrays.switches;
     *probe = (OzProbe){.grains = (int64_t)sim->arrays.sizes.count * sim->crew.member_count,
-                       .walls = s->planes + s->cylinders,
+                       .walls = s->walls,
                        .is_double = s->is_double,
                        .history = s->history,
                        .equal = s->equal,

@@ -133,18 +133,32 @@ done:
     return status;
 }
 
+/* Whether every wall's overlap can be had with all digits. */
+static bool walls_are_fine(const OzScene *scene)
+{
+#define ROW(NAME, name, choice, fine) [OZ_WALL_##NAME] = fine,
+    static const bool is_fine[OZ_WALLS_END] = {OZ_WALLS(ROW)};
+#undef ROW
+    for (int w = 0; w < scene->wall_count; w++) {
+        if (!is_fine[scene->walls[w].kind]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool oz_resolution_is_fine(const OzScene *scene, const OzGrains *grains)
 {
     OzResolution r;
     return scene->precision == OZ_PRECISION_FLOAT && find(&r, scene, grains) == OZ_OK &&
-           r.overlap < OZ_RESOLUTION_ENOUGH * r.digit;
+           r.overlap < OZ_RESOLUTION_ENOUGH * r.digit && walls_are_fine(scene);
 }
 
 OzStatus oz_resolution_find(OzResolution *resolution, const OzScene *scene, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(find(resolution, scene, grains));
-    if (resolution->overlap < OZ_RESOLUTION_ENOUGH * resolution->digit) {
+    if (resolution->overlap < OZ_RESOLUTION_ENOUGH * resolution->digit && walls_are_fine(scene)) {
         resolution->digit /= finer;
     }
 done:

@@ -8,6 +8,7 @@
 #include "compute/sort_axis.h"
 #include "model/calibrate.h"
 #include "model/predict.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -79,21 +80,6 @@ static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
     return add(bed, &bed->now->scene->contact, mass, spring);
 }
 
-/* The distance of a point to a wall, and the direction away from it. */
-static double wall_distance(const OzSnapshot *now, int w, OzVec3 point, OzVec3 *normal)
-{
-    const OzWall *wall = &now->scene->walls[w];
-    if (wall->kind == OZ_WALL_PLANE) {
-        OzVec3 base = load(wall->point);
-        base.z += now->wall_offset[w];
-        *normal = load(wall->normal);
-        return oz_dot(oz_minus(point, base), *normal);
-    }
-    double radius = hypot(point.x, point.y);
-    *normal = radius > 0 ? oz_vec3(-point.x / radius, -point.y / radius, 0) : oz_vec3(1, 0, 0);
-    return 0.5 * wall->diameter - radius;
-}
-
 static OzStatus add_walls(Bed *bed, int64_t i)
 {
     OzStatus status = OZ_OK;
@@ -102,11 +88,14 @@ static OzStatus add_walls(Bed *bed, int64_t i)
     for (int w = 0; w < bed->now->scene->wall_count; w++) {
         for (int end = 0; end < (g->length[i] > 0 ? 2 : 1); end++) {
             OzVec3 arm = oz_scale(load(&bed->now->axis[3 * i]), (end ? -0.5 : 0.5) * g->length[i]);
-            OzVec3 point = oz_along(load(&bed->now->position[3 * i]), 1, arm), normal;
-            if (wall_distance(bed->now, w, point, &normal) < radius) {
-                Spring spring = {.a = i, .b = -1, .normal = oz_scale(normal, -1)};
+            OzVec3 point = oz_along(load(&bed->now->position[3 * i]), 1, arm);
+            const OzWall *wall = &bed->now->scene->walls[w];
+            const double at[3] = {point.x, point.y, point.z};
+            double normal[3];
+            if (oz_wall_shape_distance(wall, bed->now->wall_offset[w], at, normal) < radius) {
+                Spring spring = {.a = i, .b = -1, .normal = oz_scale(load(normal), -1)};
                 spring.arm_a = oz_along(arm, radius, spring.normal);
-                OZ_TRY(add(bed, &bed->now->scene->walls[w].contact, g->mass[i], spring));
+                OZ_TRY(add(bed, &wall->contact, g->mass[i], spring));
             }
         }
     }

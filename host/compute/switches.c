@@ -37,13 +37,14 @@ static bool moves_before(OzIntegrator integrator)
     return moves[integrator];
 }
 
-static int count_walls(const OzScene *scene, OzWallKind kind)
+/* A bit for each kind. */
+static int kinds_of_walls(const OzScene *scene)
 {
-    int count = 0;
+    int kinds = 0;
     for (int w = 0; w < scene->wall_count; w++) {
-        count += scene->walls[w].kind == kind;
+        kinds |= 1 << scene->walls[w].kind;
     }
-    return count;
+    return kinds;
 }
 
 static bool has_spring(const OzContactValues *values, const OzScene *scene)
@@ -84,8 +85,8 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.at_contact = scene->contact.restitution_at == OZ_RESTITUTION_CONTACT && !s.round;
     s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
     s.fine = oz_resolution_is_fine(scene, grains);
-    s.planes = count_walls(scene, OZ_WALL_PLANE);
-    s.cylinders = count_walls(scene, OZ_WALL_CYLINDER);
+    s.walls = scene->wall_count;
+    s.wall_kinds = kinds_of_walls(scene);
     s.ledger = scene->observe.ledger;
     s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
     s.host_lists = scene->broadphase == OZ_BROADPHASE_SORT_AXIS;

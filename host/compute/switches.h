@@ -27,8 +27,8 @@
     X(AT_CONTACT, at_contact, NULL)                                                                \
     X(FINE, fine, NULL)                                                                            \
     X(GYROSCOPIC, gyroscopic, "gyroscopic term")                                                   \
-    X(PLANES, planes, "plane walls")                                                               \
-    X(CYLINDERS, cylinders, "cylinder walls")                                                      \
+    X(WALL_COUNT, walls, "walls")                                                                  \
+    X(WALL_KINDS, wall_kinds, NULL)                                                                \
     X(MOVING, moving, "moving walls")                                                              \
     X(LEDGER, ledger, "energy ledger")                                                             \
     X(ALL_PAIRS, all_pairs, NULL)                                                                  \

@@ -101,7 +101,7 @@ static void count_law(OzLawConstants *law, const OzUnits *u, int id)
 
 static void count_wall(OzWallParameters *wall, const OzUnits *u, int law)
 {
-    wall->radius /= u->length;
+    wall->shape.radius /= u->length;
     count_law(&wall->law, u, law);
 }
 

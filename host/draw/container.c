@@ -2,6 +2,7 @@
 #include "draw/container.h"
 
 #include "draw/framing.h"
+#include "draw/wall_levels.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -332,6 +333,18 @@ static void add_plane(OzContainer *container, const Scope *scope, int row)
     }
 }
 
+static void add_levels(OzContainer *container, const Scope *scope, int row)
+{
+    OzWallLevels levels = {.wall = &scope->snapshot->scene->walls[row],
+                           .offset = scope->snapshot->wall_offset[row],
+                           .camera = scope->camera,
+                           .low = scope->look->height_low,
+                           .high = scope->top,
+                           .line_width = line_width(scope),
+                           .is_cut = scope->view == OZ_VIEW_CUT};
+    oz_wall_levels_add(&levels, &container->behind, &container->before, EDGE);
+}
+
 static double narrowest_radius(const OzScene *scene)
 {
     double radius = 0;
@@ -371,8 +384,11 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
         oz_mesh_clear(meshes[i]);
     }
     for (int w = 0; w < snapshot->scene->wall_count; w++) {
-        if (snapshot->scene->walls[w].kind == OZ_WALL_PLANE) {
+        OzWallKind kind = snapshot->scene->walls[w].kind;
+        if (kind == OZ_WALL_PLANE) {
             add_plane(container, &scope, w);
+        } else if (kind != OZ_WALL_CYLINDER) {
+            add_levels(container, &scope, w);
         }
     }
     if (scope.radius > 0) {

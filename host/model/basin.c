@@ -135,6 +135,40 @@ static bool is_in_hopper(const OzWall *wall, double x, double y, double spare)
            y * cos(wall->slope) - fmax(beside, 0) * sin(wall->slope) >= spare;
 }
 
+/* Whether a circle lies inside a container; x and y: of its centre, seen from the container's
+ * point. */
+static bool inside_drum(const OzWall *wall, double x, double y, double radius)
+{
+    return hypot(x, y) + radius + wall->tooth_depth <= wall->diameter / 2;
+}
+
+static bool inside_hopper(const OzWall *wall, double x, double y, double radius)
+{
+    return is_in_hopper(wall, x, y, radius + wall->tooth_depth);
+}
+
+static bool inside_vessel(const OzWall *wall, double x, double y, double radius)
+{
+    return fabs(x) + radius <= wall->width / 2 && y >= radius + wall->tooth_depth;
+}
+
+static bool inside_floor(const OzWall *wall, double x, double y, double radius)
+{
+    return inside_vessel(wall, x, y, radius);
+}
+
+/* No container: see find_container. */
+static bool inside_segment(const OzWall *wall, double x, double y, double radius)
+{
+    (void)wall, (void)x, (void)y, (void)radius;
+    return true;
+}
+
+#define ROW(NAME, name, choice) [OZ_WALL_##NAME] = inside_##name,
+static bool (*const insides[])(const OzWall *wall, double x, double y,
+                               double radius) = {OZ_TRIGRAINS_WALLS(ROW)};
+#undef ROW
+
 static bool is_inside(const OzBasin *basin, const double centre[2], double radius)
 {
     const OzWall *wall = basin->container;
@@ -142,16 +176,8 @@ static bool is_inside(const OzBasin *basin, const double centre[2], double radiu
         return centre[0] - radius >= basin->low[0] && centre[0] + radius <= basin->high[0] &&
                centre[1] - radius >= basin->low[1] && centre[1] + radius <= basin->high[1];
     }
-    double x = centre[0] - wall->point[0], y = centre[1] - wall->point[1];
-    double spare = radius + wall->tooth_depth;
-    switch (wall->kind) {
-    case OZ_WALL_DRUM:
-        return hypot(x, y) + spare <= wall->diameter / 2;
-    case OZ_WALL_HOPPER:
-        return is_in_hopper(wall, x, y, spare);
-    default:
-        return fabs(x) + radius <= wall->width / 2 && y >= spare;
-    }
+    return insides[wall->kind](wall, centre[0] - wall->point[0], centre[1] - wall->point[1],
+                               radius);
 }
 
 bool oz_basin_holds(const OzBasin *basin, const double centre[2], double radius)

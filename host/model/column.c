@@ -1,6 +1,8 @@
 /* Which points the walls leave to grains placed at random. Knows nothing of other grains. */
 #include "model/column.h"
 
+#include "scene/wall_shape.h"
+
 #include <math.h>
 
 /* A plane counts as lying across an axis when its normal is within 1e-6 of it: written normals are
@@ -30,6 +32,10 @@ static void bound_by_cylinder(OzColumn *column, const OzWall *wall)
         column->walled_low[k] = column->walled_high[k] = true;
     }
 }
+
+#define ROW(NAME, name, choice, fine) [OZ_WALL_##NAME] = bound_by_##name,
+static void (*const bounds[])(OzColumn *column, const OzWall *wall) = {OZ_WALLS(ROW)};
+#undef ROW
 
 static bool walled(const OzColumn *column, int k)
 {
@@ -72,11 +78,7 @@ OzColumn oz_column_make(const OzScene *scene, double volume, double extent)
                        .high = {INFINITY, INFINITY, INFINITY},
                        .radius = INFINITY};
     for (int w = 0; w < scene->wall_count; w++) {
-        if (scene->walls[w].kind == OZ_WALL_PLANE) {
-            bound_by_plane(&column, &scene->walls[w]);
-        } else {
-            bound_by_cylinder(&column, &scene->walls[w]);
-        }
+        bounds[scene->walls[w].kind](&column, &scene->walls[w]);
     }
     double length = free_length(&column, volume, extent);
     for (int k = 0; k < 3; k++) {
@@ -127,14 +129,7 @@ void oz_column_draw(const OzColumn *column, OzRandom *random, OzCapsule *capsule
 
 static bool end_is_free(const OzWall *wall, const double end[3], double radius)
 {
-    if (wall->kind == OZ_WALL_CYLINDER) {
-        return hypot(end[0], end[1]) <= 0.5 * wall->diameter - radius;
-    }
-    double height = 0;
-    for (int k = 0; k < 3; k++) {
-        height += wall->normal[k] * (end[k] - wall->point[k]);
-    }
-    return height >= radius;
+    return oz_wall_shape_distance(wall, 0, end, NULL) >= radius;
 }
 
 bool oz_column_holds(const OzColumn *column, const OzCapsule *capsule)

@@ -90,8 +90,8 @@ static void add_floor(Strips *strips, const OzWall *wall)
     add_toothed(strips, a, b, 0, 0, wall);
 }
 
-/* Sides and slopes go on beyond the knees, each behind the other's face, as far as where their backs
- * meet: their outer corner is whole, and nothing sticks out of it. */
+/* Sides and slopes go on beyond the knees, each behind the other's face, as far as where their
+ * backs meet: their outer corner is whole, and nothing sticks out of it. */
 static void add_hopper(Strips *strips, const OzWall *wall)
 {
     double x = wall->point[0], y = wall->point[1];
@@ -127,26 +127,19 @@ static void add_drum(Strips *strips, const OzWall *wall)
                 .thickness = strips->thickness};
 }
 
+static void add_segment(Strips *strips, const OzWall *wall)
+{
+    add_face(strips, wall->from, wall->to, 0, 0, true);
+}
+
 static void list_strips(Strips *strips, const OzWall *wall)
 {
-    switch (wall->kind) {
-    case OZ_WALL_SEGMENT:
-        add_face(strips, wall->from, wall->to, 0, 0, true);
-        break;
-    case OZ_WALL_FLOOR:
-        add_floor(strips, wall);
-        break;
-    case OZ_WALL_HOPPER:
-        add_hopper(strips, wall);
-        break;
-    case OZ_WALL_DRUM:
-        add_drum(strips, wall);
-        break;
-    case OZ_WALL_VESSEL:
-        add_vessel(strips, wall);
-        break;
-    default:
-        break;
+#define ROW(NAME, name, choice) [OZ_WALL_##NAME] = add_##name,
+    static void (*const adders[OZ_WALLS_END])(Strips * strips,
+                                              const OzWall *wall) = {OZ_TRIGRAINS_WALLS(ROW)};
+#undef ROW
+    if (adders[wall->kind]) {
+        adders[wall->kind](strips, wall);
     }
 }
 

@@ -26,8 +26,9 @@ static int draw_whole(OzRandom *random, const OzRange *range)
     return (int)fmin(whole, range->high);
 }
 
-/* A triangle on each edge of the polygon that is in the first vertices, about the last vertex. */
-static void fan(OzPatch *patch)
+/* A triangle on each edge of the polygon that is in the first vertices, about the last vertex;
+ * joined, the centre of mass in the origin. */
+static OzStatus fan(OzPatch *patch)
 {
     int n = patch->triangle_count;
     for (int i = 0; i < n; i++) {
@@ -35,6 +36,11 @@ static void fan(OzPatch *patch)
         patch->triangle[3 * i + 1] = i;
         patch->triangle[3 * i + 2] = (i + 1) % n;
     }
+    OzStatus status = oz_patch_join(patch);
+    if (status == OZ_OK) {
+        oz_patch_centre(patch);
+    }
+    return status;
 }
 
 static void put(OzPatch *patch, int vertex, double angle, double radius)
@@ -43,18 +49,23 @@ static void put(OzPatch *patch, int vertex, double angle, double radius)
     patch->vertex[2 * vertex + 1] = radius * sin(angle);
 }
 
-static OzStatus make_square(OzPatch *patch, double edge)
+static OzStatus make_square(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+                            OzRandom *random)
 {
+    (void)scene;
+    double edge = draw(random, &population->edge);
     OzStatus status = oz_patch_create(patch, 5, 4);
     for (int i = 0; status == OZ_OK && i < 4; i++) {
         patch->vertex[2 * i] = i == 0 || i == 3 ? -edge / 2 : edge / 2;
         patch->vertex[2 * i + 1] = i < 2 ? -edge / 2 : edge / 2;
     }
-    return status;
+    return status == OZ_OK ? fan(patch) : status;
 }
 
-static OzStatus make_polygon(OzPatch *patch, const OzPopulation *population, OzRandom *random)
+static OzStatus make_polygon(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+                             OzRandom *random)
 {
+    (void)scene;
     int n = draw_whole(random, &population->corners);
     double radius = draw(random, &population->radius), q = population->irregularity;
     OzStatus status = oz_patch_create(patch, n + 1, n);
@@ -63,18 +74,20 @@ static OzStatus make_polygon(OzPatch *patch, const OzPopulation *population, OzR
         double inward = 0.5 * q * oz_random_uniform(random, 0, 1);
         put(patch, i, 2 * PI * i / n + turn, radius * (1 - inward));
     }
-    return status;
+    return status == OZ_OK ? fan(patch) : status;
 }
 
-static OzStatus make_star(OzPatch *patch, const OzPopulation *population, OzRandom *random)
+static OzStatus make_star(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+                          OzRandom *random)
 {
+    (void)scene;
     int n = 2 * draw_whole(random, &population->corners);
     double radius = draw(random, &population->radius);
     OzStatus status = oz_patch_create(patch, n + 1, n);
     for (int i = 0; status == OZ_OK && i < n; i++) {
         put(patch, i, 2 * PI * i / n, i % 2 ? population->depth * radius : radius);
     }
-    return status;
+    return status == OZ_OK ? fan(patch) : status;
 }
 
 /* What a grain has least of. */
@@ -119,9 +132,7 @@ static OzStatus cut_about_centre(OzPatch *patch, const OzPatch *cut, const OzBea
     }
     OZ_TRY(oz_patch_create(patch, n + 1, n));
     memcpy(patch->vertex, cut->vertex, (size_t)(2 * n) * sizeof *cut->vertex);
-    fan(patch);
-    OZ_TRY(oz_patch_join(patch));
-    oz_patch_centre(patch);
+    OZ_TRY(fan(patch));
     Least least = least_of(patch);
     *made = is_within(&least, limits);
 done:
@@ -130,8 +141,10 @@ done:
 
 /* Into as few triangles as there can be, or where those are less symmetric than the outline about
  * its middle if that can be. */
-static OzStatus make_vertices(OzPatch *patch, const OzScene *scene, const OzPopulation *population)
+static OzStatus make_vertices(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+                              OzRandom *random)
 {
+    (void)random;
     OzStatus status = OZ_OK;
     OzPatch about = {0};
     bool made = false;
@@ -156,38 +169,25 @@ bool oz_shape_keeps_symmetry(const OzScene *scene, const OzPopulation *populatio
 {
     OzPatch patch = {0};
     bool kept = population->shape != OZ_SHAPE_VERTICES ||
-                make_vertices(&patch, scene, population) != OZ_OK ||
+                make_vertices(&patch, scene, population, NULL) != OZ_OK ||
                 patch.vertex_count > population->vertex_count / 2 || oz_symmetry_is_kept(&patch);
     oz_patch_free(&patch);
     return kept;
 }
 
-static OzStatus make_once(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+static OzStatus make_disc(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
                           OzRandom *random)
 {
-    OzStatus status = OZ_OK;
-    switch (population->shape) {
-    case OZ_SHAPE_DISC:
-        oz_patch_set_disc(patch, draw(random, &population->radius));
-        return OZ_OK;
-    case OZ_SHAPE_VERTICES:
-        return make_vertices(patch, scene, population);
-    case OZ_SHAPE_SQUARE:
-        OZ_TRY(make_square(patch, draw(random, &population->edge)));
-        break;
-    case OZ_SHAPE_POLYGON:
-        OZ_TRY(make_polygon(patch, population, random));
-        break;
-    case OZ_SHAPE_STAR:
-        OZ_TRY(make_star(patch, population, random));
-        break;
-    }
-    fan(patch);
-    OZ_TRY(oz_patch_join(patch));
-    oz_patch_centre(patch);
-done:
-    return status;
+    (void)scene;
+    oz_patch_set_disc(patch, draw(random, &population->radius));
+    return OZ_OK;
 }
+
+#define ROW(NAME, name, choice) [OZ_SHAPE_##NAME] = make_##name,
+static OzStatus (*const makers[])(OzPatch *patch, const OzScene *scene,
+                                  const OzPopulation *population,
+                                  OzRandom *random) = {OZ_SHAPES(ROW)};
+#undef ROW
 
 static bool is_open(const OzPopulation *population)
 {
@@ -228,7 +228,7 @@ OzStatus oz_shape_make(OzPatch *patch, const OzScene *scene, const OzPopulation 
     Least least = {0, 0};
     for (int i = 0; i < (is_open(population) ? DRAW_LIMIT : 1); i++) {
         *patch = (OzPatch){0};
-        OZ_TRY(make_once(patch, scene, population, random));
+        OZ_TRY(makers[population->shape](patch, scene, population, random));
         least = least_of(patch);
         if (is_within(&least, &scene->beams)) {
             return OZ_OK;

@@ -5,6 +5,7 @@
 #include "scene/check_flat.h"
 #include "scene/keys.h"
 #include "scene/value.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -317,18 +318,6 @@ static void check_room(Checker *checker)
     }
 }
 
-static bool is_outside(const OzWall *wall, const double position[3])
-{
-    if (wall->kind == OZ_WALL_CYLINDER) {
-        return hypot(position[0], position[1]) > wall->diameter / 2;
-    }
-    double depth = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        depth += (position[axis] - wall->point[axis]) * wall->normal[axis];
-    }
-    return depth < 0;
-}
-
 static void check_singles(Checker *checker)
 {
     const OzScene *scene = checker->scene;
@@ -337,7 +326,8 @@ static void check_singles(Checker *checker)
         snprintf(path, sizeof path, "grains.%d.position", i);
         bool known = scene->populations[i].kind == OZ_GRAINS_SINGLE && is_written(checker, path);
         for (int j = 0; known && j < scene->wall_count; j++) {
-            if (is_outside(&scene->walls[j], scene->populations[i].position)) {
+            if (oz_wall_shape_distance(&scene->walls[j], 0, scene->populations[i].position, NULL) <
+                0) {
                 fault(checker, path, "%s lies behind walls.%d; expected it on the free side", path,
                       j);
             }

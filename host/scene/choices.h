@@ -12,8 +12,8 @@ static const char *const MODELS[] = {
 #define OZ_CHOICES_BOTH(NAME, name, choice, flat_choice, share, first)  flat_choice,
 #define OZ_CHOICES_FLAT(NAME, choice)                                   choice,
 static const char *const INTEGRATORS[] = {OZ_INTEGRATORS(OZ_CHOICES_SOLID) NULL};
-static const char *const FLAT_INTEGRATORS[] = {
-    OZ_INTEGRATORS(OZ_CHOICES_BOTH) OZ_TRIGRAINS_INTEGRATORS(OZ_CHOICES_FLAT) NULL};
+static const char *const FLAT_INTEGRATORS[] = {OZ_INTEGRATORS(OZ_CHOICES_BOTH)
+                                                   OZ_TRIGRAINS_INTEGRATORS(OZ_CHOICES_FLAT) NULL};
 static const char *const PRECISIONS[] = {
     [OZ_PRECISION_FLOAT] = "float", [OZ_PRECISION_DOUBLE] = "double", NULL};
 static const char *const BROADPHASES[] = {[OZ_BROADPHASE_HASH] = "hash",
@@ -41,16 +41,12 @@ static const char *const RESTITUTIONS_AT[] = {
     [OZ_RESTITUTION_CENTRE] = "centre", [OZ_RESTITUTION_CONTACT] = "contact", NULL};
 static const char *const CALIBRATIONS[] = {
     [OZ_CALIBRATION_NONE] = "none", [OZ_CALIBRATION_DISCRETE] = "discrete", NULL};
-static const char *const WALL_KINDS[] = {
-    [OZ_WALL_PLANE] = "plane", [OZ_WALL_CYLINDER] = "cylinder", NULL};
-static const char *const FLAT_WALL_KINDS[] = {"",
-                                              "",
-                                              [OZ_WALL_SEGMENT] = "segment",
-                                              [OZ_WALL_FLOOR] = "floor",
-                                              [OZ_WALL_HOPPER] = "hopper",
-                                              [OZ_WALL_DRUM] = "drum",
-                                              [OZ_WALL_VESSEL] = "vessel",
-                                              NULL};
+#define OZ_CHOICES_WALL(NAME, name, choice, fine)    choice,
+#define OZ_CHOICES_NO_WALL(NAME, name, choice, fine) "",
+#define OZ_CHOICES_FLAT_WALL(NAME, name, choice)     choice,
+static const char *const WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_WALL) NULL};
+static const char *const FLAT_WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_NO_WALL)
+                                                  OZ_TRIGRAINS_WALLS(OZ_CHOICES_FLAT_WALL) NULL};
 static const char *const GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
                                           [OZ_GRAINS_LATTICE] = "lattice",
                                           [OZ_GRAINS_SINGLE] = "single",
@@ -60,9 +56,8 @@ static const char *const FLAT_GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
                                                [OZ_GRAINS_LATTICE] = "lattice",
                                                [OZ_GRAINS_SINGLE] = "single",
                                                NULL};
-static const char *const SHAPES[] = {
-    [OZ_SHAPE_SQUARE] = "square",     [OZ_SHAPE_POLYGON] = "polygon", [OZ_SHAPE_STAR] = "star",
-    [OZ_SHAPE_VERTICES] = "vertices", [OZ_SHAPE_DISC] = "disc",       NULL};
+#define OZ_CHOICES_SHAPE(NAME, name, choice) choice,
+static const char *const SHAPES[] = {OZ_SHAPES(OZ_CHOICES_SHAPE) NULL};
 static const char *const FORCE_POINTS[] = {
     [OZ_FORCE_CENTROID] = "centroid", [OZ_FORCE_MIDPOINT] = "midpoint", NULL};
 static const char *const DAMPING_SHEARS[] = {

@@ -11,23 +11,18 @@ enum {
     LATTICE = 1 << OZ_GRAINS_LATTICE,
     SINGLE = 1 << OZ_GRAINS_SINGLE,
     FROM_FILE = 1 << OZ_GRAINS_FILE,
-    MADE = RANDOM | LATTICE | SINGLE,
-    PLANE = 1 << OZ_WALL_PLANE,
-    CYLINDER = 1 << OZ_WALL_CYLINDER,
-    SEGMENT = 1 << OZ_WALL_SEGMENT,
-    FLOOR = 1 << OZ_WALL_FLOOR,
-    HOPPER = 1 << OZ_WALL_HOPPER,
-    DRUM = 1 << OZ_WALL_DRUM,
-    VESSEL = 1 << OZ_WALL_VESSEL,
-    TOOTHED = FLOOR | HOPPER | DRUM,
-    SQUARE = 1 << OZ_SHAPE_SQUARE,
-    POLYGON = 1 << OZ_SHAPE_POLYGON,
-    STAR = 1 << OZ_SHAPE_STAR,
-    VERTICES = 1 << OZ_SHAPE_VERTICES,
-    DISC = 1 << OZ_SHAPE_DISC
+    MADE = RANDOM | LATTICE | SINGLE
 };
 
-/* A bit for each law, of its name. */
+/* A bit for each shape, wall and law, of its name. */
+#define SHAPE_BIT(NAME, name, choice) NAME = 1 << OZ_SHAPE_##NAME,
+enum { OZ_SHAPES(SHAPE_BIT) };
+#undef SHAPE_BIT
+#define WALL_BIT(NAME, name, choice, fine) NAME = 1 << OZ_WALL_##NAME,
+#define FLAT_BIT(NAME, name, choice)       NAME = 1 << OZ_WALL_##NAME,
+enum { OZ_WALLS(WALL_BIT) OZ_TRIGRAINS_WALLS(FLAT_BIT) TOOTHED = FLOOR | HOPPER | DRUM };
+#undef WALL_BIT
+#undef FLAT_BIT
 #define LAW_BIT(NAME, name, choice, linear, stiffness, damping) NAME = 1 << OZ_LAW_##NAME,
 enum { OZ_LAWS(LAW_BIT) };
 #undef LAW_BIT

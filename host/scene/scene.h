@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "kernels/integrators.h"
 #include "kernels/laws.h"
+#include "kernels/walls.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -81,16 +82,6 @@ typedef struct OzMotion {
     double angular_velocity;   /* rad/s about the wall's point, trigrains                       */
 } OzMotion;
 
-typedef enum OzWallKind {
-    OZ_WALL_PLANE,
-    OZ_WALL_CYLINDER,
-    OZ_WALL_SEGMENT, /* trigrains from here on: a smooth straight wall from one point to another */
-    OZ_WALL_FLOOR,   /* a toothed floor of a width about a point                                 */
-    OZ_WALL_HOPPER,  /* two slopes with an opening between them, and upright sides above         */
-    OZ_WALL_DRUM,    /* the inside of a toothed circle                                           */
-    OZ_WALL_VESSEL   /* bottom and two sides                                                     */
-} OzWallKind;
-
 typedef struct OzWall {
     OzWallKind kind;
     double point[3], normal[3]; /* plane: normal is a unit vector into the free side       */
@@ -123,13 +114,18 @@ typedef enum OzPopulationKind {
 /* Corners of one grain's outline, or points of a star: cutting takes their number cubed. */
 enum { OZ_CORNERS_MAX = 300 };
 
-typedef enum OzShapeKind {
-    OZ_SHAPE_SQUARE,   /* four triangles about the middle                                     */
-    OZ_SHAPE_POLYGON,  /* a triangle on each edge about the middle; irregular if asked for    */
-    OZ_SHAPE_STAR,     /* corners in and out in turn                                          */
-    OZ_SHAPE_VERTICES, /* any simple polygon                                                  */
-    OZ_SHAPE_DISC
-} OzShapeKind;
+/* THE list of trigrains' shapes, X(NAME, name, choice): four triangles about the middle; a triangle
+ * on each edge about the middle, irregular if asked for; corners in and out in turn; any simple
+ * polygon; a disc. host/model/shape.c makes each (make_<name>). */
+#define OZ_SHAPES(X)                                                                               \
+    X(SQUARE, square, "square")                                                                    \
+    X(POLYGON, polygon, "polygon")                                                                 \
+    X(STAR, star, "star")                                                                          \
+    X(VERTICES, vertices, "vertices")                                                              \
+    X(DISC, disc, "disc")
+
+#define OZ_SHAPES_ID(NAME, name, choice) OZ_SHAPE_##NAME,
+typedef enum OzShapeKind { OZ_SHAPES(OZ_SHAPES_ID) OZ_SHAPES_END } OzShapeKind;
 
 typedef struct OzPopulation {
     OzPopulationKind kind;

@@ -1,0 +1,28 @@
+/* A wall as its distance reads it, and what the distance answers. A wall touches the cap at an end of a shaft (Pournin
+ * et al. 2005, sec. 3.2): two contacts for a rod lying flat, one for a sphere. */
+#ifndef OZ_KERNELS_WALL_SHAPE_H
+#define OZ_KERNELS_WALL_SHAPE_H
+
+#include "kernels/vec3.h"
+#if OZ_FINE
+#include "kernels/fine.h"
+#endif
+
+/* What normal and radius mean is the kind's. */
+typedef struct OzWallShape {
+    scalar kind;      /* OZ_WALL_...                                                */
+    scalar point[3];  /* where distances are measured from; on a device in a place's units, else m */
+    scalar normal[3]; /* numbers without a unit: of a plane the unit vector into the free side */
+    scalar radius;    /* m                                                          */
+} OzWallShape;
+
+/* Where a cap's centre stands against a wall. */
+typedef struct OzWallDistance {
+    OzVec3 normal; /* unit vector into the free side        */
+    real distance; /* m, of the cap's centre from the wall  */
+#if OZ_FINE
+    real overlap; /* m, of the cap and the wall */
+#endif
+} OzWallDistance;
+
+#endif
