@@ -9,10 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
-enum { NAME_SIZE = 256, LINE_SIZE = 4096 };
+enum { NAME_SIZE = 256, LINE_SIZE = 4096, HEADERS = 1024, ARROWS = 8192 };
 
 /* Rooms in floors: a room includes itself and lower floors only. Files directly under host/ are
  * rooms of their own. draw and compute share a floor, so neither sees the other; both see a
@@ -21,10 +22,9 @@ static const struct {
     const char *name;
     int floor;
 } rooms[] = {
-    {"base", 0},    {"scene", 1},   {"model", 2},    {"observe", 3},
-    {"draw", 4},    {"compute", 4}, {"cli", 5},      {"inputs", 5},
-    {"outputs", 6}, {"plan", 6},    {"ensemble", 6}, {"room", 6},
-    {"course", 7},  {"run", 8},     {"study", 9},    {"main", 10},
+    {"base", 0},   {"scene", 1},  {"model", 2},   {"observe", 3}, {"draw", 4},     {"compute", 4},
+    {"cli", 5},    {"inputs", 5}, {"outputs", 6}, {"plan", 6},    {"ensemble", 6}, {"room", 6},
+    {"course", 7}, {"run", 8},    {"study", 9},   {"main", 10},
 };
 
 /* An outside header's beginning, and the only place whose files may include it. */
@@ -169,6 +169,138 @@ static void test_rules_can_fail(void **state)
     assert_true(outsider_is_allowed("host/run.c", "math.h"));
 }
 
+/* Headers by their path below the source folder, and which includes which. */
+typedef struct Arrows {
+    char name[HEADERS][NAME_SIZE];
+    int from[ARROWS], to[ARROWS];
+    int header_count, arrow_count;
+} Arrows;
+
+static int header_index(Arrows *arrows, const char *name)
+{
+    int i = 0;
+    while (i < arrows->header_count && strcmp(arrows->name[i], name) != 0) {
+        i++;
+    }
+    if (i == arrows->header_count) {
+        assert_true(arrows->header_count++ < HEADERS);
+        snprintf(arrows->name[i], NAME_SIZE, "%s", name);
+    }
+    return i;
+}
+
+static void add_arrow(Arrows *arrows, const char *from, const char *to)
+{
+    assert_true(arrows->arrow_count < ARROWS);
+    arrows->from[arrows->arrow_count] = header_index(arrows, from);
+    arrows->to[arrows->arrow_count++] = header_index(arrows, to);
+}
+
+/* Takes away what includes nothing that is left, until nothing more goes. Returns the number of
+ * arrows that are left, printing each: they make circles or lead into one. */
+static int count_circular(const Arrows *arrows)
+{
+    bool gone[HEADERS] = {false}, again = true;
+    while (again) {
+        bool leads[HEADERS] = {false};
+        again = false;
+        for (int i = 0; i < arrows->arrow_count; i++) {
+            leads[arrows->from[i]] |= !gone[arrows->to[i]];
+        }
+        for (int i = 0; i < arrows->header_count; i++) {
+            again |= !gone[i] && !leads[i];
+            gone[i] = !leads[i];
+        }
+    }
+    int left = 0;
+    for (int i = 0; i < arrows->arrow_count; i++) {
+        if (!gone[arrows->to[i]]) {
+            print_error("%s includes %s in a circle or on the way to one\n",
+                        arrows->name[arrows->from[i]], arrows->name[arrows->to[i]]);
+            left++;
+        }
+    }
+    return left;
+}
+
+/* name receives the path below the source folder of what path includes as header: a neighbour, one
+ * below host/ or one below the source folder itself. False for what is none of ours. */
+static bool find_header(char name[NAME_SIZE], const char *path, const char *header)
+{
+    int folder = (int)(strrchr(path, '/') - path);
+    const char *const places[] = {path, "host", ""};
+    for (int i = 0; i < 3; i++) {
+        char full[NAME_SIZE * 4];
+        snprintf(name, NAME_SIZE, "%.*s%s%s", i ? NAME_SIZE : folder, places[i], i < 2 ? "/" : "",
+                 header);
+        snprintf(full, sizeof full, "%s/%s", ORZO_SOURCE, name);
+        if (access(full, R_OK) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void add_includes(Arrows *arrows, const char *full_path)
+{
+    char line[LINE_SIZE], name[NAME_SIZE], mark, *header;
+    const char *path = full_path + strlen(ORZO_SOURCE) + 1;
+    FILE *file = fopen(full_path, "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file)) {
+        if (parse_include(line, &header, &mark) && mark == '"' && find_header(name, path, header)) {
+            add_arrow(arrows, path, name);
+        }
+    }
+    fclose(file);
+}
+
+static Arrows house, made_up;
+
+static void test_no_headers_in_a_circle(void **state)
+{
+    (void)state;
+    const char *patterns[] = {"host/*.h",    "host/*/*.h",    "host/*/*/*.h",
+                              "kernels/*.h", "kernels/*/*.h", "tests/*.h"};
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
+        char pattern[NAME_SIZE * 4];
+        glob_t found;
+        snprintf(pattern, sizeof pattern, "%s/%s", ORZO_SOURCE, patterns[i]);
+        if (glob(pattern, 0, NULL, &found) != 0) {
+            continue;
+        }
+        for (size_t f = 0; f < found.gl_pathc; f++) {
+            add_includes(&house, found.gl_pathv[f]);
+        }
+        globfree(&found);
+    }
+    assert_true(house.arrow_count > 300); /* about as many as there are headers: they were found */
+    assert_int_equal(count_circular(&house), 0);
+}
+
+static void test_circles_are_seen(void **state)
+{
+    (void)state;
+    add_arrow(&made_up, "a.h", "b.h");
+    add_arrow(&made_up, "b.h", "c.h");
+    add_arrow(&made_up, "a.h", "c.h");
+    assert_int_equal(count_circular(&made_up), 0);
+    add_arrow(&made_up, "d.h", "a.h");
+    add_arrow(&made_up, "c.h", "e.h");
+    assert_int_equal(count_circular(&made_up), 0);
+    add_arrow(&made_up, "c.h", "a.h");
+    /* a, b, c among each other and d, which leads to them; e is out of it */
+    assert_int_equal(count_circular(&made_up), 5);
+    char name[NAME_SIZE];
+    assert_true(find_header(name, "kernels/rods.h", "real.h"));
+    assert_string_equal(name, "kernels/real.h");
+    assert_true(find_header(name, "tests/rig.h", "model/place.h"));
+    assert_string_equal(name, "host/model/place.h");
+    assert_true(find_header(name, "host/model/place.h", "kernels/real.h"));
+    assert_string_equal(name, "kernels/real.h");
+    assert_false(find_header(name, "host/model/place.h", "math.h"));
+}
+
 /* oz_grains_axis may be in grains.c alone. The table that the build makes is the one exception;
  * names that begin with __ are the sanitizers' own. */
 static bool symbol_is_allowed(const char *file, const char *symbol)
@@ -219,8 +351,8 @@ static void test_linking_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rules_can_fail),
-        cmocka_unit_test(test_includes_run_downwards),
+        cmocka_unit_test(test_rules_can_fail),   cmocka_unit_test(test_includes_run_downwards),
+        cmocka_unit_test(test_circles_are_seen), cmocka_unit_test(test_no_headers_in_a_circle),
         cmocka_unit_test(test_linking_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

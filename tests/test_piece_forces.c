@@ -1,5 +1,5 @@
-/* Pieces' forces and the reference that steps them: lists against all pairs, momentum, discs' laws
- * against closed forms, walls that move and go, the ledger, substeps, and what each guard says. */
+/* Pieces' forces and the reference that steps them: lists against all pairs, momentum, walls that
+ * move and go, the ledger, substeps, and what each guard says. */
 #include "piece_rig.h"
 
 #include "base/random.h"
@@ -122,84 +122,6 @@ static void test_counts(void **state)
     rig_close(&rig);
 }
 
-static const char *const hooke = "contact: {contact_time: 1e-4, restitution: 0.6, friction: 0}";
-
-/* Two discs that meet head on; the first flies. */
-static void open_discs(PieceRig *rig, const char *contact, double step, double aside)
-{
-    rig_read(rig,
-             "gravity: [0, 0]\nintegrator: gear4\nobserve: {ledger: true}\n"
-             "time: {step: %g, duration: 1}\n%s",
-             step, contact);
-    OzPieces *p = rig_grains(rig, 2, 1, 0);
-    oz_pieces_set_disc(p, 0, (double[2]){0, 0}, 1e-3, 4);
-    oz_pieces_set_disc(p, 1, (double[2]){2e-3, aside}, 1e-3, 4);
-    p->velocity[0] = 0.1;
-    rig_start(rig);
-}
-
-/* The asked restitution, up to where first touch falls in a step: 1e-3 at 500 steps a hit. */
-static void test_disc_restitution(void **state)
-{
-    (void)state;
-    PieceRig rig;
-    open_discs(&rig, hooke, 2e-7, 1e-5);
-    rig_advance(&rig, 1000);
-    double after = rig.now.velocity[3] - rig.now.velocity[0];
-    assert_true(fabs(after / 0.1 - 0.6) < 1e-3);
-    assert_true(fabs(rig.now.spin[2]) < 1e-9); /* rounding of the contact point */
-    double start = 0.5 * rig.grains.pieces->mass[0] * 0.01;
-    OzPieceLedger ledger = rig.now.piece_ledger;
-    assert_true(ledger.disc_friction == 0);
-    assert_true(fabs(rig_energy(&rig.now) + ledger.disc_damping - start) < 1e-3 * start);
-    rig_close(&rig);
-}
-
-/* Hertz without damping: the deepest overlap (5 m* v^2 / (4 Y))^(2/5). What the discs lose of their
- * motion on the way is in the contact: 2/5 Y xi^(5/2). */
-static void test_disc_hertz(void **state)
-{
-    (void)state;
-    PieceRig rig;
-    double deepest = 0, stored = 0, start;
-    open_discs(&rig,
-               "contact: {law: hertz, hertz_stiffness: 1e6, normal_damping_rate: 0, "
-               "tangential_damping_rate: 0}",
-               2e-7, 0);
-    start = rig_energy(&rig.now);
-    for (int64_t step = 1; step < 2000; step += 5) {
-        rig_advance(&rig, step);
-        stored = fmax(stored, rig.now.pieces.contact_energy);
-        assert_true(fabs(rig_energy(&rig.now) / start - 1) < 1e-4);
-        const double *x = rig.now.piece_position;
-        deepest = fmax(deepest, 2e-3 - hypot(x[2] - x[0], x[3] - x[1]));
-    }
-    double mass = rig.grains.pieces->mass[0] / 2;
-    double expected = pow(5 * mass * 0.01 / (4 * 1e6), 0.4);
-    assert_true(fabs(deepest / expected - 1) < 1e-4);
-    assert_true(fabs(stored / (0.5 * start) - 1) < 1e-4); /* half is the common motion's */
-    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-6);
-    rig_close(&rig);
-}
-
-/* A hit without damping of two discs (radius 1 mm, 0.1 m/s) goes v t_c / pi deep: with a contact time for 0.8 mm,
- * 0.4 of the diameter, it is beyond a share s for t_c (1 - 2 asin(s / 0.4) / pi), and ends at the speed it had. A count
- * more or less lies between two steps. */
-static void test_deep_discs_are_counted(void **state)
-{
-    (void)state;
-    PieceRig rig;
-    const double time = 0.8e-3 * pi / 0.1, step = 1e-5;
-    char contact[128];
-    snprintf(contact, sizeof contact, "contact: {contact_time: %.17g, restitution: 1, friction: 0}", time);
-    open_discs(&rig, contact, step, 0);
-    rig_advance(&rig, (int64_t)(1.2 * time / step));
-    double expected = time * (1 - 2 * asin(0.25 / 0.4) / pi) / step;
-    assert_true(fabs((double)rig.now.deep_count - expected) <= 1);
-    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-4);
-    rig_close(&rig);
-}
-
 /* A corner of a square pressed into a floor, beams as stiff as need be: counted from a quarter of a triangle, stopped
  * where it is told to. */
 static void test_a_limit_of_ones_own_ends_a_run(void **state)
@@ -229,68 +151,6 @@ static void test_a_limit_of_ones_own_ends_a_run(void **state)
         assert_int_equal(rig.now.deep_count, cases[k].deep);
         rig_close(&rig);
     }
-}
-
-/* A fast graze slides all the way: the impulse across is friction times that along the normal,
- * against the sliding: the second disc, which is passed by on its lower left, is dragged along to
- * the lower right, and both are turned counter-clockwise, by 2 / (m r) of it. */
-static void test_disc_friction(void **state)
-{
-    (void)state;
-    PieceRig rig;
-    double before[3], after[3];
-    open_discs(&rig,
-               "contact: {law: hertz, hertz_stiffness: 1e9, normal_damping_rate: 0, "
-               "tangential_damping_rate: 1e6, friction: 0.01}",
-               5e-8, 0.5e-3);
-    double before_energy = rig_energy(&rig.now);
-    rig_momentum(&rig.now, before);
-    rig_advance(&rig, 16000);
-    rig_momentum(&rig.now, after);
-    for (int k = 0; k < 3; k++) {
-        assert_true(fabs(after[k] - before[k]) < 1e-12 * before[0] * (k == 2 ? 1e-3 : 1) + 1e-25);
-    }
-    const double *v = &rig.now.velocity[3];
-    double mass = rig.grains.pieces->mass[1], spin = rig.now.spin[5];
-    double normal[2] = {sqrt(1 - 0.0625), 0.25}; /* at first touch, 2 mm apart */
-    double along = mass * (v[0] * normal[0] + v[1] * normal[1]);
-    double across = mass * (v[1] * normal[0] - v[0] * normal[1]);
-    /* the normal turns by 1e-4 during the hit, a hundredth of the friction */
-    assert_true(along > 0 && fabs(across / along / -0.01 - 1) < 0.02);
-    assert_true(fabs(spin / (-2 * across / (mass * 1e-3)) - 1) < 0.02);
-    assert_true(fabs(rig.now.spin[2] / spin - 1) < 1e-9);
-    /* what is not left of the motion went into sliding: its dashpot has nothing to do with the ends
-     */
-    double lost = rig.now.piece_ledger.disc_friction;
-    assert_true(lost > 0 && fabs((before_energy - rig_energy(&rig.now)) / lost - 1) < 0.01);
-    rig_close(&rig);
-}
-
-/* A disc at rest over a wall's triangle: it sinks by m g / k, over an edge or over a corner. */
-static void check_rest(const double corners[6])
-{
-    PieceRig rig;
-    rig_read(&rig, "gravity: [0, -10]\nintegrator: rk4\ntime: {step: 1e-6, duration: 1}\n"
-                   "contact: {contact_time: 2e-4, restitution: 0.1}\n"
-                   "walls:\n  - {kind: segment, from: [1, 0], to: [-1, 0]}");
-    OzPieces *p = rig_grains(&rig, 1, 1, 0);
-    double sunk = 10 / oz_piece_laws_disc(&rig.scene, 0).stiffness;
-    oz_pieces_set_disc(p, 0, (double[2]){0, 1e-3 - 0.5 * sunk}, 1e-3, 4);
-    must(oz_pieces_set_triangle(p, 1, corners, 0));
-    rig_start(&rig);
-    rig_advance(&rig, 5000);
-    assert_true(fabs((1e-3 - rig.now.piece_position[1]) / sunk - 1) < 1e-3);
-    assert_int_equal(rig.now.pieces.wall_touches, 1);
-    assert_int_equal(rig.now.pieces.touches[OZ_TOUCH_DISC], 1);
-    assert_int_equal(rig.now.pieces.grain_pairs, 0);
-    rig_close(&rig);
-}
-
-static void test_disc_on_triangle(void **state)
-{
-    (void)state;
-    check_rest((double[6]){-2e-3, 0, 0, -3e-3, 3e-3, 0});
-    check_rest((double[6]){0, 0, -2e-3, -3e-3, 2e-3, -3e-3});
 }
 
 /* A die on a floor that goes up and down at 40 Hz: energy comes from the floor's work alone. */
@@ -447,12 +307,7 @@ int main(void)
         cmocka_unit_test(test_pairs),
         cmocka_unit_test(test_sums),
         cmocka_unit_test(test_counts),
-        cmocka_unit_test(test_disc_restitution),
-        cmocka_unit_test(test_disc_hertz),
-        cmocka_unit_test(test_deep_discs_are_counted),
         cmocka_unit_test(test_a_limit_of_ones_own_ends_a_run),
-        cmocka_unit_test(test_disc_friction),
-        cmocka_unit_test(test_disc_on_triangle),
         cmocka_unit_test(test_moving_floor),
         cmocka_unit_test(test_walls_go_and_turn),
         cmocka_unit_test(test_substeps),

@@ -1,22 +1,11 @@
-/* Shapes of grains: their areas against formulas, their outlines closed, their beams; polygons cut
- * into triangles whatever their corners; what is refused, with its reason; and a hopper's corners.
- */
+/* Shapes of grains: their areas against formulas, their outlines closed, their beams; what is
+ * refused, with its reason; and a hopper's corners. */
+#include "outlines.h"
+
 #include "model/piece_walls.h"
 #include "model/shape.h"
-#include "model/triangulation.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
-
-#include <cmocka.h>
-
-static const double PI = 3.14159265358979323846;
-
-/* Sums of some tens of products. */
-#define ROUNDING 1e-13
 
 static OzScene scene_with(OzPopulation *population)
 {
@@ -48,29 +37,6 @@ static void refuses(OzPopulation population, const char *words)
     if (!strstr(oz_status_text(), words) || !strstr(oz_status_text(), "grains.yaml:7: ")) {
         fail_msg("%s", oz_status_text());
     }
-}
-
-static void close_to(double a, double b)
-{
-    if (!(fabs(a - b) <= ROUNDING * fabs(b))) {
-        fail_msg("%.17g is not %.17g", a, b);
-    }
-}
-
-/* Area inside the outline alone, and how far its edges, laid end to end, are from closing. */
-static double outline_area(const OzPatch *patch, double gap[2])
-{
-    double area = 0, c[6];
-    gap[0] = gap[1] = 0;
-    for (int k = 0; k < patch->outline_count; k++) {
-        oz_patch_corners(patch, patch->outline[2 * k], c);
-        int side = patch->outline[2 * k + 1];
-        const double *a = c + 2 * side, *b = c + 2 * ((side + 1) % 3);
-        area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
-        gap[0] += b[0] - a[0];
-        gap[1] += b[1] - a[1];
-    }
-    return area;
 }
 
 /* What holds for every grain: triangles fill the outline, which closes, about the centre of mass.
@@ -185,170 +151,6 @@ static void small_grains_are_refused_with_the_reason(void **state)
         "below beams.");
     refuses((OzPopulation){.shape = OZ_SHAPE_SQUARE, .edge = {1e-3, 1.2e-3}},
             "a grain, the last of 1000 drawn, has a beam of");
-}
-
-/* Comb of four teeth, spiral, arrow, L, thin quadrilateral; each as x y of its corners. */
-static const double COMB[] = {0, 0, 7, 0, 7, 3, 6, 3, 6, 1, 5, 1, 5, 3, 4, 3,
-                              4, 1, 3, 1, 3, 3, 2, 3, 2, 1, 1, 1, 1, 3, 0, 3};
-static const double SPIRAL[] = {0, 0, 6, 0, 6, 6, 1, 6, 1, 2, 4, 2, 4, 4,
-                                3, 4, 3, 3, 2, 3, 2, 5, 5, 5, 5, 1, 0, 1};
-static const double ARROW[] = {0, 0, 4, 2, 0, 4, 1, 2};
-static const double ELL[] = {0, 0, 3, 0, 3, 1, 1, 1, 1, 3, 0, 3};
-static const double KITE[] = {-10, 0, 0, -1, 10, 0, 0, 1};
-
-static const struct {
-    const double *corners;
-    int count;
-} awkward[] = {{COMB, 16}, {SPIRAL, 14}, {ARROW, 4}, {ELL, 6}, {KITE, 4}};
-
-static double shoelace(const double *p, int n)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++) {
-        const double *a = p + 2 * i, *b = p + 2 * ((i + 1) % n);
-        sum += 0.5 * (a[0] * b[1] - b[0] * a[1]);
-    }
-    return sum;
-}
-
-static bool holds(const OzPatch *patch, int t, double x, double y)
-{
-    double c[6];
-    oz_patch_corners(patch, t, c);
-    for (int k = 0; k < 3; k++) {
-        const double *a = c + 2 * k, *b = c + 2 * ((k + 1) % 3);
-        if ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1]) <= 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* No point is in two triangles; with equal areas that makes a tiling. */
-static void check_tiling(const OzPatch *patch)
-{
-    OzRandom random = oz_random_stream(3, 0);
-    for (int i = 0; i < 500; i++) {
-        double x = oz_random_uniform(&random, -10, 10), y = oz_random_uniform(&random, -1, 7);
-        int count = 0;
-        for (int t = 0; t < patch->triangle_count; t++) {
-            count += holds(patch, t, x, y);
-        }
-        assert_true(count <= 1);
-    }
-}
-
-static void cuts_awkward_polygons(void **state)
-{
-    (void)state;
-    for (size_t i = 0; i < sizeof awkward / sizeof *awkward; i++) {
-        int n = awkward[i].count;
-        double turned[32];
-        for (int k = 0; k < n; k++) {
-            memcpy(turned + 2 * k, awkward[i].corners + 2 * (n - 1 - k), 2 * sizeof(double));
-        }
-        for (int way = 0; way < 2; way++) {
-            OzPatch patch;
-            assert_int_equal(
-                oz_triangulation_make(&patch, way ? turned : awkward[i].corners, n, "here"), OZ_OK);
-            assert_int_equal(patch.triangle_count, n - 2);
-            assert_int_equal(patch.joint_count, n - 3);
-            assert_int_equal(patch.outline_count, n);
-            close_to(patch.area, fabs(shoelace(awkward[i].corners, n)));
-            double gap[2];
-            close_to(outline_area(&patch, gap), patch.area);
-            check_tiling(&patch);
-            oz_patch_free(&patch);
-        }
-    }
-}
-
-/* Of the kite's diagonals the short one gives the fatter triangles. */
-static void cuts_across_the_short_way(void **state)
-{
-    (void)state;
-    OzPatch patch;
-    assert_int_equal(oz_triangulation_make(&patch, KITE, 4, "here"), OZ_OK);
-    close_to(oz_patch_joint_length(&patch, 0), 20.0 / 3);
-    oz_patch_free(&patch);
-}
-
-/* The angle at a triangle's corner that the other one has not. */
-static double angle_across(const OzPatch *patch, int t, int other)
-{
-    const int *own = patch->triangle + 3 * t, *its = patch->triangle + 3 * other;
-    int k = 0;
-    while (k < 2 && (own[k] == its[0] || own[k] == its[1] || own[k] == its[2])) {
-        k++;
-    }
-    const double *a = patch->vertex + 2 * own[k], *b = patch->vertex + 2 * own[(k + 1) % 3],
-                 *c = patch->vertex + 2 * own[(k + 2) % 3];
-    double sine = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-    double cosine = (b[0] - a[0]) * (c[0] - a[0]) + (b[1] - a[1]) * (c[1] - a[1]);
-    return atan2(sine, cosine);
-}
-
-/* Angles across an edge add up to half a turn at most, or the other diagonal would be better. */
-static void check_delaunay(const OzPatch *patch)
-{
-    for (int k = 0; k < patch->joint_count; k++) {
-        int a = patch->joint[2 * k], b = patch->joint[2 * k + 1];
-        assert_true(angle_across(patch, a, b) + angle_across(patch, b, a) <= PI + 1e-9);
-    }
-}
-
-/* Random star-shaped polygons, most of them jagged. */
-static void cuts_random_polygons(void **state)
-{
-    (void)state;
-    for (uint64_t seed = 0; seed < 200; seed++) {
-        OzRandom random = oz_random_stream(seed, 0);
-        double corners[80];
-        int n = 3 + (int)(seed % 38);
-        for (int i = 0; i < n; i++) {
-            double radius = oz_random_uniform(&random, 0.2, 1);
-            corners[2 * i] = radius * cos(2 * PI * i / n);
-            corners[2 * i + 1] = radius * sin(2 * PI * i / n);
-        }
-        OzPatch patch;
-        assert_int_equal(oz_triangulation_make(&patch, corners, n, "here"), OZ_OK);
-        assert_true(fabs(patch.area - shoelace(corners, n)) <= ROUNDING * n);
-        assert_int_equal(patch.joint_count, n - 3);
-        check_delaunay(&patch);
-        oz_patch_free(&patch);
-    }
-}
-
-static void refuse_corners(const double *corners, int count, const char *text)
-{
-    OzPatch patch;
-    assert_int_equal(oz_triangulation_make(&patch, corners, count, "grains.yaml:7"), OZ_ERR_INPUT);
-    assert_string_equal(oz_status_text(), text);
-    assert_null(patch.vertex);
-}
-
-static void refuses_what_is_no_simple_polygon(void **state)
-{
-    (void)state;
-    const double closed[] = {0, 0, 1, 0, 0, 1, 0, 0};
-    refuse_corners(
-        closed, 4,
-        "grains.yaml:7: corners 0 and 3 of the grain are the same point (0, 0); expected "
-        "each once, the first not repeated at the end");
-    const double straight[] = {0, 0, 1, 0, 2, 0, 0, 1};
-    refuse_corners(
-        straight, 4,
-        "grains.yaml:7: corner 1 (1, 0) of the grain lies on the line of its neighbours; "
-        "expected it left out");
-    const double bow[] = {0, 0, 1, 1, 1, 0, 0, 1};
-    refuse_corners(bow, 4,
-                   "grains.yaml:7: the edges from corner 0 and from corner 2 of the grain meet; "
-                   "expected a simple polygon");
-    const double touching[] = {0, 0, 4, 0, 4, 2, 2, 0, 0, 2};
-    refuse_corners(touching, 5,
-                   "grains.yaml:7: the edges from corner 0 and from corner 2 of the grain meet; "
-                   "expected a simple polygon");
-    refuse_corners(touching, 2, "grains.yaml:7: a grain of 2 corners; expected 3 to 300");
 }
 
 /* The backs of side and slope meet at the knee's outer corner, and nothing lies beyond the sides'.
@@ -466,10 +268,6 @@ int main(void)
         cmocka_unit_test(random_polygons_keep_to_the_limits),
         cmocka_unit_test(discs_are_whole),
         cmocka_unit_test(small_grains_are_refused_with_the_reason),
-        cmocka_unit_test(cuts_awkward_polygons),
-        cmocka_unit_test(cuts_across_the_short_way),
-        cmocka_unit_test(cuts_random_polygons),
-        cmocka_unit_test(refuses_what_is_no_simple_polygon),
         cmocka_unit_test(hoppers_have_whole_corners),
         cmocka_unit_test(given_corners_keep_their_symmetry),
         cmocka_unit_test(other_corners_make_the_fewest_triangles),
