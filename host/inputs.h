@@ -19,8 +19,8 @@ OzStatus oz_inputs_add_scene(OzInputs *inputs, const OzScene *scene);
 OzStatus oz_inputs_add(OzInputs *inputs, const char *path);
 
 /* Refuses, with OZ_ERR_INPUT and by name, an input that a command in this folder would write or
- * remove: one that use writes or a marker names, in the folder or in a folder right below it. A
- * folder that is not there is fine. Touches nothing. */
+ * remove. Such an input lies in the folder, or in a folder right below it, and is one of the files that
+ * `use` writes or that a marker names. A folder that is not there is fine. Changes nothing. */
 OzStatus oz_inputs_check(const OzInputs *inputs, const char *folder, const OzFolderUse *use);
 
 void oz_inputs_free(OzInputs *inputs);

@@ -35,8 +35,8 @@ OZ_INLINE void oz_cells_spot(const OzWork *w, int slot, spot_kind spot[3])
     spot[2] = record[2];
 }
 
-/* By shape, not by the length of the shaft's vector: that one's rounding turns with the grain, and pairs of
- * equal reach would change their order. */
+/* Half-length + radius of a grain, m, from its shape. The length of the shaft's vector would not do: its rounding
+ * changes as the grain turns, so that two grains of equal reach would change their order in a pair. */
 OZ_INLINE scalar oz_cells_reach(const OzWork *w, int slot)
 {
     if (OZ_EQUAL) {
@@ -54,8 +54,8 @@ OZ_INLINE void oz_cells_clear(OzWork *w, int item, int stride)
     }
 }
 
-/* Counts the region's grains into cells, two places on, so that after the scan and the filling cell c is
- * cell_first[c] ... cell_first[c + 1]. */
+/* Counts the region's grains by cell. The count of cell c goes into cell_first[c + 2]: after the scan and the filling,
+ * each of which moves entries by one place, cell c holds the slots cell_first[c] ... cell_first[c + 1]. */
 OZ_INLINE void oz_cells_bin(OzWork *w, int region)
 {
     for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
@@ -87,7 +87,7 @@ OZ_INLINE void oz_cells_fill(OzWork *w, int region)
     }
 }
 
-/* Sorts the slots of a cell by id, so that the order of grains does not depend on who was faster. */
+/* Sorts the slots of a cell by id, so that the order of grains does not depend on which work-item was faster. */
 OZ_INLINE void oz_cells_arrange_one(OzWork *w, int first, int last)
 {
     for (int i = first + 1; i < last; i++) {

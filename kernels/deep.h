@@ -1,5 +1,5 @@
-/* The guard of contacts' depth: unusual ones are counted, those beyond any meaning stop. OpenCL C
- * only. */
+/* The guard of contacts' depth. Contacts deeper than guards.overlap.warn are counted; one deeper than
+ * guards.overlap.stop, or whose shafts meet, stops the run. OpenCL C only. */
 #ifndef OZ_KERNELS_DEEP_H
 #define OZ_KERNELS_DEEP_H
 
@@ -47,8 +47,9 @@ OZ_INLINE void oz_deep_judge(OzWork *w, OzDeep deep, const int *slots, int step)
     oz_work_stop_lanes(w, met, OZ_STOP_MET, step, slots);
 }
 
-/* slots: of the first grain. Tells whether any contact was worth a look. A step moves an end by half a
- * radius at most, so that none passes unseen from below deep_look to where shafts meet. */
+/* slots: of the first grain. Tells whether any contact was worth a look: those below deep_look are passed
+ * over. A step moves an end by half a radius at most, so that no contact gets from there to where shafts
+ * meet without being looked at. */
 OZ_INLINE int oz_deep_guard(OzWork *w, OzDeep deep, const int *slots, int step)
 {
     mask look = deep.counts & oz_depth_beyond(deep.overlap, deep.unit, w->parameters->deep_look);

@@ -1,6 +1,7 @@
-/* How deep a contact of rods is, against what a run may go on with. The unit is the smaller radius,
- * at a wall half of the radius: two shafts of a kind meet at 2, and so do a shaft and a wall, which
- * is as a mirror. Every comparison fails where a number is none. */
+/* How deep a contact of rods is, against what a run may go on with. The unit is the smaller radius
+ * of two grains, at a wall half of the grain's radius. So the depth at which the shafts of two equal
+ * grains meet is 2, and so is that at which a shaft lies in a wall, which acts like the grain's mirror
+ * image. With NaN every comparison is false. */
 #ifndef OZ_KERNELS_DEPTH_H
 #define OZ_KERNELS_DEPTH_H
 
@@ -12,9 +13,9 @@ OZ_INLINE mask oz_depth_beyond(real overlap, real unit, scalar most)
     return !(overlap <= REAL(most) * unit);
 }
 
-/* Whether the shafts, reach (m) apart at first touch, are at each other or will be a step later: a
- * contact that goes through has its normal turned round and then pulls the two on. rate: m/s, of
- * the overlap. */
+/* Whether the shafts, reach (m) apart at first touch, meet now or will have met a step later, at the
+ * overlap's present rate (m/s). Once they have passed each other the normal points the other way, and
+ * the contact would push the grains on through each other. */
 OZ_INLINE mask oz_depth_meets(real overlap, real rate, real reach, scalar dt)
 {
     return !(overlap + oz_larger(rate, REAL(0.0)) * REAL(dt) < reach);

@@ -7,14 +7,15 @@
 
 #if OZ_WALL_COUNT > 0
 
-/* The step at whose beginning walls stand where the forces of this step meet them. */
+/* The forces of a step see the walls where they stand at the beginning of this step: the next one where the
+ * integrator moves grains before the forces. */
 #if OZ_MOVES_BEFORE
 #define OZ_ENCLOSURE_STEP(step) ((step) + 1)
 #else
 #define OZ_ENCLOSURE_STEP(step) (step)
 #endif
 
-/* One end of the grains at one wall, in one step. */
+/* One of the two ends of every grain, paired with one wall: what is the same for all grains in a step. */
 typedef struct OzSide {
     int wall;
     real sign;   /* of the half-shaft that leads to the end: 1 or -1 */
@@ -75,7 +76,8 @@ OZ_INLINE real oz_enclosure_fine(const OzWork *w, OzGrain grain, const OzSide *s
 }
 #endif
 
-/* Overlaps that no run may go on with; counts: lanes with an end of their own. */
+/* Stops the run at overlaps that no run may go on with. Lanes outside of `counts` are not looked at: they repeat
+ * an end of another lane. */
 OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact, real radius,
                                   mask counts, int step)
 {
@@ -86,7 +88,8 @@ OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact
     }
 }
 
-/* The picked ends that fill the lanes; of the last ones the first `count`, the others repeat one of them. */
+/* Forces of one block of picked ends, one end a lane. Only the first `count` lanes hold an end of their own; in a
+ * last block that is not full the lanes after them repeat one of these, and what they find is left out. */
 OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slots, int count, int step)
 {
     OzGrain grain = oz_work_grains(w, slots);
@@ -125,7 +128,8 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
 #endif
 }
 
-/* Ends the springs of a block's ends that are no longer picked, and keeps which are. */
+/* Notes which ends of a block are picked now (one bit a lane), and sets to zero the tangential springs of those that
+ * were picked before and are not any more. */
 OZ_INLINE void oz_enclosure_part(OzWork *w, size_t index, int bits)
 {
 #if OZ_HISTORY
@@ -160,8 +164,8 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
 #endif
 }
 
-/* The region's picked ends at one side. Every end at one wall is through before the next is begun: a grain's sum
- * must not depend on how ends share blocks. */
+/* Forces of a region's picked ends of one side. One side is finished for all grains of the region before the next is
+ * begun. So a grain's forces are added in the order of walls, whichever ends happen to share a block. */
 OZ_INLINE void oz_enclosure_side_region(OzWork *w, const OzSide *side, int region, int step)
 {
     int end = oz_work_block_end(w, region);

@@ -1,7 +1,8 @@
-/* Overlaps of equal digits however light a contact is (switch OZ_FINE, single precision). A place is an integer and a
- * carried remainder, a turn likewise; a float of the difference of two places, from which radii are taken, would leave of
- * an overlap what is above a unit. Here differences are taken in integers, remainders are counted in, and products and
- * sums keep their rounding (Dekker 1971, Knuth's sum of two). All in units of a place. */
+/* Overlaps with as many digits at a light contact as at a heavy one (switch OZ_FINE, single precision). A place is an
+ * integer with a carried remainder, and so is a turn. The overlap is the small difference of large numbers: in plain
+ * floats all of it below one unit of a place would be lost. Here differences of places are taken in integers,
+ * remainders are counted in, and the rounding of sums and products is carried along as a second number (Dekker 1971;
+ * Knuth's sum of two). All lengths are in units of a place. */
 #ifndef OZ_KERNELS_FINE_H
 #define OZ_KERNELS_FINE_H
 

@@ -29,8 +29,9 @@ OZ_INLINE OzVec3 oz_grain_velocity_at(OzGrain grain, OzVec3 arm)
     return oz_add(grain.velocity, oz_cross(grain.rate, arm));
 }
 
-/* What a push along normal at the shaft's point from_centre meets of the grain's rotation, 1/kg. The arm's
- * part along the normal does not matter, so the turning axis is across the shaft, whatever the shape. */
+/* The rotation's part in how easily a grain gives way to a push along the normal, 1/kg: to be added to its inverse
+ * mass. from_centre: the point of the shaft that is pushed, from the grain's centre. The surface point lies
+ * farther along the normal, which changes no torque, so the grain turns about an axis across its shaft. */
 OZ_INLINE real oz_grain_yield(OzGrain grain, OzVec3 from_centre, OzVec3 normal)
 {
     OzVec3 turning = oz_cross(from_centre, normal);

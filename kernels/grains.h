@@ -110,7 +110,8 @@ OZ_INLINE mask oz_grains_present(const OzWork *w, int block)
     return OZ_LANES_LOAD(number) > REAL(0.5);
 }
 
-/* Lanes whose place is within the domain. Each coordinate by itself: the larger of two numbers forgets a NaN. */
+/* Lanes whose place is within the domain. Coordinates are compared one by one: the larger of two numbers would hide
+ * that one of them is NaN. */
 OZ_INLINE mask oz_grains_inside(const OzWork *w, OzBody body)
 {
     real domain = REAL(w->parameters->domain);
@@ -119,8 +120,8 @@ OZ_INLINE mask oz_grains_inside(const OzWork *w, OzBody body)
            (oz_magnitude(oz_place_to_real(body.place.z)) < domain);
 }
 
-/* NaN, flight out of the domain, a step too long for the radius. Every comparison is false for NaN and says what is
- * sound. */
+/* Stops the run at NaN, at a grain outside of the domain, and at a step too long for a grain's radius. Comparisons ask
+ * for what is sound: with NaN they are false, so that NaN stops the run too. */
 OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape, int step)
 {
     real allowed = REAL(OZ_BODY_STEP_SHARE) * shape.radius;

@@ -7,7 +7,7 @@
 #include "kernels/units.h"
 #include "kernels/wall_shape.h"
 
-enum { OZ_WALLS_MAX = 16 }; /* walls of a scene: bounds OzParameters, which sits in constant memory */
+enum { OZ_WALLS_MAX = 16 }; /* the most walls of a scene: OzParameters has an entry for each */
 
 /* A wall as kernels see it. They come in the order of their kinds. */
 typedef struct OzWallParameters {
@@ -15,9 +15,10 @@ typedef struct OzWallParameters {
     OzLawConstants law;
 } OzWallParameters;
 
-/* Everything a person may change in mid-run, and what follows from it. Scalars only, in this order: the
- * single-precision copy is made by converting the double one number by number. The host's are in SI
- * units; on their way to a device they and all that kernels read are counted in `units`. */
+/* The numbers of a scene that kernels read, and what follows from them. They can change without a new kernel
+ * program. All are scalars: the host fills the struct in double, and the single-precision one is made by
+ * converting it number by number. On the host the numbers are in SI units; a device's are counted in `units`,
+ * as is everything that kernels read. */
 typedef struct OzParameters {
     scalar length_unit;   /* m per count of a place; 1 in double                              */
     scalar inverse_unit;  /* 1/m                                                              */
@@ -66,7 +67,8 @@ enum {
     OZ_STOP_MET = 16
 };
 
-/* Where a contact is deep, as bits; depths are counted in parts of one such share of their unit. */
+/* Between what a deep contact was found, as bits. Depths are whole numbers on a device: the depth in its unit
+ * (depth.h) times OZ_DEEP_SHARE. */
 enum { OZ_DEEP_PAIR = 1, OZ_DEEP_WALL = 2, OZ_DEEP_SHARE = 1000000 };
 
 enum { OZ_NEVER = 0x7fffffff };
@@ -111,8 +113,8 @@ enum {
     OZ_RECORD = 16
 };
 
-/* Words of a pair's result: force and torque on b, each with one to spare; torque on a, likewise, is kept apart:
- * b's grain comes for its part from elsewhere and then waits for one line of memory only. */
+/* Words of a pair's result. Force and torque on b stand together, each with one word to spare; the torque on a is in an
+ * array of its own. So the gather of b, which comes to these words in no order of memory, reads one cache line. */
 enum { OZ_F_FORCE = 0, OZ_F_TORQUE = 4, OZ_PAIR_FORCE = 8, OZ_PAIR_TORQUE = 4 };
 
 /* Words of a pair's tangential spring: m, one to spare. */

@@ -1,9 +1,9 @@
-/* Neighbour lists. The outer list holds every pair whose gap was below the sum of both grains' outer skins when it
- * was made from the hashed grid; the inner list, which the forces walk, those of them whose gap is below the sum of both grains'
- * inner skins. A grain's skins grow with its speed, so that slow and fast ones use theirs up at about the same time.
- * The inner list is made anew from the outer one as long as that covers every grain's motion and skin. A list too small raises
- * control->full with the sizes needed and leaves the springs where control->truth says, so that the host
- * can enlarge it and repeat: no pair is ever dropped. A pair's first grain is the one with the longer reach
+/* Neighbour lists. The outer list holds every pair whose gap was below the sum of both grains' outer
+ * skins when it was made from the hashed grid. The inner list, which the forces walk, holds those of them whose
+ * gap was below the sum of both grains' inner skins when it was made. A grain's skins grow with its speed, so that
+ * slow and fast ones use theirs up at about the same time. The inner list is made anew from the outer one as long
+ * as that covers every grain's motion and skin. A list too small raises control->full with the sizes needed and
+ * leaves the springs where control->truth says, so that the host can enlarge it and repeat: no pair is dropped. A pair's first grain is the one with the longer reach
  * (half-length + radius), then the lower id. OpenCL C only. */
 #ifndef OZ_KERNELS_LISTS_H
 #define OZ_KERNELS_LISTS_H
@@ -249,8 +249,9 @@ OZ_INLINE void oz_lists_measure(OzWork *w, int region)
     }
 }
 
-/* Takes numbers among those that have the grains of these pairs as second. Before anything is written for any of
- * them: counting in step with other work-items waits for all writing to be over. */
+/* back[l] receives a number for pair l: how many pairs with the same second grain have been counted before it. All
+ * numbers of a block are taken before any of its pairs is written, because counting with atomics waits until what
+ * was written before has arrived. */
 OZ_INLINE void oz_lists_count(OzWork *w, const int *outer, int count, int *back)
 {
 #if !OZ_SCATTER
@@ -260,7 +261,8 @@ OZ_INLINE void oz_lists_count(OzWork *w, const int *outer, int count, int *back)
 #endif
 }
 
-/* One pair of the outer list into the inner one; its number among those that have its second grain as such. */
+/* Puts one pair of the outer list into the inner one. back is the pair's number among those with the same second
+ * grain (oz_lists_count). */
 OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to, int back)
 {
     int a = w->outer_a[outer], b = w->outer_b[outer];

@@ -11,7 +11,8 @@ typedef struct OzSum {
     scalar4 force, torque;
 } OzSum;
 
-/* Where the force of a pair is kept, or the next one's that was picked after it. */
+/* Where the force of a picked pair is kept. Given a pair that was not picked, it is the place of the next pair that
+ * was. */
 OZ_INLINE uint oz_loads_from(const OzWork *w, uint pair)
 {
     uint before = (1u << (pair % OZ_LANES)) - 1;
@@ -19,8 +20,9 @@ OZ_INLINE uint oz_loads_from(const OzWork *w, uint pair)
            popcount((uint)w->pair_picked[pair / OZ_LANES] & before);
 }
 
-/* Where the force of a pair is kept: of one that was not picked, the zero behind all of them (arrays are made
- * zeroed). Which ones are picked cannot be foreseen, and a branch guessed wrong costs more than adding nothing. */
+/* Where to read the force of a pair. Behind the kept forces of all pairs stands a zero (arrays are made zeroed), which
+ * serves pairs that were not picked: a processor cannot foresee which are picked, and a branch that it guesses
+ * wrong costs more than adding zero. */
 OZ_INLINE uint oz_loads_at(const OzWork *w, uint pair)
 {
     uint none = (uint)(w->z.regions * w->z.inner_capacity);

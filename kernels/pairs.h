@@ -170,8 +170,8 @@ OZ_INLINE void oz_pairs_keep(OzWork *w, int kept, const scalar4 *forces, const s
 
 #endif
 
-/* Brings the forces of picked pairs from `at` on to where the grains find them; `counts` tells lanes that only fill
- * up. */
+/* Brings the forces of a block of picked pairs, from number `at` on, to where the grains find them. Lanes outside of
+ * `counts` only fill the block up and have no force of their own. */
 OZ_INLINE void oz_pairs_finish(OzWork *w, const OzPairs *pairs, int at, mask counts, OzPairForce pair)
 {
     scalar4 forces[OZ_LANES], torques_a[OZ_LANES], torques_b[OZ_LANES];
@@ -210,7 +210,9 @@ OZ_INLINE void oz_pairs_store_springs(OzWork *w, const int *items, OzVec3 spring
     }
 }
 
-/* A block of picked pairs from `at` on; of the last ones the first `count`, the others repeat one of them. */
+/* Forces of one block of picked pairs, one pair a lane, from number `at` on. Only the first `count` lanes hold a pair
+ * of their own; in a last block that is not full the lanes after them repeat one of these, and what they find is left
+ * out. */
 OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count, OzLawConstants law,
                               int step)
 {
@@ -241,7 +243,8 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
 #endif
 }
 
-/* Ends the springs of a block's pairs that are no longer picked. */
+/* Notes which pairs of a block are picked now (one bit a lane), and sets to zero the tangential springs of those that
+ * were picked before and are not any more. */
 OZ_INLINE void oz_pairs_part(OzWork *w, int first, int bits)
 {
     int gone = w->pair_picked[first / OZ_LANES] & ~bits;

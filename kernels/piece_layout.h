@@ -8,9 +8,9 @@
 
 enum { OZ_PIECE_WALLS_MAX = 16 };
 
-/* What a kernel needs to know of a scene. Scalars only: the host fills the single precision version by
- * converting the double one number by number. The host's is in SI units; on their way to a device it and all that
- * kernels read are counted in `units`. */
+/* The numbers of a scene that kernels read. All are scalars: the host fills the struct in double, and the
+ * single-precision one is made by converting it number by number. On the host the numbers are in SI units; a device's
+ * are counted in `units`, as is everything that kernels read. */
 typedef struct OzPieceParameters {
     OzUnits units;        /* for the host alone                                               */
     scalar dt;            /* s                                                                */

@@ -281,8 +281,8 @@ OZ_INLINE void oz_piece_lists_order(OzPieceWork *w)
 #define oz_piece_lists_index(w, a, b, to) ((void)0)
 #endif
 
-/* The region's inner list, filled up to a whole block with its first pair, which then is looked at twice but
- * touches once: the classification knows the count. */
+/* The region's inner list. Its last block is filled up with the list's first pair; the classification knows the
+ * number of pairs and passes over these copies. */
 OZ_INLINE void oz_piece_lists_select(OzPieceWork *w, int region)
 {
     int outer = region * w->z.outer_capacity, outer_end = outer + w->outer_count[region];

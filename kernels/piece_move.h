@@ -198,7 +198,7 @@ OZ_INLINE void oz_piece_move_walls(OzPieceWork *w, int step)
     }
 }
 
-/* Lanes all of whose state's words are finite: what is none leaves no zero when taken off itself. */
+/* Lanes all of whose state's words are finite: x - x is 0 for these alone. */
 OZ_INLINE mask oz_piece_move_is_number(const real *q)
 {
     mask number = q[0] - q[0] == REAL(0.0);
@@ -248,7 +248,7 @@ OZ_INLINE void oz_piece_move_back(OzPieceWork *w, int block, real *q, int step)
     oz_piece_move_check(w, block, q, step);
 }
 
-/* Ends a step, and begins the next where there is one: one way through memory for both. */
+/* Ends a step and, where another follows, begins it, in one pass over the pieces: state and records are read once. */
 OZ_INLINE void oz_piece_move_correct(OzPieceWork *w, int step, int goes_on)
 {
     real inverse_dt = REAL(1.0) / REAL(w->parameters->dt);

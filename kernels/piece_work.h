@@ -1,8 +1,8 @@
 /* The trigrains kernels' view of memory: every array of one member, and how work is shared out. OpenCL C only.
  * OZ_GROUP 1: one work-item does a member's whole launch, with any number of lanes; otherwise the work-group's
- * size, with one lane. Switches beside: OZ_INTEGRATOR_ID, OZ_ORDER (words of a coordinate), OZ_MOVING (walls do),
- * OZ_DISCS (there are any), OZ_BEAMS, OZ_SUBSTEPS, OZ_LEDGER, OZ_LAW_ID (of discs), OZ_FORCE_POINT,
- * OZ_DAMPING_SHEAR. */
+ * size, with one lane. Switches: OZ_ORDER (words of a coordinate: 5 is gear4, 3 velocity-verlet), OZ_MOVING (some wall
+ * moves), OZ_DISCS and OZ_BEAMS (the scene has any), OZ_SUBSTEPS, OZ_LEDGER, OZ_FORCE_POINT, OZ_DAMPING_SHEAR. The law
+ * of discs is no switch: it is a number in the parameters, of its own for each wall. */
 #ifndef OZ_KERNELS_PIECE_WORK_H
 #define OZ_KERNELS_PIECE_WORK_H
 

@@ -9,8 +9,8 @@
 
 #define EACH_REGION for (int region = item; region < w->z.regions; region += stride)
 
-/* Work-items meet outside conditions wherever that is possible: a CPU driver compiles everything after a
- * conditional meeting twice. */
+/* Barriers (OZ_WORK_MEET) stand outside of conditions wherever that is possible: after a barrier inside a condition a
+ * CPU driver compiles the rest of the kernel twice, once for each outcome. */
 
 /* The inner list anew; 0 when a list was too small. */
 OZ_INLINE int refresh(OzWork *w, int item, int stride)
@@ -171,7 +171,8 @@ OZ_INLINE void move_before(OzWork *w, int item, int stride, int step)
 }
 #endif
 
-/* Springs to where they outlive new list sizes; the lists are then to be made again. */
+/* Saves the tangential springs by the ids of their pairs, where a change of the lists' sizes leaves them alone. The
+ * lists must be made again afterwards. */
 OZ_INLINE void shelve(OzWork *w, int item, int stride)
 {
     int truth = w->control->truth;

@@ -61,7 +61,7 @@ kernel void oz_grains(OZ_WORK_ARGUMENTS, int step)
 }
 
 #if OZ_LEDGER
-/* Runs on what oz_grains has just done, so it asks for the step made. */
+/* Runs after oz_grains in a step, so it asks whether that step was made, not whether it is still to be made. */
 kernel void oz_ledger(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION

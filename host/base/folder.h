@@ -17,7 +17,7 @@
 typedef struct OzFolderUse {
     const char *const
         *writes; /* patterns (fnmatch) of what it writes: "log.txt", "snapshots/tap_*.png" */
-    const char *const *endings; /* names whose presence says that a run there has ended       */
+    const char *const *endings; /* names of files that only a run that has ended leaves       */
     const char *const *results; /* names that are worth keeping, also of a run that was killed */
     bool overwrite;             /* endings, results and members' folders there may go          */
     bool keep;                  /* what orzo wrote there stays until it is replaced, file by file */

@@ -39,8 +39,8 @@ int oz_status_exit_code(OzStatus status);
         }                                                                                          \
     } while (0)
 
-/* Does a thing after a failure, whose text it keeps: status stays the failure, or becomes the thing's
- * outcome after none. */
+/* Calls `later` whatever status is. After a failure, status and its text stay that failure's; after
+ * none, status becomes what `later` returned. */
 #define OZ_AFTER(status, later)                                                                    \
     do {                                                                                           \
         char text_[16384];                                                                         \

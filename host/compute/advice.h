@@ -5,14 +5,14 @@
 
 #include "observe/snapshot.h"
 
-/* Writes one clause about the deepest contact of a grain as it is now. An unstable step is named
- * with the step that is stable, for two bodies or for the contacts together. With a stable step the
- * contact is too soft for what pushes it: the contact_time that is given (another law: so many
- * times the stiffness) would hold, at an overlap of guards.overlap.warn, the energy that the
- * contact holds and that of its approach, of the effective mass of two grains or, where others
- * touch the grain too, of the heaviest of them; and the weight of the scene's heaviest grain let go
- * on its lightest. Friction and dashpots are left out.
- */
+/* Writes one clause about the deepest contact of a grain as it is now.
+ * Where the step is unstable, for two bodies or for all contacts together, it names the step that would
+ * be stable. Where the step is stable the contact is too soft for what pushes it, and the clause names
+ * the contact_time (of another law: how many times the stiffness) that would do. "Would do" means that
+ * an overlap of guards.overlap.warn then holds two things. The first is the energy that the contact
+ * stores now plus that of its approach; the mass of the approach is the effective mass of the two
+ * grains, or, where others touch the grain too, the heaviest grain's. The second is the weight of the
+ * scene's heaviest grain let go on its lightest. Friction and dashpots are left out. */
 void oz_advice_write(char *text, size_t size, const OzSnapshot *now, int64_t grain);
 
 #endif

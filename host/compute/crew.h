@@ -32,21 +32,25 @@ bool oz_crew_goes_on(const OzCrew *crew, int member);
 /* Fails with OZ_ERR_BLOWUP, saying what the last member's guard said, once all are stopped. */
 OzStatus oz_crew_check(const OzCrew *crew);
 
-/* Nothing to move: every member's clock alone goes on to the step, never back. */
+/* For a launch that has nothing to move: every member's clock goes on to the step, or stays where it is
+ * beyond it. */
 void oz_crew_skip(OzCrew *crew, int64_t step);
 
-/* How many steps the next launch towards the given step shall make; takes note of how many one
- * made, in so many seconds, so that the next is of a length that suits, at most most_steps. */
+/* oz_crew_launch_steps: how many steps the next launch towards the given step shall make.
+ * oz_crew_note_launch learns from a launch how long steps take: it is told how many steps were made
+ * in how many seconds, and chooses the next launch's steps, at most most_steps. */
 int oz_crew_launch_steps(const OzCrew *crew, int64_t step);
 void oz_crew_note_launch(OzCrew *crew, int made, double seconds, int most_steps);
 
-/* The end of a launch, first for each member that goes on: counts its own steps and raises *most to
- * them; notes that a guard stopped it, whose words are the present failure text. */
+/* To be called after a launch, for each member that took part in it. oz_crew_count adds the steps
+ * that this member made (own); *most becomes own where that is more. oz_crew_stop notes that a guard
+ * stopped the member, and keeps a copy of oz_status_text() as what the guard said. */
 void oz_crew_count(OzCrew *crew, int member, int own, int *most);
 OzStatus oz_crew_stop(OzCrew *crew, int member);
 
-/* Then for all together: counts a launch of so many steps, or of the most that any member made if
- * all are stopped now, upon which it fails as oz_crew_check does. */
+/* To be called once after those. The clock goes on by the launch's steps. Where every member is
+ * stopped now, it goes on by `most` instead (what the member that came farthest made), and the call
+ * fails as oz_crew_check does. */
 OzStatus oz_crew_end_launch(OzCrew *crew, int steps, int most);
 
 /* Time 0: no steps made, nothing counted or said, walls free to move. Members that wait or are

@@ -5,9 +5,9 @@
 
 #include "compute/sim.h"
 
-/* Makes the lists of every member that waits for one: the same pairs in the same order as the
- * device would list them, springs kept. Lists grow when they must. Fails with OZ_ERR_DEVICE when
- * the kernels make lists themselves: nothing to wait for. */
+/* Makes the outer list of every member that waits for one: the same pairs in the same order as the
+ * device would list them. Tangential springs are kept, and a list that is too small grows. Fails
+ * with OZ_ERR_DEVICE in a simulation whose kernels make the lists themselves. */
 OzStatus oz_host_lists_make(OzSim *sim);
 
 #endif

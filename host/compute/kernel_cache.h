@@ -1,5 +1,5 @@
-/* Where PoCL keeps the kernels that it has built. PoCL finds no device at all, or ends the process,
- * when it cannot write there. */
+/* The folder in which PoCL keeps the kernels that it has built. Where PoCL cannot write it, PoCL finds
+ * no device at all or ends the process. */
 #ifndef OZ_COMPUTE_KERNEL_CACHE_H
 #define OZ_COMPUTE_KERNEL_CACHE_H
 

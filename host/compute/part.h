@@ -5,11 +5,11 @@
 
 #include "model/grains.h"
 
-/* Sweep after sweep, each two that overlap are moved apart along their contact's normal by their
- * depth, the lighter the farther, walls not at all, until none is deeper than half of
- * OZ_START_ROUNDING of the smaller radius. Turns and velocities stay. A line in the log says how
- * far grains were moved. Fails with OZ_ERR_INPUT when thousands of sweeps do not do: there is no
- * room. */
+/* Works in sweeps over all overlaps. Each moves the two bodies apart along their contact's normal by
+ * the depth of the overlap: the lighter one goes farther, a wall stays. Sweeps end when no overlap is
+ * deeper than half of OZ_START_ROUNDING of the smaller radius. Directions and velocities stay as they
+ * are. A line in the log says how far grains were moved. Fails with OZ_ERR_INPUT when thousands of
+ * sweeps are not enough, because there is no room. */
 OzStatus oz_part_grains(OzGrains *grains, const OzScene *scene);
 
 #endif

@@ -4,10 +4,9 @@
 
 #include "model/grains.h"
 
-/* One sweep; *deepest is raised to the deepest overlap found, over the smaller radius, INFINITY
- * where contacts have no law: grains of which one is inside another are moved from each other's
- * centres.
- */
+/* One sweep. *deepest becomes the depth of the deepest overlap found, over the smaller radius, where
+ * that is more than it was. An overlap for which contacts have no law (one grain inside another) counts
+ * as INFINITY; its two grains are moved apart along the line between their centres. */
 OzStatus oz_part_pieces_sweep(OzGrains *grains, const OzScene *scene, double *deepest);
 
 #endif

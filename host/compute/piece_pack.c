@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Words of a state and of a coordinate are told apart by the device's order, not by a macro, here.
- */
+/* Words of a slot's state: kernels know them as OZ_PIECE_STATE, a constant of their program. The host
+ * serves programs of every order and takes it from the switches. */
 static int state_words(const OzPieceArrays *arrays)
 {
     return 3 * arrays->switches.order;

@@ -34,21 +34,23 @@ typedef struct OzStart {
     int64_t outside_first; /* the first of them                                                */
 } OzStart;
 
-/* Looks at the start of a scene. Overlaps are left alone that no one asked about: up to rounding,
- * and up to what a contact of a bed at rest bears, taken as three times the weight of a column of
- * the heaviest grain as high as the bed. Refused are shares above OZ_START_MOST; among grains that
- * were all read from a file, which go on as they were, only what guards.overlap.stop would stop.
- * Grains placed at random have no overlaps: a scene of these alone is not looked at. */
+/* Looks at the start of a scene. Two kinds of overlap are not counted: those of rounding, and those
+ * whose force a contact of a bed at rest may bear (oz_start_load). An overlap is refused when its share
+ * is above OZ_START_MOST. Grains that were all read from a file go on as they were: of their overlaps
+ * those alone are refused that guards.overlap.stop would stop. Grains placed at random have no
+ * overlaps, so a scene of these alone is not looked at. */
 OzStatus oz_start_look(OzStart *start, const OzScene *scene, const OzGrains *grains);
 
 /* Fails with OZ_ERR_INPUT where no run should begin, naming pair, depth and stored energy, unless
  * forced; a warning in the log for other overlaps, and for grains that nothing will catch. */
 OzStatus oz_start_judge(const OzScene *scene, const OzGrains *grains, bool force);
 
-/* What a contact of a bed at rest may bear, N. */
+/* What a contact of a bed at rest may bear, N: three times the weight of a column of the heaviest
+ * grain as high as the bed. */
 double oz_start_load(const OzScene *scene, const OzGrains *grains);
 
-/* Adds an overlap, the force in which is pushing (N). refuse: whatever its share. */
+/* Counts an overlap that is not left alone. It is refused where its share is above most, or, with
+ * refuse, whatever its share. */
 void oz_start_add(OzStart *start, const OzStartOverlap *overlap, double most, bool refuse);
 
 #endif

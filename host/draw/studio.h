@@ -19,7 +19,8 @@ typedef struct OzStudioTimes {
 /* Starts no thread: the first picture does. */
 OzStatus oz_studio_create(OzStudio **studio);
 
-/* For the settings of the galleries; the studio makes, uses and frees what stands there. */
+/* Where the studio's renderer stands, for OzGallerySettings.renderer. The studio makes it, uses it and
+ * frees it. */
 OzRenderer **oz_studio_renderer(OzStudio *studio);
 
 /* oz_gallery_add of a copy, later; the bits do not depend on when. From the first call on the

@@ -20,7 +20,7 @@ typedef struct OzBasin {
  * the segments when there are any, else a square about the origin. */
 OzBasin oz_basin_make(const OzScene *scene, const OzPatch *walls, double area, double reach);
 
-/* Makes it a tenth higher; false for a drum, which ends. */
+/* Makes the basin a tenth higher. False for a drum, which has no room above. */
 bool oz_basin_raise(OzBasin *basin);
 
 /* A point of the box. */

@@ -13,10 +13,11 @@ typedef struct OzBeamLimit {
     double largest_step; /* s; INFINITY without anything stiff                                 */
 } OzBeamLimit;
 
-/* Below which a vibration of this angular frequency without damping, with a damping force that
- * takes speed at this rate (1/s), is stable, s. gear4: c dt / 0.3 + (w dt)^2 < 1 and w dt < 0.55
- * (beyond that one without damping grows by more than a hundredth in a period; below, by less);
- * velocity-verlet: (w dt)^2 + 4 c dt < 4; rk4: c dt / 2.78 + (w dt / 2.82)^2 < 1. */
+/* The step, s, below which a damped vibration is stable. rate is its angular frequency without
+ * damping, rad/s; damping is the rate at which the damping force takes speed, 1/s. With w
+ * for rate and c for damping: gear4: c dt / 0.3 + (w dt)^2 < 1 and w dt < 0.55 (an undamped vibration
+ * grows by a hundredth in a period there); velocity-verlet: (w dt)^2 + 4 c dt < 4;
+ * rk4: c dt / 2.78 + (w dt / 2.82)^2 < 1. */
 double oz_beam_limits_step(OzIntegrator integrator, double rate, double damping);
 
 /* For the scene's integrator and substeps. Every grain's beams are taken at rest; every piece may

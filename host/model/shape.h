@@ -8,13 +8,14 @@
 
 #include <stdbool.h>
 
-/* Makes one grain of a population, about its centre of mass; joints are its beams. A square is four
- * triangles about its middle (Poeschel & Buchholtz 1995, Fig. 1), a polygon or a star one on each
- * edge about its middle; given vertices are cut into as few triangles as can be, or where those
- * would be less symmetric than the outline about its middle if that sees all edges; a polygon's
- * irregularity q turns each corner by up to 0.4 q of half the angle between corners and draws it in
- * by up to half q of the radius. What a population leaves open is drawn from random, again and
- * again while beams are shorter than beams.length_min or triangles smaller than beams.area_min.
+/* Makes one grain of a population, about its centre of mass; the patch's joints are its beams.
+ * A square is four triangles about its middle (Poeschel & Buchholtz 1995, Fig. 1). A polygon or a star
+ * has a triangle on each edge, all with a corner at its middle. Given vertices are cut into as few
+ * triangles as can be. Where these would be less symmetric than the outline, and the middle sees all
+ * edges, there is a triangle on each edge instead. A polygon's irregularity q turns each corner by up
+ * to 0.4 q of half the angle between corners, and draws it in by up to half q of the radius.
+ * What a population leaves open is drawn from random; it is drawn again while a beam is shorter than
+ * beams.length_min or a triangle smaller than beams.area_min.
  * Fails with OZ_ERR_INPUT, naming the population's line and the reason, when nothing is left to
  * draw, when no draw of many is within the limits, and for vertices that make no simple polygon. */
 OzStatus oz_shape_make(OzPatch *patch, const OzScene *scene, const OzPopulation *population,

@@ -20,7 +20,8 @@ bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest);
 OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest);
 
 /* Writes position (2 x), angle, velocity (2 x) and spin of every wall's pieces into arrays over all
- * pieces; the free ones are left alone. Of absent walls the last pose goes on. */
+ * pieces; the entries of grains' pieces are left alone. A wall that has been taken away keeps its last
+ * pose. */
 void oz_wall_motion_place(const OzPieces *pieces, const OzScene *scene, double time, bool at_rest,
                           double *position, double *angle, double *velocity, double *spin);
 

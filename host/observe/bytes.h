@@ -1,4 +1,5 @@
-/* Values into and out of blocks of bytes, as the machine holds them. The place moves on. */
+/* Values into and out of blocks of bytes, in the machine's own byte order. Each call moves *at on by the
+ * bytes that it wrote or read. */
 #ifndef OZ_OBSERVE_BYTES_H
 #define OZ_OBSERVE_BYTES_H
 

@@ -5,9 +5,9 @@
 
 #include "observe/snapshot.h"
 
-/* Of the impulse of all spans: by default a hit has at least this much. The second hit of two dice
- * shrinks with their speed from three tenths to nothing, so this decides at which speed it is lost;
- * grazes have hundred-thousandths. */
+/* The share of the impulse of all spans that a hit has at least, unless the user says otherwise. The
+ * second hit of two dice has a share that falls with their speed from three tenths to nothing, so this
+ * number decides at which speed it is no longer counted. Grazes have hundred-thousandths. */
 #define OZ_HITS_SHARE 0.05
 
 /* No more than 1 / share spans can count: keeping so many greatest loses none at shares from
