@@ -109,13 +109,15 @@ static void check_mode(const char *shear, Mode mode)
         Bend bend = bend_of(&rig);
         y[k] = mode == AXIAL ? bend.elongation : bend.a;
         double other = mode == ANTISYMMETRIC ? bend.a : -bend.a;
-        assert_true(mode == AXIAL || fabs(bend.b - other) < 1e-9 * fabs(bend.a));
+        /* alike by symmetry, but for rounding */
+        assert_true(mode == AXIAL || fabs(bend.b - other) < 1e-11 * fabs(bend.a));
     }
     solve_samples(y, (double)between * rig.scene.step, &found, &found_decay);
     print_message("mode %d %s: frequency %.9g of %.9g, decay %.9g of %.9g\n", (int)mode, shear,
                   found, frequency, found_decay, decay);
-    assert_true(fabs(found / frequency - 1) < 1e-6);
-    assert_true(fabs(found_decay / decay - 1) < 1e-6);
+    /* what is not linear is 1e-8 of it, some times more through the four samples: 5e-8 */
+    assert_true(fabs(found / frequency - 1) < 3e-7);
+    assert_true(fabs(found_decay / decay - 1) < 3e-7);
     rig_close(&rig);
 }
 
@@ -160,11 +162,13 @@ static void check_momentum(const char *shear, double angular_change)
     double change = fabs(after[2] - before[2]) / arm;
     print_message("%s: bent by up to %.2f rad; angular momentum changed by %.1e\n", shear, most,
                   change);
+    /* rk4's error in angular momentum */
     assert_true(angular_change > 0 ? change > angular_change : change < 1e-8);
     assert_true(most > 0.05);
     OzPieceLedger l = rig.now.piece_ledger;
     double lost = l.beam_axial + l.beam_bending;
-    assert_true(fabs(rig_energy(&rig.now) + lost - energy) < 1e-8 * energy);
+    /* rk4's error, of fifth order in a step: 3e-10 */
+    assert_true(fabs(rig_energy(&rig.now) + lost - energy) < 1e-9 * energy);
     assert_true(lost > 0.5 * energy);
     rig_close(&rig);
 }
@@ -192,8 +196,9 @@ static void test_turning(void **state)
         pieces->angle[i] += turn;
     }
     rig_start(&rig);
-    assert_true(rig.now.pieces.bend_max < 1e-13);
-    assert_true(rig.now.pieces.beam_energy < 1e-25);
+    /* the last digit of an angle of 31 rad is 4e-15; energy goes with its square */
+    assert_true(rig.now.pieces.bend_max < 2e-14);
+    assert_true(rig.now.pieces.beam_energy < 1e-31);
     rig_close(&rig);
 }
 
@@ -209,6 +214,7 @@ static void test_rest(void **state)
     pieces->position[3] = 1e-3;
     oz_pieces_rest_beam(pieces, 0);
     rig_start(&rig);
+    /* a last digit of angles below 1 rad */
     assert_true(rig.now.pieces.bend_max < 1e-15);
     assert_true(rig.now.pieces.stretch_max == 1 && rig.now.pieces.stretch_min == 1);
     rig_close(&rig);

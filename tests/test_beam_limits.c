@@ -34,8 +34,9 @@ static void test_pair(void **state)
         double bend = rows[i].second_moment / (length * inertia) * swing;
         double rate2 = rows[i].stiffness * fmax(2 / m, 6 * bend);
         double loss = rig.scene.beams.damping * fmax(2 / m, bend);
-        assert_true(fabs(limit.rate / sqrt(rate2) - 1) < 1e-6);
-        assert_true(fabs(limit.damping / loss - 1) < 1e-6);
+        /* where the power iteration ends: 1e-11; the loss has no iteration */
+        assert_true(fabs(limit.rate / sqrt(rate2) - 1) < 1e-9);
+        assert_true(fabs(limit.damping / loss - 1) < 1e-12);
         assert_int_equal(limit.grain, 0);
         assert_int_equal(limit.beam, 0);
         rig_close(&rig);
@@ -127,7 +128,8 @@ static void test_one_vibration(void **state)
             double allowed =
                 integrators[i] == OZ_INTEGRATOR_GEAR4 && ratios[k] == 0 ? 0.015 * w / 6.28 : 3e-4;
             assert_true(growth(integrators[i], w, ratios[k] * w) < allowed);
-            assert_true(growth(integrators[i], over, ratios[k] * over) > 1e-3);
+            /* at 2.6 times the limit by a third a step and more */
+            assert_true(growth(integrators[i], over, ratios[k] * over) > 0.1);
         }
     }
 }
@@ -140,14 +142,18 @@ static void test_one_alone(void **state)
 {
     (void)state;
     const OzIntegrator verlet = OZ_INTEGRATOR_VELOCITY_VERLET, rk4 = OZ_INTEGRATOR_RK4;
+    /* a root and a quotient: rounding */
     assert_true(fabs(oz_beam_limits_step(verlet, 3, 0) - 2.0 / 3) < 1e-15);
     assert_true(fabs(oz_beam_limits_step(verlet, 0, 5) - 1.0 / 5) < 1e-15);
     double vibration = 3 * oz_beam_limits_step(rk4, 3, 0) / sqrt(8);
     double loss = 5 * oz_beam_limits_step(rk4, 0, 5) / 2.78529;
+    /* the hundredth in hand */
     assert_true(vibration < 1 && vibration > 0.99 && loss < 1 && loss > 0.99);
     double limit = oz_beam_limits_step(OZ_INTEGRATOR_GEAR4, 0, 1);
+    /* 3e-4 is what the sampled size leaves, as above */
     assert_true(growth(OZ_INTEGRATOR_GEAR4, 0, 0.98 * limit) < 3e-4);
     assert_true(growth(OZ_INTEGRATOR_GEAR4, 0, 1.02 * limit) > 3e-4);
+    /* rounding */
     assert_true(fabs(oz_beam_limits_step(OZ_INTEGRATOR_GEAR4, 7, 0) - 0.55 / 7) < 1e-15);
 }
 

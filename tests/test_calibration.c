@@ -36,8 +36,9 @@ static void test_eulers_are_exact_at_every_phase(void **state)
                                    : k / 10 == 1 ? 30
                                                  : 100);
         OzPredictedHits hits = hits_of(&scene);
-        assert_true(fabs(hits.low - scene.contact.restitution) < 1e-12);
-        assert_true(fabs(hits.high - scene.contact.restitution) < 1e-12);
+        /* a hundred steps of 1e-16 each: 3e-14 */
+        assert_true(fabs(hits.low - scene.contact.restitution) < 2e-13);
+        assert_true(fabs(hits.high - scene.contact.restitution) < 2e-13);
     }
 }
 
@@ -51,7 +52,8 @@ static void test_means_are_exact(void **state)
         OzScene scene = make_scene(k / 12, asked[k % 3], 30);
         scene.contact.attraction = (OzAttraction)(k / 3 % 2);
         scene.contact.damping = (OzDamping)(k / 6 % 2);
-        assert_true(fabs(hits_of(&scene).mean - asked[k % 3]) < 1e-9);
+        /* the root is bisected to its last digits: 4e-14 */
+        assert_true(fabs(hits_of(&scene).mean - asked[k % 3]) < 1e-12);
     }
     OzScene verlet = make_scene(OZ_INTEGRATOR_VELOCITY_VERLET, 0.4, 30);
     OzPredictedHits hits = hits_of(&verlet);
@@ -107,8 +109,9 @@ static void test_simulated_hits_return_what_was_asked(void **state)
         Rig rig;
         double asked = k % 3 == 0 ? 0.1 : k % 3 == 1 ? 0.4 : 0.8;
         open_pair(&rig, k / 3, asked, 2.1e-5, "restitution_calibration: discrete");
+        /* the step is fitted: whole but for a last digit of 29 */
         assert_true(rig.scene.written_step == 2.1e-5);
-        assert_true(fabs(contact_time / rig.scene.step - 29) < 1e-12);
+        assert_true(fabs(contact_time / rig.scene.step - 29) < 1e-13);
         for (int phase = 0; phase < 16; phase++) {
             double got = hit(&rig, (phase + 0.5) / 16, speed);
             /* rounding of coordinates of 1e-3 m in overlaps of 1e-6 m, 30 steps: 1e-11 */
@@ -131,7 +134,8 @@ static void test_walls_are_calibrated_too(void **state)
              "walls: [{kind: plane, contact: {contact_time: 4.13e-4, restitution: 0.7}}]\n");
     rig_start(&rig);
     rig_advance(&rig, 60);
-    assert_true(fabs(rig.now.velocity[2] / 0.1 - 0.7) < 1e-9);
+    /* rounding of coordinates of 5e-4 m, 30 steps: 1e-14 */
+    assert_true(fabs(rig.now.velocity[2] / 0.1 - 0.7) < 1e-12);
     rig_close(&rig);
 }
 
@@ -207,6 +211,8 @@ static void test_smooth_restitution_is_the_same_at_every_speed(void **state)
     Rig rig;
     open_pair(&rig, OZ_INTEGRATOR_VELOCITY_VERLET, 0.4, contact_time / 100, "damping: smooth");
     double slow = hit(&rig, 0.3, 0.01), fast = hit(&rig, 0.3, 1);
+    /* the law scales with the speed, so that the two differ by rounding alone, of overlaps of 1e-6
+     * m; 1.5e-4 is velocity-verlet's error at 100 steps */
     assert_true(fabs(slow - fast) < 1e-8 && fabs(slow - 0.4) < 2e-4);
     rig_close(&rig);
 }
@@ -245,7 +251,8 @@ static void test_off_centre_hits_return_what_was_asked(void **state)
             fail_msg("%s: %g asked, %g got", options[k % 3], asked, got);
         }
     }
-    assert_true(end_restitution("restitution_at: centre", 0.4, 1e-5) < 0.37);
+    /* 0.31: the end feels a smaller mass than the centres that the damping is for */
+    assert_true(end_restitution("restitution_at: centre", 0.4, 1e-5) < 0.35);
 }
 
 int main(void)

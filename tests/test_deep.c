@@ -37,7 +37,8 @@ static void assert_handed_on(const OzSnapshot *now, const double *start)
     int64_t last = 3 * (now->count - 1);
     double before = start[last] + start[last + 2];
     double after = now->velocity[0] - now->velocity[2];
-    assert_true(fabs(after / before - 1) < 1e-3);
+    /* hundreds of steps a hit, entry and exit included: 2e-8 */
+    assert_true(fabs(after / before - 1) < 1e-6);
 }
 
 /* Runs a hit to its end on the device or the reference; returns the count of deep contacts. */
@@ -140,11 +141,13 @@ static void test_the_advice_after_a_hit_holds(void **state)
     assert_stop(hit, "", contact_time, speed_to(3), "shafts meet");
     double depth = deepest(hit, advised_time(), speed_to(3), contact_time) / radius;
     print_message("two spheres: %.3g radii\n", depth);
-    assert_true(depth > 0.85 && depth < 1);
+    /* one radius less 5 %, two digits of a time have 5 % at most */
+    assert_true(depth > 0.9 && depth < 1);
     assert_stop(bounce, "", contact_time, speed_to(1.5), "behind a wall");
     depth = deepest(bounce, advised_time(), speed_to(1.5), contact_time) / radius;
     print_message("a wall: %.3g radii\n", depth);
-    assert_true(depth > 0.42 && depth < 0.5);
+    /* half of that at a wall */
+    assert_true(depth > 0.45 && depth < 0.5);
 }
 
 static void test_a_limit_of_ones_own_ends_a_run(void **state)
@@ -171,7 +174,8 @@ static void test_the_advice_for_a_size_ratio_holds(void **state)
     assert_stop(column, "", contact_time, 0, "a smaller time.step does not help");
     double time = advised_time(), depth = deepest(column, time, 0, 0.01) / 1e-4;
     print_message("contact time %.3g s: %.3g radii\n", time, depth);
-    assert_true(depth < 0.5 && depth > 0.4);
+    /* 5 % and two digits, and as much for the upper contact's part */
+    assert_true(depth < 0.5 && depth > 0.43);
 }
 
 /* Where the step is the cause it is said, with the one that is stable: t_c 2 / pi for a contact

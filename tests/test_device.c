@@ -202,8 +202,9 @@ static void test_ledger_closes(void **state)
     double other = residual(OTHER, MIXTURE, 1e-5, 0.02);
     double verlet = residual(VERLET, MIXTURE, 1e-5, 0.02);
     print_message("residual: symplectic-euler %.4f, velocity-verlet %.5f\n", other, verlet);
-    assert_true(fabs(other) < 0.01);
-    assert_true(fabs(verlet) < 0.01);
+    /* a hundredth is what users are promised; 0.002 at 30 steps a contact */
+    assert_true(fabs(other) < 0.005);
+    assert_true(fabs(verlet) < 0.005);
 }
 
 static void test_ledger_of_euler_shrinks_with_the_step(void **state)
@@ -223,6 +224,7 @@ static void test_ledger_starts_after_settling(void **state)
     rig_open(&rig, crowd, "double", 1e-5, OTHER "\nsettle: {drag: 70, time_max: 0.1}", MIXTURE);
     OzSim *sim = start_sim(&rig, &rig_device);
     must(oz_settle_run(sim, &seconds, NULL, NULL));
+    /* the default of settle.rest_time, which comes after the drag */
     assert_true(seconds >= 0.2);
     OzSnapshot start = state_at(&rig, sim, 0);
     assert_true(start.contacts.pair_count > 30 && start.ledger.elastic > 0);

@@ -87,6 +87,7 @@ static void test_hits_by_speed(void **state)
                       1 + m.energy_change, m.residual);
         assert_int_equal(oz_hits_count(&m.hits, OZ_HITS_SHARE), rows[i].hits);
     }
+    /* two hits undo their spin: 0.03 and 0.15 of what a fast hit leaves, 0.56 */
     assert_true(spin[0] < 0.05);
     assert_true(spin[1] < 0.6 * spin[4]);
 }
@@ -110,8 +111,9 @@ static void test_energy(void **state)
     print_message("energy changed by a hit without damping: centroid %.1e, midpoint %.1e; with "
                   "faces that meet (kind ii) %.1e\n",
                   m.energy_change, paper.energy_change, faces.energy_change);
-    assert_true(fabs(m.energy_change) < 1e-6);
-    assert_true(fabs(paper.energy_change) > 1e-5);
+    /* gear4's error 1e-10; the paper's point loses 1.5e-4 */
+    assert_true(fabs(m.energy_change) < 1e-8);
+    assert_true(fabs(paper.energy_change) > 5e-5);
     assert_true(faces.kinds[OZ_TOUCH_II] > 0);
 }
 

@@ -75,7 +75,7 @@ static double rolling_error(const Rig *rig, const OzSnapshot *now, int64_t i, co
     return fmax(fabs(slow), fabs(lazy));
 }
 
-/* Down a slope of 10 degrees, at which both roll. 1e-3: the spring that makes them roll yields by
+/* Down a slope of 10 degrees, at which both roll. The spring that makes them roll yields by
  * 1e-4 of the speed that they reach, and 3000 steps round a speed by 2e-4 of it at most. */
 static void test_rolling_down_a_slope(void **state)
 {
@@ -95,8 +95,9 @@ static void test_rolling_down_a_slope(void **state)
         double rod = rolling_error(&rig, &now, 1, down, g * sin(slope));
         print_message("slope: overlap %8.2g units: sphere off by %.1g, rod by %.1g\n",
                       overlap / unit_of(&rig), sphere, rod);
-        assert_true(sphere < 1e-3);
-        assert_true(rod < 1e-3);
+        /* 1e-4 for the spring, 2e-4 for rounding of speeds (see above); 1e-4 at the worst here */
+        assert_true(sphere < 5e-4);
+        assert_true(rod < 5e-4);
         oz_snapshot_free(&now);
         rig_close(&rig);
     }
@@ -118,7 +119,8 @@ static void test_rolling_down_a_cylinder(void **state)
         double sphere = rolling_error(&rig, &now, 0, down, 0.17 * g);
         print_message("cylinder: overlap %8.2g units: sphere off by %.1g\n",
                       g / stiffness() / unit_of(&rig), sphere);
-        assert_true(sphere < 1e-3);
+        /* as above: 1e-4 at the worst */
+        assert_true(sphere < 5e-4);
         oz_snapshot_free(&now);
         rig_close(&rig);
     }
@@ -173,6 +175,7 @@ static void test_falling(void **state)
         OzSnapshot now = state_after(&rig, NATIVE, 1000);
         double error = fabs((-now.velocity[2] - speed) / (gravity * now.time) - 1);
         print_message("fall: gravity adds %4g digits in a step: off by %.1g\n", digits[k], error);
+        /* half a digit, and the rounding of the sum */
         assert_true(error < 0.5 / digits[k] + 1e-4);
         worst = fmax(worst, error);
         oz_snapshot_free(&now);

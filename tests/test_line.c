@@ -72,13 +72,16 @@ static void check_gradient(const Pose *pose)
     double force[3], scale = sqrt(oz_dot(now.force, now.force));
     oz_dialect_store3(force, now.force);
     for (int i = 0; i < 3; i++) {
-        assert_true(fabs(slope(*pose, i, 1e-10) - force[i]) < 1e-4 * scale);
+        /* a kink within the step leaves step / softness = 2.5e-5; without one 3e-9 */
+        assert_true(fabs(slope(*pose, i, 1e-10) - force[i]) < 5e-5 * scale);
     }
     if (pose->turn_a[0] == 0 && pose->turn_a[1] == 0) {
+        /* the ends move by 2e-10 m: 5e-5 at a kink */
         assert_true(fabs(slope(*pose, 3, 1e-7) - now.torque_a.x) < 1e-4 * scale * half);
         assert_true(fabs(slope(*pose, 4, 1e-7) - now.torque_a.y) < 1e-4 * scale * half);
     }
     if (pose->turn_b[0] == 0 && pose->turn_b[1] == 0) {
+        /* as above */
         assert_true(fabs(slope(*pose, 6, 1e-7) - now.torque_b.x) < 1e-4 * scale * half);
         assert_true(fabs(slope(*pose, 7, 1e-7) - now.torque_b.y) < 1e-4 * scale * half);
     }
@@ -153,7 +156,7 @@ static void test_no_jump_through_zero(void **state)
         }
     }
     use_line(0);
-    assert_true(jump(1, 0, 0, 1e-7) > 0.4); /* the single contact jumps by the whole torque */
+    assert_true(jump(1, 0, 0, 1e-7) > 0.9); /* the single contact jumps by the whole torque */
 }
 
 static void test_short_shafts_are_spheres(void **state)
@@ -177,7 +180,8 @@ static void test_short_shafts_are_spheres(void **state)
         }
     }
     OzPairForce line = touch(&sphere, elastic);
-    assert_true(fabs(line.force.x - round.force.x) < 1e-12 * fabs(round.force.x));
+    /* of shafts of no length nothing is left but rounding */
+    assert_true(fabs(line.force.x - round.force.x) < 1e-14 * fabs(round.force.x));
 }
 
 /* A rod looks the same from both ends: its axis turned round changes nothing but the order of sums.
@@ -199,8 +203,9 @@ static void test_rods_have_no_head(void **state)
         OzVec3 force = oz_minus(now.force, turned_round.force);
         OzVec3 torque = oz_minus(now.torque_b, turned_round.torque_b);
         double size = sqrt(oz_dot(now.force, now.force));
-        assert_true(sqrt(oz_dot(force, force)) <= 1e-9 * size);
-        assert_true(sqrt(oz_dot(torque, torque)) <= 1e-9 * size * half);
+        /* rounding of sums in another order */
+        assert_true(sqrt(oz_dot(force, force)) <= 1e-14 * size);
+        assert_true(sqrt(oz_dot(torque, torque)) <= 1e-14 * size * half);
         touched += now.contact.touching;
     }
     assert_true(touched > 50);
@@ -216,9 +221,10 @@ static void test_skew_shafts_touch_once(void **state)
         OzPairForce single = touch(&pose, elastic);
         use_line(1);
         OzPairForce line = touch(&pose, elastic);
-        assert_true(fabs(single.force.x - line.force.x) < 1e-12 * fabs(single.force.x));
+        /* weights of one and none: rounding */
+        assert_true(fabs(single.force.x - line.force.x) < 1e-14 * fabs(single.force.x));
         assert_true(fabs(single.torque_b.y - line.torque_b.y) <
-                    1e-12 * fabs(single.force.x) * half);
+                    1e-14 * fabs(single.force.x) * half);
     }
 }
 
@@ -245,7 +251,8 @@ static void test_a_slow_loop_gives_no_energy(void **state)
         work += oz_dot(touch(&pose, elastic).torque_b, oz_cross(u, v));
     }
     Pose start = {{0, 0, 0.3e-3}, {0}, {2e-3, 0, 0}, half, half};
-    assert_true(fabs(work) < 1e-4 * energy(start));
+    /* rounding of 4000 terms: 2e-14 */
+    assert_true(fabs(work) < 1e-11 * energy(start));
 }
 
 /* What dashpots take in is their force on the centres' motion and their torques on the spins; the
@@ -274,7 +281,8 @@ static void test_power_of_dashpots(void **state)
         double noted =
             oz_dot(with.parts.dashpot, with.contact.velocity) + oz_dot(with.couple, with.turning);
         assert_true(with.contact.touching && power < 0);
-        assert_true(fabs(noted / power - 1) < 1e-9);
+        /* differences of forces of which the dashpots are a small part: 7e-14 */
+        assert_true(fabs(noted / power - 1) < 1e-12);
     }
 }
 

@@ -57,17 +57,20 @@ static void test_clip_closed_forms(void **state)
     (void)state;
     double r = 0.5, h = 0.2; /* spheres: the cap of height r + h */
     double cap = PI * (r + h) * (r + h) * (3 * r - (r + h)) / 3;
-    assert_near(oz_clip_below(1, 0, 1, h), cap, 1e-12);
-    assert_near(oz_clip_below(1, 3, 1, 1.5 + h), 3 * PI * r * r + cap, 1e-12); /* upright */
-    assert_near(oz_clip_below(1, 3, -1, 0.3), PI * r * r * 1.8 + 2 * PI * r * r * r / 3, 1e-12);
+    /* rounding of volumes of order one */
+    assert_near(oz_clip_below(1, 0, 1, h), cap, 1e-14);
+    assert_near(oz_clip_below(1, 3, 1, 1.5 + h), 3 * PI * r * r + cap, 1e-14); /* upright */
+    assert_near(oz_clip_below(1, 3, -1, 0.3), PI * r * r * 1.8 + 2 * PI * r * r * r / 3, 1e-14);
     double segment = r * r * (PI - acos(h / r)) + h * sqrt(r * r - h * h); /* flat */
-    assert_near(oz_clip_below(1, 3, 0, h), 3 * segment + cap, 1e-12);
-    assert_near(oz_clip_below(1, 3, 1e-7, h), 3 * segment + cap, 1e-6);
+    /* a tilt of 1e-7 counts with its square */
+    assert_near(oz_clip_below(1, 3, 0, h), 3 * segment + cap, 1e-14);
+    assert_near(oz_clip_below(1, 3, 1e-7, h), 3 * segment + cap, 1e-12);
     for (double c = 0; c <= 1;
          c += 0.0625) { /* any tilt: half below the middle, all below the top */
         double all = oz_grains_volume(1, 3);
-        assert_near(oz_clip_below(1, 3, c, 0), all / 2, 1e-12);
-        assert_near(oz_clip_below(1, 3, c, 1.5 * c + r), all, 1e-12);
+        /* rounding; a cap 1e-9 high has a volume of 1e-18 */
+        assert_near(oz_clip_below(1, 3, c, 0), all / 2, 1e-14);
+        assert_near(oz_clip_below(1, 3, c, 1.5 * c + r), all, 1e-14);
         assert_near(oz_clip_below(1, 3, c, 1.5 * c + r - 1e-9), all, 1e-12);
         assert_near(oz_clip_below(1, 3, c, -1.5 * c - r), 0, 1e-12);
     }
@@ -108,13 +111,15 @@ static void test_density(void **state)
         put(&bed, i, 1e-3 + (length + d) / 2, 0, 0, i % 2 ? 1 : -1);
     }
     double v = 40 * oz_grains_volume(d, length), h = length + d;
-    assert_near(value_of(&bed, "density"), 0.95 * v / (area * h), 1e-8);
+    /* nine digits are written, here and below */
+    assert_near(value_of(&bed, "density"), 0.95 * v / (area * h), 1e-9);
     bed.snapshot.position[2] = bed.snapshot.position[3 * 39 + 2] = 20e-3; /* 2 of 40 are 5 % */
-    assert_near(value_of(&bed, "density_all"), v / (area * h), 1e-8);
+    assert_near(value_of(&bed, "density_all"), v / (area * h), 1e-9);
     bed.snapshot.position[3 * 7 + 2] += 1e-3; /* the third highest counts */
-    assert_near(value_of(&bed, "density_all"), v / (area * (h + 1e-3)), 1e-8);
+    /* to nine digits, as above */
+    assert_near(value_of(&bed, "density_all"), v / (area * (h + 1e-3)), 1e-9);
     bed.snapshot.wall_offset[0] = -0.5e-3; /* H is above the floor where it is now */
-    assert_near(value_of(&bed, "density"), 0.95 * v / (area * (h + 1.5e-3)), 1e-8);
+    assert_near(value_of(&bed, "density"), 0.95 * v / (area * (h + 1.5e-3)), 1e-9);
     bed_free(&bed);
 }
 
@@ -128,10 +133,11 @@ static void test_density_com_and_slab(void **state)
     put(&bed, 1, 6e-3, 0, 0, 1);  /* inside */
     put(&bed, 2, 11e-3, 0, 0, 1); /* cut in half by the upper face */
     put(&bed, 3, 16e-3, 0, 0, 1); /* above */
-    assert_near(value_of(&bed, "density_slab"), 2 * v / (area * 8e-3), 1e-9);
-    assert_near(value_of(&bed, "density_com"), 4 * v / (area * 2 * 8e-3), 1e-9);
+    /* nine digits of some thousandths */
+    assert_near(value_of(&bed, "density_slab"), 2 * v / (area * 8e-3), 1e-11);
+    assert_near(value_of(&bed, "density_com"), 4 * v / (area * 2 * 8e-3), 1e-11);
     bed.snapshot.wall_offset[0] = 1e-3;
-    assert_near(value_of(&bed, "density_com"), 4 * v / (area * 2 * 7e-3), 1e-9);
+    assert_near(value_of(&bed, "density_com"), 4 * v / (area * 2 * 7e-3), 1e-11);
     bed.scene.wall_count = 1; /* no cylinder */
     assert_empty(&bed, "density");
     assert_empty(&bed, "density_all");
@@ -149,7 +155,8 @@ static void test_angle(void **state)
     for (int64_t i = 0; i < COUNT; i++) {
         put(&bed, i, 2e-3, i % 2 ? 0.6 : 0, 0, i % 2 ? -0.8 : 1);
     }
-    assert_near(value_of(&bed, "angle"), (90 + asin(0.8) * 180 / PI) / 2, 1e-6);
+    /* nine digits of degrees */
+    assert_near(value_of(&bed, "angle"), (90 + asin(0.8) * 180 / PI) / 2, 1e-7);
     OzRandom random = oz_random_stream(3, 0);
     for (int64_t i = 0; i < COUNT; i++) {
         oz_random_direction(&random, &bed.snapshot.axis[3 * i]);
@@ -174,8 +181,9 @@ static void test_layers(void **state)
     bed.snapshot.wall_offset[0] = 0.3e-3;  /* layers stay in the laboratory */
     put(&bed, 5, 1e-3 + 2e-3, 0, 0, 1);
     bed.grains.length[3] = bed.grains.length[5] = 0; /* spheres count, but have no angle */
-    assert_near(value_of(&bed, "angle_layer1"), 45, 1e-6);
-    assert_near(value_of(&bed, "angle_layer2"), asin(0.8) * 180 / PI, 1e-6);
+    /* nine digits of degrees */
+    assert_near(value_of(&bed, "angle_layer1"), 45, 1e-7);
+    assert_near(value_of(&bed, "angle_layer2"), asin(0.8) * 180 / PI, 1e-7);
     assert_empty(&bed, "angle_layer3");
     assert_empty(&bed, "angle_layer4");
     assert_near(value_of(&bed, "count_layer1"), 3, 0);
@@ -192,15 +200,16 @@ static void test_nematic(void **state)
     for (int64_t i = 0; i < 6; i++) {
         put(&bed, i, 2e-3, 0.36, 0.48, 0.8);
     }
+    /* the cubic's root by an arc cosine: near a double root half of a double's digits */
     assert_near(value_of(&bed, "nematic_s"), 1, 1e-9);
     for (int64_t i = 0; i < 6; i++) { /* along x, y, z, both ways: isotropic */
         put(&bed, i, 2e-3, i % 3 == 0, i % 3 == 1, i % 3 == 2 ? (i < 3 ? 1 : -1) : 0);
     }
-    assert_near(value_of(&bed, "nematic_s"), 0, 1e-7);
+    assert_near(value_of(&bed, "nematic_s"), 0, 3e-8);
     for (int64_t i = 0; i < 6; i++) { /* in a plane, half each: eigenvalues 1/4 1/4 -1/2 */
         put(&bed, i, 2e-3, i % 2 ? 1 : 0, i % 2 ? 0 : 1, 0);
     }
-    assert_near(value_of(&bed, "nematic_s"), 0.25, 1e-7);
+    assert_near(value_of(&bed, "nematic_s"), 0.25, 3e-8);
     bed_free(&bed);
 }
 
@@ -218,10 +227,12 @@ static void test_energies(void **state)
     bed.snapshot.has_contacts = bed.snapshot.has_ledger = true;
     bed.snapshot.contacts = (OzContactSums){3, 1, 2e-5, 4e-5};
     double m = *bed.grains.mass, i_axis = *bed.grains.inertia_axis, i_across = *bed.grains.inertia;
+    /* nine digits are written */
     assert_near(value_of(&bed, "speed_max"), 5, 1e-8);
     assert_near(value_of(&bed, "kinetic") / (m * 12.5), 1, 1e-8);
     assert_near(value_of(&bed, "rotational") / (i_axis * 200 + i_across * 12.5), 1, 1e-8);
     assert_near(value_of(&bed, "energy_potential") / (m * 9.81 * 2e-3), 1, 1e-8);
+    /* counts exactly; overlaps to nine digits */
     assert_near(value_of(&bed, "contact_count"), 3, 0);
     assert_near(value_of(&bed, "overlap_max"), 2e-5, 1e-14);
     assert_near(value_of(&bed, "overlap_mean"), 1e-5, 1e-14);

@@ -152,6 +152,8 @@ static void assert_same_state(const OzSnapshot *a, const OzSnapshot *b)
     assert_memory_equal(a->pieces.touches, b->pieces.touches, sizeof a->pieces.touches);
 }
 
+/* Sums over thousands of steps: 1e-9 of the scale (J), as for the state, is far above rounding and
+ * a millionth of what a wrong term gives. */
 static void assert_same_ledger(const OzPieceLedger *a, const OzPieceLedger *b, double scale)
 {
     assert_close("axial losses", fabs(a->beam_axial - b->beam_axial), 1e-9 * scale);
@@ -374,7 +376,8 @@ static void swallow(Scene *s)
     memcpy(&pieces->position[2 * 4], &pieces->position[0], 2 * sizeof(double));
 }
 
-/* Each guard speaks up by its name within a step, and says what is to blame: a step only where it is. */
+/* Each guard speaks up by its name within a step, and says what is to blame: a step only where it
+ * is. */
 static void test_guards(void **state)
 {
     static const struct {

@@ -30,12 +30,14 @@ static void test_disc_restitution(void **state)
     open_discs(&rig, hooke, 2e-7, 1e-5);
     rig_advance(&rig, 1000);
     double after = rig.now.velocity[3] - rig.now.velocity[0];
-    assert_true(fabs(after / 0.1 - 0.6) < 1e-3);
-    assert_true(fabs(rig.now.spin[2]) < 1e-9); /* rounding of the contact point */
+    /* first touch falls between two of 500 steps: 3e-5 here */
+    assert_true(fabs(after / 0.1 - 0.6) < 1e-4);
+    assert_true(fabs(rig.now.spin[2]) < 1e-14); /* rounding; a roll would be 100 */
     double start = 0.5 * rig.grains.pieces->mass[0] * 0.01;
     OzPieceLedger ledger = rig.now.piece_ledger;
     assert_true(ledger.disc_friction == 0);
-    assert_true(fabs(rig_energy(&rig.now) + ledger.disc_damping - start) < 1e-3 * start);
+    /* likewise: 1e-5 */
+    assert_true(fabs(rig_energy(&rig.now) + ledger.disc_damping - start) < 1e-4 * start);
     rig_close(&rig);
 }
 
@@ -54,15 +56,17 @@ static void test_disc_hertz(void **state)
     for (int64_t step = 1; step < 2000; step += 5) {
         rig_advance(&rig, step);
         stored = fmax(stored, rig.now.pieces.contact_energy);
-        assert_true(fabs(rig_energy(&rig.now) / start - 1) < 1e-4);
+        /* thousands of steps a hit; where it begins gear4 loses order: 4e-8 */
+        assert_true(fabs(rig_energy(&rig.now) / start - 1) < 1e-6);
         const double *x = rig.now.piece_position;
         deepest = fmax(deepest, 2e-3 - hypot(x[2] - x[0], x[3] - x[1]));
     }
     double mass = rig.grains.pieces->mass[0] / 2;
     double expected = pow(5 * mass * 0.01 / (4 * 1e6), 0.4);
-    assert_true(fabs(deepest / expected - 1) < 1e-4);
-    assert_true(fabs(stored / (0.5 * start) - 1) < 1e-4); /* half is the common motion's */
-    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-6);
+    /* seen every fifth step, to the square of what that is of the hit: 5e-6 */
+    assert_true(fabs(deepest / expected - 1) < 1e-5);
+    assert_true(fabs(stored / (0.5 * start) - 1) < 2e-5); /* half is the common motion's */
+    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-8);
     rig_close(&rig);
 }
 
@@ -80,8 +84,9 @@ static void test_deep_discs_are_counted(void **state)
     open_discs(&rig, contact, step, 0);
     rig_advance(&rig, (int64_t)(1.2 * time / step));
     double expected = time * (1 - 2 * asin(0.25 / 0.4) / pi) / step;
+    /* 2500 steps a hit: 5e-8 of the speed is lost where it begins and ends */
     assert_true(fabs((double)rig.now.deep_count - expected) <= 1);
-    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-4);
+    assert_true(fabs(rig.now.velocity[3] - 0.1) < 1e-7);
     rig_close(&rig);
 }
 
@@ -102,6 +107,7 @@ static void test_disc_friction(void **state)
     rig_advance(&rig, 16000);
     rig_momentum(&rig.now, after);
     for (int k = 0; k < 3; k++) {
+        /* rounding of 16000 steps; about the origin at an arm of a millimetre */
         assert_true(fabs(after[k] - before[k]) < 1e-12 * before[0] * (k == 2 ? 1e-3 : 1) + 1e-25);
     }
     const double *v = &rig.now.velocity[3];
@@ -112,11 +118,13 @@ static void test_disc_friction(void **state)
     /* the normal turns by 1e-4 during the hit, a hundredth of the friction */
     assert_true(along > 0 && fabs(across / along / -0.01 - 1) < 0.02);
     assert_true(fabs(spin / (-2 * across / (mass * 1e-3)) - 1) < 0.02);
-    assert_true(fabs(rig.now.spin[2] / spin - 1) < 1e-9);
+    /* alike discs, alike torques */
+    assert_true(fabs(rig.now.spin[2] / spin - 1) < 1e-14);
     /* what is not left of the motion went into sliding: its dashpot has nothing to do with the ends
      */
     double lost = rig.now.piece_ledger.disc_friction;
-    assert_true(lost > 0 && fabs((before_energy - rig_energy(&rig.now)) / lost - 1) < 0.01);
+    /* the ledger's powers are those at the ends of steps: 1e-4 */
+    assert_true(lost > 0 && fabs((before_energy - rig_energy(&rig.now)) / lost - 1) < 1e-3);
     rig_close(&rig);
 }
 
@@ -133,7 +141,9 @@ static void check_rest(const double corners[6])
     must(oz_pieces_set_triangle(p, 1, corners, 0));
     rig_start(&rig);
     rig_advance(&rig, 5000);
-    assert_true(fabs((1e-3 - rig.now.piece_position[1]) / sunk - 1) < 1e-3);
+    /* sunk is 3e-8 m of a coordinate whose last digit is 2e-19: 1e-11; what swung is gone after 25
+     * contact times */
+    assert_true(fabs((1e-3 - rig.now.piece_position[1]) / sunk - 1) < 1e-9);
     assert_int_equal(rig.now.pieces.wall_touches, 1);
     assert_int_equal(rig.now.pieces.touches[OZ_TOUCH_DISC], 1);
     assert_int_equal(rig.now.pieces.grain_pairs, 0);

@@ -201,12 +201,13 @@ static double ledger_error(int integrator, double step)
     return fabs(residual) / put_in;
 }
 
-/* A hundredth is what users are promised; about 0.002 is left at 30 steps a contact. */
+/* A hundredth is what users are promised. */
 static void test_ledger_closes(void **state)
 {
     (void)state;
-    assert_true(ledger_error(OZ_INTEGRATOR_SYMPLECTIC_EULER, 2e-5) < 0.01);
-    assert_true(ledger_error(OZ_INTEGRATOR_VELOCITY_VERLET, 2e-5) < 0.01);
+    /* 0.003 is left at 30 steps a contact */
+    assert_true(ledger_error(OZ_INTEGRATOR_SYMPLECTIC_EULER, 2e-5) < 0.005);
+    assert_true(ledger_error(OZ_INTEGRATOR_VELOCITY_VERLET, 2e-5) < 0.005);
 }
 
 /* What explicit Euler gains in each contact is of first order in the step. The two beds have other
@@ -216,6 +217,7 @@ static void test_ledger_of_euler_closes_linearly_with_the_step(void **state)
     (void)state;
     double coarse = ledger_error(OZ_INTEGRATOR_EULER, 5e-6);
     double fine = ledger_error(OZ_INTEGRATOR_EULER, 1.25e-6);
+    /* 4, to a quarter for other contacts; second order would be 16 */
     assert_true(coarse / fine > 3 && coarse / fine < 5.5);
 }
 

@@ -84,7 +84,7 @@ static void test_every_case_has_its_scene(void **state)
         assert_int_equal(OZ_OK, oz_scene_load(&scene, path, NULL, 0));
         /* a whole number of contact times: every rung of the ladder then ends at the same time */
         double contacts = scene.duration / scene.contact.contact_time;
-        assert_true(fabs(contacts - round(contacts)) < 1e-9);
+        assert_true(fabs(contacts - round(contacts)) < 1e-12);
         oz_scene_free(&scene);
     }
 }
@@ -96,13 +96,15 @@ static void test_reference_meets_the_rigid_sphere(void **state)
     (void)state;
     double v = 0.1, deceleration = 0.3 * 9.81, rolls = 2 * v / (7 * deceleration);
     double way = 12.0 / 49 * v * v / deceleration + 5.0 / 7 * v * (0.03 - rolls);
-    assert_true(fabs(truth_of("rolling_sphere") / way - 1) < 1e-3);
+    /* 1e-6 m of 2.3e-3 m for the spring, less for what it gives back: 2e-4 */
+    assert_true(fabs(truth_of("rolling_sphere") / way - 1) < 4e-4);
 }
 
 /* Gravity acts during the hits too, and a hit lasts 1/20 of a flight. */
 static void test_reference_meets_the_bouncing_sphere(void **state)
 {
     (void)state;
+    /* a twentieth for what a hit lasts of a flight, and gravity meanwhile: 0.055 */
     assert_true(fabs(truth_of("bounce") / (1e-3 * pow(0.8, 6)) - 1) < 0.1);
 }
 
@@ -120,7 +122,8 @@ static void test_reference_meets_the_slanted_rod(void **state)
     double half_damping = -k * share, squared = (pi * pi + k * k) * share;
     double e = exp(-pi * half_damping / sqrt(squared - half_damping * half_damping));
     double spin = mass / share * (1 + e) * 0.1 * arm / inertia;
-    assert_true(fabs(truth_of("oblique_smooth") / spin - 1) < 5e-3);
+    /* the turning of 0.4 degrees: 1.5e-3 */
+    assert_true(fabs(truth_of("oblique_smooth") / spin - 1) < 3e-3);
 }
 
 /* symplectic-euler's restitution depends on where in a step the hit begins: without phases, the
@@ -129,6 +132,7 @@ static void test_phases_scatter(void **state)
 {
     (void)state;
     OzReportPoint point = measured("normal_hit", OZ_INTEGRATOR_SYMPLECTIC_EULER, 20);
+    /* an error spread evenly over the phases has sqrt(3) between them, less with an offset: 1.3 */
     assert_true(point.error_max > 1.1 * point.error_rms);
 }
 
@@ -141,7 +145,8 @@ static void test_error_falls_with_the_step(void **state)
     OzReportPoint fine = measured("normal_hit", OZ_INTEGRATOR_VELOCITY_VERLET, 80);
     assert_true(coarse.good && fine.good);
     assert_true(coarse.error_rms > 8 * fine.error_rms);
-    assert_true(fine.error_rms > 1e-5 && fine.error_rms < 0.01);
+    /* of the restitution: some of (pi / 80)^2, 1.5e-3 */
+    assert_true(fine.error_rms > 1e-4 && fine.error_rms < 3e-3);
     assert_true(fine.wall > 0 && fine.wall_low <= fine.wall && fine.wall <= fine.wall_high);
 }
 
@@ -180,7 +185,8 @@ static void test_front_cheapest_and_order(void **state)
     assert_false(points[3].front || points[4].front);
     assert_int_equal(20, oz_report_table_cheapest(points, 5, 0.03)->steps);
     assert_null(oz_report_table_cheapest(points, 5, 1e-3));
-    assert_true(fabs(oz_report_table_order(points, 5, &points[0]) - 2) < 1e-9);
+    /* a line through logarithms that lie on it: rounding */
+    assert_true(fabs(oz_report_table_order(points, 5, &points[0]) - 2) < 1e-12);
     points[2].device = &device; /* another device is another curve: two points have no order */
     assert_true(isnan(oz_report_table_order(points, 5, &points[0])));
 }
@@ -227,8 +233,8 @@ static void test_an_end_is_stiffer_than_a_centre(void **state)
     OzContactConstants pair = oz_contact_constants(&scene.contact);
     assert_int_equal(1, bed.contacts);
     /* rounding alone: a single contact's swing is found in one iteration */
-    assert_true(fabs(bed.stiffness / (share * pair.stiffness) - 1) < 1e-9);
-    assert_true(fabs(bed.damping / (share * pair.damping) - 1) < 1e-9);
+    assert_true(fabs(bed.stiffness / (share * pair.stiffness) - 1) < 1e-14);
+    assert_true(fabs(bed.damping / (share * pair.damping) - 1) < 1e-14);
     oz_snapshot_free(&now);
     oz_grains_free(&grains);
     oz_scene_free(&scene);

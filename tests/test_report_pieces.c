@@ -72,8 +72,8 @@ static void test_every_case_has_its_scene(void **state)
     }
 }
 
-/* Of three modes of two triangles and a beam. Halving the step divides an error of order p by 2^p:
- * half an order is allowed. */
+/* Of three modes of two triangles and a beam. Halving the step divides an error of order p by 2^p.
+ */
 static void test_orders(void **state)
 {
     (void)state;
@@ -87,7 +87,8 @@ static void test_orders(void **state)
         double fine = error_of("beam_vibration", rows[i].integrator, 0, 32);
         print_message("order %g: error %.2e at 16 steps, %.2e at 32\n", rows[i].order, coarse,
                       fine);
-        assert_true(fabs(log2(coarse / fine) - rows[i].order) < 0.5);
+        /* the next order's part at 16 steps a period: 0.13 */
+        assert_true(fabs(log2(coarse / fine) - rows[i].order) < 0.25);
     }
 }
 
@@ -110,7 +111,8 @@ static void test_energy(void **state)
     OzReportPoint midpoint = measured("undamped_dice", &paper, OZ_INTEGRATOR_GEAR4, 0, 40, NULL);
     print_message("energy after a hit without damping: centroid %.1e, midpoint %.1e\n",
                   centroid.error_rms, midpoint.error_rms);
-    assert_true(centroid.error_rms < 1e-6);
+    /* gear4's error at 40 steps of the fastest vibration 1e-7; the midpoint's work 6e-4 */
+    assert_true(centroid.error_rms < 5e-7);
     assert_true(midpoint.error_rms > 1e-4);
 }
 
@@ -123,6 +125,7 @@ static void test_dice(void **state)
     double fine = error_of("two_dice", OZ_INTEGRATOR_GEAR4, 0, 160);
     print_message("dice: error %.1e at 20 steps, %.1e at 160\n", coarse, fine);
     assert_true(coarse > 5 * fine);
+    /* 3e-5 at 160 steps; no order to derive it from, since the force jumps */
     assert_true(fine < 1e-4);
 }
 
@@ -137,7 +140,8 @@ static void test_device(void **state)
         OzReportPoint there =
             measured("undamped_dice", &plain, OZ_INTEGRATOR_GEAR4, 0, 20, &device);
         assert_true(there.good && there.wall > 0);
-        assert_true(fabs(there.error_rms / host.error_rms - 1) < 1e-3);
+        /* roundings of 1e-16 in an error of 1e-6: 4e-10 */
+        assert_true(fabs(there.error_rms / host.error_rms - 1) < 1e-7);
     }
     oz_device_close(&device);
 }
@@ -149,7 +153,8 @@ static void test_loop(void **state)
     double centroid, midpoint;
     assert_int_equal(OZ_OK, oz_report_midpoint_loop(&centroid, OZ_FORCE_CENTROID));
     assert_int_equal(OZ_OK, oz_report_midpoint_loop(&midpoint, OZ_FORCE_MIDPOINT));
-    assert_true(fabs(centroid) < 1e-6);
+    /* Simpson's error 5e-11; the midpoint's work 0.02 of what is stored */
+    assert_true(fabs(centroid) < 1e-9);
     assert_true(fabs(midpoint) > 0.01);
 }
 
@@ -181,6 +186,8 @@ static void test_pile(void **state)
         print_message("injected: centroid %.1e W, midpoint %.1e W; kinetic energy over its peak "
                       "%.1e, then %.1e\n",
                       centroid.power, midpoint.power, centroid.before, centroid.after);
+        /* beams and dampers take all motion, and the centroid's force gives none: 5e-5 of the
+         * midpoint's */
         assert_true(fabs(centroid.power) < 1e-3 * fabs(midpoint.power));
         assert_true(centroid.after < centroid.before && centroid.before < 1e-3);
     }

@@ -112,6 +112,7 @@ static void random_polygons_keep_to_the_limits(void **state)
         OzPatch patch = make(population, seed), again = make(population, seed);
         check_whole(&patch);
         for (int k = 0; k < patch.joint_count; k++) {
+            /* the limit is asked with a slack of 1e-9, for edges that are right on it */
             assert_true(oz_patch_joint_length(&patch, k) >= 6e-4 * (1 - 1e-9));
         }
         for (int t = 0; t < patch.triangle_count; t++) {
@@ -212,8 +213,9 @@ static void given_corners_keep_their_symmetry(void **state)
     assert_int_equal(same.joint_count, 4);
     for (int k = 0; k < 4; k++) {
         double a = oz_patch_joint_length(&same, k), b = oz_patch_joint_length(&die, k);
-        assert_true(fabs(a - b) < 1e-12 * b);
-        assert_true(fabs(oz_patch_area(&same, k) - 1e-6) < 1e-18);
+        /* the same square about another origin: last digits */
+        assert_true(fabs(a - b) < 1e-14 * b);
+        assert_true(fabs(oz_patch_area(&same, k) - 1e-6) < 1e-20);
     }
     check_whole(&same);
     oz_patch_free(&die);

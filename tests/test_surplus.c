@@ -134,7 +134,8 @@ static void test_a_spring_grown_beyond_friction_holds_what_it_gives_back(void **
     double stiffness = 2.0 / 7 * pi * pi / (time * time);
     double expected = 0.5 * m * speed * speed + m * push * (way - push / (2 * stiffness));
     rig_advance(&rig, 500);
-    assert_true(fabs(rig.now.ledger.elastic / expected - 1) < 0.05);
+    /* the beginning without sliding: 0.002 */
+    assert_true(fabs(rig.now.ledger.elastic / expected - 1) < 0.01);
     rig_close(&rig);
 }
 
@@ -152,10 +153,11 @@ static void test_leaves_alone_what_the_law_gives_back(void **state)
     for (int row = 0; row <= 120; row++) {
         rig_advance(&rig, row * 10);
         must(oz_surplus_check(&surplus, &rig.now));
+        /* 1000 steps a hit at which the ledger takes means of powers: 1.6e-4 */
         assert_true(fabs(oz_observables_energy(&rig.now) - start) < 2e-4 * start);
         least = fmin(least, rig.now.ledger.friction);
     }
-    assert_true(least < -1e-3 * start); /* it did give back */
+    assert_true(least < -0.02 * start); /* it did give back */
     assert_true(rig.now.ledger.friction > 0 && rig.now.ledger.elastic == 0);
     rig_close(&rig);
 }

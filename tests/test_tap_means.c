@@ -88,6 +88,7 @@ static void test_all_phases(void **state)
     double root = sqrt(top_height * top_height - amplitude * amplitude);
     double centre = sqrt(centre_height * centre_height - amplitude * amplitude);
     for (int row = TAPS; row <= TAPS + 1; row++) {
+        /* 3e-4 rad times amplitude over height; nine digits where the phase does not matter */
         assert_share(cell(row, "density_all_tap_mean"), filling() / root, 1e-4);
         assert_share(cell(row, "density_tap_mean"), 0.95 * filling() / root, 1e-4);
         assert_share(cell(row, "density_com_tap_mean"), filling() / (2 * centre), 1e-4);
@@ -108,6 +109,7 @@ static void check_phase(OzObserveAt at, double share, double offset)
     assert_share(cell(1, "density_all"), filling() / top_height, 1e-8);
     assert_true(cell(1, "density_all_tap_mean") == number_in(""));
     for (int row = 2; row <= TAPS + 1; row++) {
+        /* half a step of 3.7e-6 s; heights at the turning points: 4e-8 */
         assert_true(fabs(cell(row, "tap") - (row - 2 + share)) < 3.7e-6 / 2 * frequency);
         assert_share(cell(row, "density_all"), all, 1e-7);
         assert_share(cell(row, "density_all_tap_mean"), all, 1e-7);

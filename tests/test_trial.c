@@ -60,8 +60,9 @@ static void test_bending_scales(void **state)
     double slow = trial_of(1e-10, 0.1).bend, fast = trial_of(1e-10, 0.2).bend;
     double faster = trial_of(1e-10, 3).bend, stiff = trial_of(4e-10, 0.2).bend;
     print_message("%.3g, %.3g, %.3g rad; four times as stiff %.3g\n", slow, fast, faster, stiff);
-    assert_true(fabs(fast / slow / 2 - 1) < 0.25);
-    assert_true(faster > 1 && fabs(faster / slow / 30 - 1) < 0.25);
+    /* contacts are not linear: by 2 % here */
+    assert_true(fabs(fast / slow / 2 - 1) < 0.05);
+    assert_true(faster > 1 && fabs(faster / slow / 30 - 1) < 0.05);
     assert_true(stiff < 0.5 * fast && stiff > 0.25 * fast);
 }
 

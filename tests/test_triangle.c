@@ -114,9 +114,12 @@ static void test_areas(void **state)
         OzTriangle a = some_triangle(), b = some_triangle();
         OzOverlap o = oz_triangle_overlap(&a, &b), back = oz_triangle_overlap(&b, &a);
         double area = clipped_area(&a, &b, &centroid);
+        /* last digits of numbers of order one; of the push, of chords of 1e-4 and longer */
         assert_true(fabs(o.area - area) < 1e-14);
-        assert_true(fabs(o.moment - oz_cross2(centroid, o.push)) < 1e-13);
-        assert_true(distance(o.push, oz_scale2(back.push, -1)) < 1e-10);
+        assert_true(fabs(o.moment - oz_cross2(centroid, o.push)) < 1e-14);
+        assert_true(distance(o.push, oz_scale2(back.push, -1)) < 1e-12);
+        /* rounding: an energy is a third moment, a sum of some tens of products; a push is no
+         * longer than the area */
         assert_true(fabs(o.energy - back.energy) < 1e-13);
         assert_true(o.kind == back.kind && o.deep == back.deep);
         assert_true(oz_length2(o.push) <= o.area * (1 + 1e-12));
@@ -206,16 +209,18 @@ static void test_push(void **state)
     OzTriangle tip = triangle(0, -1.9, -0.3, -3, 0.3, -3);
     OzTriangle aside = moved(tip, 0.5, 0, 0);
     for (at_midpoint = 0; at_midpoint < 2; at_midpoint++) {
+        /* coordinates of 3 have 4e-16 as last digit, the chord is 0.05 wide: 2e-17 */
         OzOverlap o = oz_triangle_overlap(&wide, &aside);
-        assert_true(fabs(o.area - area) < 1e-15);
-        assert_true(fabs(o.push.x) < 1e-15 && fabs(o.push.y + area) < 1e-15);
-        assert_true(fabs(o.moment + 0.5 * area) < 1e-15);
-        assert_true(fabs(o.energy - area * h / 3) < 1e-15);
+        assert_true(fabs(o.area - area) < 1e-16);
+        assert_true(fabs(o.push.x) < 1e-16 && fabs(o.push.y + area) < 1e-16);
+        assert_true(fabs(o.moment + 0.5 * area) < 1e-16);
+        assert_true(fabs(o.energy - area * h / 3) < 1e-16);
         /* lying slanted, the middle of the chord is not above the centroid */
         OzTriangle slanted = triangle(0, -1.9, 0, -3, 1, -3);
         o = oz_triangle_overlap(&wide, &slanted);
         double width = 0.1 / 1.1, along = at_midpoint ? width / 2 : width / 3;
-        assert_true(fabs(o.moment + along * width * h / 2) < 1e-15);
+        /* 2e-17, as above */
+        assert_true(fabs(o.moment + along * width * h / 2) < 1e-16);
     }
     at_midpoint = 0;
 }
@@ -251,9 +256,10 @@ static void test_gradient(void **state)
         double x = (energy_at(&a, &b, h, 0, 0) - energy_at(&a, &b, -h, 0, 0)) / (2 * h);
         double y = (energy_at(&a, &b, 0, h, 0) - energy_at(&a, &b, 0, -h, 0)) / (2 * h);
         double turn = (energy_at(&a, &b, 0, 0, h) - energy_at(&a, &b, 0, 0, -h)) / (2 * h);
-        assert_true(fabs(o.push.x + x) < 1e-8);
-        assert_true(fabs(o.push.y + y) < 1e-8);
-        assert_true(fabs(o.moment + turn) < 1e-8);
+        /* third derivatives grow as edges become parallel: 7e-10 at the worst */
+        assert_true(fabs(o.push.x + x) < 2e-9);
+        assert_true(fabs(o.push.y + y) < 2e-9);
+        assert_true(fabs(o.moment + turn) < 2e-9);
         tried++;
     }
 }
@@ -283,7 +289,7 @@ static double loop_work(int steps, double *stored)
     return work / *stored;
 }
 
-/* Simpson's error at first touch, where the force's second derivative jumps: below 1e-6. */
+/* Simpson's error at first touch, where the force's second derivative jumps: 1e-11. */
 static void test_loop(void **state)
 {
     (void)state;
@@ -296,8 +302,9 @@ static void test_loop(void **state)
     print_message("net work of a closed loop over the stored energy: centroid %.1e, midpoint "
                   "%.3f\n",
                   centroid, midpoint);
-    assert_true(fabs(centroid) < 1e-6);
-    assert_true(fabs(midpoint) > 0.01);
+    /* the paper's point loses some hundredths */
+    assert_true(fabs(centroid) < 1e-10);
+    assert_true(fabs(midpoint) > 0.05);
 }
 
 static void test_deep_and_swallowed(void **state)
@@ -332,6 +339,7 @@ static void test_touching(void **state)
         for (int k = -4; k <= 4; k++) {
             OzTriangle a = moved(wide, 0.1, 0.7, 0.3 * k), b = moved(others[i], 0.1, 0.7, 0.3 * k);
             OzOverlap o = oz_triangle_overlap(&a, &b);
+            /* coordinates up to 5 are turned: 1e-15 in height, over edges up to 4 long */
             assert_true(o.area < 1e-14 && oz_length2(o.push) < 1e-14 && fabs(o.energy) < 1e-14);
             assert_false(o.swallowed || o.deep);
         }
@@ -381,9 +389,11 @@ static void check_jumps(int low, int high, int count, double *jumps)
     print_message("kinds %d-%d: %d changes, jump over area: median %.2g, 90%% %.2g\n", low, high,
                   count, jumps[count / 2], jumps[count * 9 / 10]);
     if (low == 0 || (low == 1 && high != 3)) {
-        assert_true(jumps[count * 99 / 100] < 1e-6);
+        /* 1e-16 over chords of 1e-4 and areas likewise small: 2e-13 */
+        assert_true(jumps[count * 99 / 100] < 1e-10);
     } else if (high < 5 && low < 3) {
-        assert_true(jumps[count / 2] > 0.3 && jumps[count / 2] < 0.55);
+        /* medians of some thousands: 0.43 and 0.46, a few hundredths for the sample */
+        assert_true(jumps[count / 2] > 0.38 && jumps[count / 2] < 0.5);
     }
 }
 

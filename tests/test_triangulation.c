@@ -110,7 +110,8 @@ static void check_delaunay(const OzPatch *patch)
 {
     for (int k = 0; k < patch->joint_count; k++) {
         int a = patch->joint[2 * k], b = patch->joint[2 * k + 1];
-        assert_true(angle_across(patch, a, b) + angle_across(patch, b, a) <= PI + 1e-9);
+        /* four corners on a circle may go either way: rounding of pi */
+        assert_true(angle_across(patch, a, b) + angle_across(patch, b, a) <= PI + 1e-14);
     }
 }
 
@@ -129,6 +130,7 @@ static void cuts_random_polygons(void **state)
         }
         OzPatch patch;
         assert_int_equal(oz_triangulation_make(&patch, corners, n, "here"), OZ_OK);
+        /* rounding of a sum of n products */
         assert_true(fabs(patch.area - shoelace(corners, n)) <= ROUNDING * n);
         assert_int_equal(patch.joint_count, n - 3);
         check_delaunay(&patch);
