@@ -52,7 +52,7 @@ static void test_means_are_exact(void **state)
         OzScene scene = make_scene(k / 12, asked[k % 3], 30);
         scene.contact.attraction = (OzAttraction)(k / 3 % 2);
         scene.contact.damping = (OzDamping)(k / 6 % 2);
-        /* the root is bisected to its last digits: 4e-14 */
+        /* the search for the damping ends at 1e-13 */
         assert_true(fabs(hits_of(&scene).mean - asked[k % 3]) < 1e-12);
     }
     OzScene verlet = make_scene(OZ_INTEGRATOR_VELOCITY_VERLET, 0.4, 30);

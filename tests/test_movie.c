@@ -240,7 +240,7 @@ static void test_any_number_of_frames(void **state)
         assert_int_equal(encode(in_folder("short.mp4"), NULL, frames), OZ_OK);
         decode(in_folder("short.mp4"), &decoded);
         assert_int_equal(decoded.frames, frames);
-        /* the container counts microseconds */
+        /* whole ticks of the stream times their length: rounding alone */
         assert_true(fabs(decoded.duration - frames) < 1e-6);
         av_dict_free(&decoded.metadata);
     }

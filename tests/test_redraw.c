@@ -136,7 +136,7 @@ static void snapshots_come_from_the_nearest_frame(void **state)
         bool wanted = k == 2 || k == 3 || k == 7;
         assert_int_equal((plan.frames[k].purpose & OZ_FRAME_SNAPSHOT) != 0, wanted);
     }
-    /* times of frames: whole steps times the step, rounded once */
+    /* the frames' own times: whole steps times the step, rounded once */
     assert_true(fabs(asked.snapshots.times[0] - 0.2) < 1e-12);
     assert_true(fabs(asked.snapshots.times[1] - 0.3) < 1e-12);
     assert_true(asked.snapshots.times[2] == 0.7004);

@@ -100,7 +100,7 @@ static void assert_same_numbers(const char *one, const char *other)
         x = end + (*end != '\0');
         double got = strtod(y, &end);
         y = end + (*end != '\0');
-        /* sums of thousands of terms in another order; the files have 17 digits */
+        /* a few roundings of spins, and of none where there is none; 17 digits are written */
         assert_true(fabs(got - expected) <= 1e-12 * fabs(expected) + 1e-15);
     }
     assert_int_equal(count, 30 * 20);

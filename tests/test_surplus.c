@@ -153,7 +153,7 @@ static void test_leaves_alone_what_the_law_gives_back(void **state)
     for (int row = 0; row <= 120; row++) {
         rig_advance(&rig, row * 10);
         must(oz_surplus_check(&surplus, &rig.now));
-        /* 1000 steps a hit at which the ledger takes means of powers: 1.6e-4 */
+        /* a fifth of a thousandth, as said above: 1.6e-4 */
         assert_true(fabs(oz_observables_energy(&rig.now) - start) < 2e-4 * start);
         least = fmin(least, rig.now.ledger.friction);
     }
