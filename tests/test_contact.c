@@ -76,6 +76,7 @@ static void test_constants_of_the_paper(void **state)
     /* a few roundings of the same products in another order */
     assert_true(fabs(constants.stiffness * 36e-8 / (pi * pi + pow(log(0.4), 2)) - 1) < 2e-15);
     assert_true(fabs(constants.damping * 6e-4 / (-2 * log(0.4)) - 1) < 2e-15);
+    /* a share, multiplied once */
     assert_true(fabs(constants.tangential_stiffness / constants.stiffness - 2.0 / 7) < 1e-15);
     assert_true(fabs(constants.tangential_damping / constants.damping - 2.0 / 7) < 1e-15);
     values.restitution = 0;

@@ -129,10 +129,11 @@ static void test_two_bodies_as_one(void **state)
     rod.inverse_inertia = 1 / 8e-12;
     dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .at_contact = 1};
     OzContact unlike = pair_contact(sphere, rod);
-    /* rounding; the overlap is 1e-5 of coordinates of 3e-3, which have 4e-19 as last digit */
+    /* rounding of products and quotients */
     assert_true(fabs(unlike.mass / 2e-6 - 1) < 1e-14);
     assert_true(fabs(unlike.radius / (2e-3 / 3) - 1) < 1e-14);
     double felt = 1 / (1 / 3e-6 + 1 / 6e-6 + 4e-6 / 8e-12);
+    /* rounding; the overlap is 1e-5 of coordinates of 3e-3, which have 4e-19 as last digit */
     assert_true(fabs(unlike.lightness / sqrt(felt / 2e-6) - 1) < 1e-14);
     assert_true(fabs(unlike.overlap / 1e-5 - 1) < 1e-12 && fabs(unlike.normal.z - 1) < 1e-14);
     dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .equal = 1, .round = 1};
@@ -159,12 +160,13 @@ static void test_spring_turns_with_the_pair(void **state)
         spring = oz_contact_turn(oz_vec3(0, 2e-6, 0), turned);
         assert_true(spring.x == 0 && spring.y == 2e-6 && spring.z == 0);
     }
-    /* a quarter of a round in 2000 turns: their fourth powers, summed, times 3/8, are 2.85e-10 */
+    /* a quarter of a round in 2000 turns: their fourth powers, summed, times 3/8: 2.85e-10 */
     OzVec3 spring = {0, 0, 1e-6};
     for (int i = 1; i <= 2000; i++) {
         double angle = 2 * atan(1) * i / 2000;
         spring = oz_contact_turn(spring, oz_vec3(cos(angle), 0, sin(angle)));
     }
+    /* 2.85e-16 of a length of 1e-6 */
     assert_true(fabs(spring.x + 1e-6) < 3e-16 && fabs(spring.z) < 3e-16);
 }
 

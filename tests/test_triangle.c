@@ -212,6 +212,7 @@ static void test_push(void **state)
         /* coordinates of 3 have 4e-16 as last digit, the chord is 0.05 wide: 2e-17 */
         OzOverlap o = oz_triangle_overlap(&wide, &aside);
         assert_true(fabs(o.area - area) < 1e-16);
+        /* 2e-17, as above */
         assert_true(fabs(o.push.x) < 1e-16 && fabs(o.push.y + area) < 1e-16);
         assert_true(fabs(o.moment + 0.5 * area) < 1e-16);
         assert_true(fabs(o.energy - area * h / 3) < 1e-16);
