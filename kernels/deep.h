@@ -21,7 +21,7 @@ OZ_INLINE void oz_deep_count(OzWork *w, scalar depth, int kind, int step, int gr
     atomic_inc(&control->deep_count);
     if (step <= control->deep_step) {
         atomic_min(&control->deep_step, step);
-        atomic_min(&control->deep_grain, grain);
+        atomic_min(&control->deep_index, grain);
         atomic_max(&control->deep_depth, convert_int_sat(depth * (scalar)OZ_DEEP_SHARE));
         atomic_or(&control->deep_kinds, kind);
     }

@@ -4,7 +4,7 @@
 #define OZ_KERNELS_LAYOUT_H
 
 #include "kernels/contact.h"
-#include "kernels/units.h"
+#include "kernels/head.h"
 #include "kernels/wall_shape.h"
 
 enum { OZ_WALLS_MAX = 16 }; /* the most walls of a scene: OzParameters has an entry for each */
@@ -20,11 +20,10 @@ typedef struct OzWallParameters {
  * converting it number by number. On the host the numbers are in SI units; a device's are counted in `units`,
  * as is everything that kernels read. */
 typedef struct OzParameters {
+    OZ_PARAMETERS_HEAD
     scalar length_unit;   /* m per count of a place; 1 in double                              */
     scalar inverse_unit;  /* 1/m                                                              */
     scalar domain;        /* units: a grain beyond this distance from the origin has escaped  */
-    scalar dt;            /* s                                                                */
-    scalar drag;          /* 1/s, only while settling                                         */
     scalar gravity[3];    /* m/s^2                                                            */
     scalar deep_look, deep_warn, deep_stop; /* depths (depth.h) looked at, counted, stopped at     */
     OzLawConstants law;            /* between grains                                                   */
@@ -34,7 +33,6 @@ typedef struct OzParameters {
     scalar skin_time;     /* s: for which a grain's skin shall last at its present speed      */
     scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
     scalar reach_max;     /* m, largest half-length + radius                                  */
-    OzUnits units;        /* for the host alone                                               */
     scalar radius_count;  /* units: the radius in a place's units                             */
     scalar radius, half_length, mass; /* of every grain of an equal population                */
     scalar inverse_mass, inverse_inertia, inverse_inertia_axis;
@@ -43,19 +41,11 @@ typedef struct OzParameters {
 
 /* Sizes and strides; the same for every member of one launch. */
 typedef struct OzSizes {
+    OZ_SIZES_HEAD
     int count;            /* grains                                                             */
-    int slots;            /* count rounded up to whole blocks of lanes                          */
-    int blocks;           /* slots / lanes                                                      */
-    int regions;          /* runs of grains that one work-item looks after                      */
-    int region_slots;     /* slots of a region, whole blocks                                    */
-    int outer_capacity;   /* pairs of a region's outer list, whole blocks                       */
-    int inner_capacity;   /* pairs of a region's inner list, whole blocks                       */
-    int back_capacity;    /* pairs of the inner list in which a grain is the second             */
     int axis[3];          /* of space, in the grid's order: cells along the first follow each other */
     int cells_along[3];   /* those axes; powers of two: cell coordinates wrap around            */
     int cells;
-    int motion_steps;     /* steps of one launch for which walls' motion is given                */
-    int members;          /* scenes side by side in this launch                                 */
 } OzSizes;
 
 /* Reasons to stop, as bits. */
@@ -67,37 +57,19 @@ enum {
     OZ_STOP_MET = 16
 };
 
-/* Between what a deep contact was found, as bits. Depths are whole numbers on a device: the depth in its unit
- * (depth.h) times OZ_DEEP_SHARE. */
-enum { OZ_DEEP_PAIR = 1, OZ_DEEP_WALL = 2, OZ_DEEP_SHARE = 1000000 };
-
-enum { OZ_NEVER = 0x7fffffff };
-
 /* Where the tangential springs of touching pairs are kept. A rebuild moves them inner -> outer -> saved ->
  * outer -> inner and can be stopped and repeated with larger lists after any of these. */
 enum { OZ_TRUTH_NONE, OZ_TRUTH_SAVED, OZ_TRUTH_OUTER, OZ_TRUTH_INNER };
 
-/* The device's own words, one set a member. Steps count from the start of the launch. */
+/* The device's own words, one set a member. */
 typedef struct OzControl {
-    int step;         /* next step to make                                                      */
-    int moved;        /* its places are moved already (velocity-verlet, after a list was full)   */
+    OZ_CONTROL_HEAD
     int stale_step;   /* the step after which lists no longer hold; OZ_NEVER                    */
     int stale_places; /* the step whose places, moved before its forces, the lists do not hold; OZ_NEVER. Large
                          scenes with an integrator that moves first only: others renew them in time */
-    int full;         /* a list was too small: the rebuild is to be repeated with larger ones   */
-    int outer_needed, inner_needed, back_needed; /* the largest that were asked for               */
-    int stop_bits;    /* OZ_STOP_...                                                            */
-    int stop_step;    /* first step that stopped; OZ_NEVER                                      */
-    int stop_grain;   /* lowest id that stopped in that step; OZ_NEVER                          */
     int truth;        /* where the tangential springs are now: OZ_TRUTH_...                      */
     int outer_stale;  /* the outer list no longer covers the inner skin                         */
-    int refreshes, rebuilds; /* since the start of the run                                      */
     int crossed;      /* contacts without a normal (shafts crossing) met so far                 */
-    int deep_count;   /* deep contacts of this launch, each counted once a step                 */
-    int deep_step;    /* first step with one; OZ_NEVER                                          */
-    int deep_grain;   /* the lowest id in it (a pair's first grain); OZ_NEVER                   */
-    int deep_depth;   /* the greatest depth in it, in OZ_DEEP_SHARE of its unit                 */
-    int deep_kinds;   /* OZ_DEEP_... in it                                                      */
 } OzControl;
 
 /* Words of a record: what a contact needs of a grain, one record a slot, OZ_RECORD scalars. */

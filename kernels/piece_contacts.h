@@ -153,8 +153,8 @@ OZ_INLINE void oz_piece_contacts_count(OzPieceWork *w, real share, mask deep, co
         atomic_inc(&control->deep_count);
         if (step <= control->deep_step) {
             atomic_min(&control->deep_step, step);
-            atomic_min(&control->deep_slot, slots[l]);
-            atomic_max(&control->deep_share, convert_int_sat(lane[l] * (scalar)OZ_PIECE_DEEP_SHARE));
+            atomic_min(&control->deep_index, slots[l]);
+            atomic_max(&control->deep_depth, convert_int_sat(lane[l] * (scalar)OZ_DEEP_SHARE));
         }
     }
 }

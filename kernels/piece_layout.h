@@ -3,8 +3,8 @@
 #ifndef OZ_KERNELS_PIECE_LAYOUT_H
 #define OZ_KERNELS_PIECE_LAYOUT_H
 
+#include "kernels/head.h"
 #include "kernels/piece_law.h"
-#include "kernels/units.h"
 
 enum { OZ_PIECE_WALLS_MAX = 16 };
 
@@ -12,9 +12,7 @@ enum { OZ_PIECE_WALLS_MAX = 16 };
  * single-precision one is made by converting it number by number. On the host the numbers are in SI units; a device's
  * are counted in `units`, as is everything that kernels read. */
 typedef struct OzPieceParameters {
-    OzUnits units;        /* for the host alone                                               */
-    scalar dt;            /* s                                                                */
-    scalar drag;          /* 1/s, only while settling                                         */
+    OZ_PARAMETERS_HEAD
     scalar gravity[2];    /* m/s^2                                                            */
     scalar middle[2];     /* m: a piece farther than domain from here has escaped             */
     scalar domain;
@@ -31,18 +29,11 @@ typedef struct OzPieceParameters {
 
 /* Capacities and strides; the same for every member of one launch. */
 typedef struct OzPieceSizes {
-    int slots, blocks;           /* all slots, padding included; slots / lanes                  */
+    OZ_SIZES_HEAD                /* slots: of all pieces; regions: of the free ones             */
     int free_slots, free_blocks; /* of the free pieces, padding included                        */
     int beam_blocks;             /* of the longest list of beams                                */
-    int regions;                 /* runs of free slots that one work-item looks after           */
-    int region_slots;
-    int outer_capacity;          /* pairs of a region's outer list, whole blocks                */
-    int inner_capacity;          /* pairs of a region's inner list, whole blocks                */
-    int back_capacity;           /* pairs of the inner list in which a piece is the second      */
     int cells_x, cells_y, cells; /* powers of two; cell coordinates wrap around                 */
     int walls;
-    int motion_steps;            /* steps of one launch for which walls' motion is given        */
-    int members;
 } OzPieceSizes;
 
 /* Reasons to stop, as bits, in the order in which they are told. */
@@ -56,27 +47,11 @@ enum {
     OZ_PIECE_STOP_FAST = 64
 };
 
-enum { OZ_PIECE_NEVER = 0x7fffffff };
-
-/* Shares of deep contacts are counted in parts of this. */
-enum { OZ_PIECE_DEEP_SHARE = 1000000 };
-
-/* The device's own words, one set a member. Steps count from the start of the launch. */
+/* The device's own words, one set a member. */
 typedef struct OzPieceControl {
+    OZ_CONTROL_HEAD
     int free_count, wall_count, beam_count; /* of this member: pieces of grains and of walls      */
-    int step;         /* next step to make                                                      */
-    int moved;        /* its places are moved already (a list was full)                         */
     int inner_holds, outer_holds; /* the lists are good for where pieces are now                  */
-    int full;         /* a list was too small: to be repeated with larger ones                  */
-    int outer_needed, inner_needed, back_needed; /* the largest that were asked for               */
-    int stop_bits;    /* OZ_PIECE_STOP_...                                                      */
-    int stop_step;    /* first step that stopped; OZ_PIECE_NEVER                                */
-    int stop_slot;    /* lowest slot that stopped in that step; OZ_PIECE_NEVER                  */
-    int refreshes, rebuilds; /* since the start of the run                                      */
-    int deep_count;   /* deep contacts of this launch, each counted once a step                 */
-    int deep_step;    /* first step with one; OZ_PIECE_NEVER                                    */
-    int deep_slot;    /* the lowest slot in it (a pair's first piece); OZ_PIECE_NEVER           */
-    int deep_share;   /* the greatest share in it, in OZ_PIECE_DEEP_SHARE                       */
 } OzPieceControl;
 
 /* Words of a slot's record, what contacts and beams need of a piece: corners in the world, centre of mass,

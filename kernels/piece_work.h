@@ -65,7 +65,7 @@ OZ_INLINE void oz_piece_work_stop(OzPieceWork *w, int bits, int step, int slot)
 {
     atomic_or(&w->control->stop_bits, bits);
     atomic_min(&w->control->stop_step, step);
-    atomic_min(&w->control->stop_slot, slot);
+    atomic_min(&w->control->stop_index, slot);
 }
 
 /* Whether a slot holds a piece; padding holds none. */

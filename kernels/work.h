@@ -64,7 +64,7 @@ OZ_INLINE void oz_work_stop(OzWork *w, int bits, int step, int grain)
 {
     atomic_or(&w->control->stop_bits, bits);
     atomic_min(&w->control->stop_step, step);
-    atomic_min(&w->control->stop_grain, grain);
+    atomic_min(&w->control->stop_index, grain);
 }
 
 /* The same for every lane of hits, whose grains are in slots. */

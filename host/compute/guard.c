@@ -28,7 +28,7 @@ static void advise(char *text, size_t size, const OzControl *control, const OzSn
     } else if (control->stop_bits & OZ_STOP_FAST) {
         snprintf(text, size, "try a smaller time.step (`orzo check` says what is stable)");
     } else if (control->stop_bits & (OZ_STOP_DEEP | OZ_STOP_MET)) {
-        oz_advice_write(text, size, now, control->stop_grain);
+        oz_advice_write(text, size, now, control->stop_index);
     } else {
         advise_escaped(text, size, now);
     }
@@ -58,5 +58,5 @@ OzStatus oz_guard_fail(const OzControl *control, const OzSnapshot *now, bool set
     return oz_status_fail(OZ_ERR_BLOWUP,
                           "%s: stopped at step %lld%s, time %.9g s, grain %d: %s; %s",
                           now->scene->path, (long long)now->step, settling ? " of settling" : "",
-                          now->time, control->stop_grain, text, advice);
+                          now->time, control->stop_index, text, advice);
 }

@@ -178,7 +178,7 @@ static OzStatus begin_launch(OzSim *sim, int steps)
     OzStatus status = OZ_OK;
     for (int m = 0; m < sim->crew.member_count; m++) {
         sim->control[m].deep_count = sim->control[m].deep_depth = sim->control[m].deep_kinds = 0;
-        sim->control[m].deep_step = sim->control[m].deep_grain = OZ_NEVER;
+        sim->control[m].deep_step = sim->control[m].deep_index = OZ_NEVER;
         sim->control[m].step = oz_crew_goes_on(&sim->crew, m) ? 0 : steps;
         if (oz_crew_goes_on(&sim->crew, m)) {
             OZ_TRY(oz_launch_move_walls(sim, m, steps));
@@ -195,7 +195,7 @@ static void note_deep(OzSim *sim, int member)
     bool at_wall = control->deep_kinds == OZ_DEEP_WALL;
     OzDeepFound found = {.count = control->deep_count,
                          .step = sim->crew.reached[member] + control->deep_step + 1,
-                         .grain = control->deep_grain,
+                         .grain = control->deep_index,
                          .depth = control->deep_depth * (at_wall ? 0.5 : 1) / OZ_DEEP_SHARE,
                          .at_wall = at_wall};
     oz_deep_note(&sim->crew, member, &found);

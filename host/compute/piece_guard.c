@@ -17,7 +17,7 @@ static void advise(char *text, size_t size, const OzPieceControl *control, const
         {OZ_PIECE_STOP_BENT, OZ_PIECE_SOFT_BENDING},
         {OZ_PIECE_STOP_STRETCHED, OZ_PIECE_SOFT_STRETCH},
     };
-    bool known = control->stop_slot >= 0 && control->stop_slot < now->grains->pieces->free_count;
+    bool known = control->stop_index >= 0 && control->stop_index < now->grains->pieces->free_count;
     snprintf(text, size, "`orzo check` says what step is stable");
     if (control->stop_bits & OZ_PIECE_STOP_FAST) {
         snprintf(text, size, "try a smaller time.step (`orzo check` says what is stable)");
@@ -30,7 +30,7 @@ static void advise(char *text, size_t size, const OzPieceControl *control, const
     for (size_t i = 0; i < sizeof soft / sizeof soft[0]; i++) {
         if (known && !(control->stop_bits & OZ_PIECE_STOP_NAN) &&
             (control->stop_bits & soft[i].bits)) {
-            oz_piece_advice_write(text, size, now, control->stop_slot, soft[i].soft);
+            oz_piece_advice_write(text, size, now, control->stop_index, soft[i].soft);
             return;
         }
     }
@@ -59,10 +59,10 @@ OzStatus oz_piece_guard_fail(const OzPieceControl *control, const OzSnapshot *no
         }
     }
     const OzPieces *pieces = now->grains->pieces;
-    bool known = control->stop_slot >= 0 && control->stop_slot < pieces->free_count;
+    bool known = control->stop_index >= 0 && control->stop_index < pieces->free_count;
     advise(advice, sizeof advice, control, now);
     return oz_status_fail(OZ_ERR_BLOWUP,
                           "%s: stopped at step %lld%s, time %.9g s, grain %d: %s; %s",
                           now->scene->path, (long long)now->step, settling ? " of settling" : "",
-                          now->time, known ? pieces->body[control->stop_slot] : -1, text, advice);
+                          now->time, known ? pieces->body[control->stop_index] : -1, text, advice);
 }

@@ -185,8 +185,8 @@ static OzStatus begin_launch(OzPieceSim *sim, int steps)
     OzStatus status = OZ_OK;
     for (int m = 0; m < sim->crew.member_count; m++) {
         sim->control[m].step = oz_crew_goes_on(&sim->crew, m) ? 0 : steps;
-        sim->control[m].deep_count = sim->control[m].deep_share = 0;
-        sim->control[m].deep_step = sim->control[m].deep_slot = OZ_PIECE_NEVER;
+        sim->control[m].deep_count = sim->control[m].deep_depth = 0;
+        sim->control[m].deep_step = sim->control[m].deep_index = OZ_NEVER;
         if (!oz_crew_goes_on(&sim->crew, m)) {
             continue;
         }
@@ -210,8 +210,8 @@ static void note_deep(OzPieceSim *sim, int member)
     OzDeepFound found = {.count = control->deep_count};
     if (found.count > 0) {
         found.step = sim->crew.reached[member] + control->deep_step + 1;
-        found.grain = pieces->body[control->deep_slot];
-        found.depth = (double)control->deep_share / OZ_PIECE_DEEP_SHARE;
+        found.grain = pieces->body[control->deep_index];
+        found.depth = (double)control->deep_depth / OZ_DEEP_SHARE;
     }
     oz_deep_note(&sim->crew, member, &found);
 }

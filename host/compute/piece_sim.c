@@ -114,10 +114,10 @@ static OzStatus upload_member(OzPieceSim *sim, int m)
     sim->control[m] = (OzPieceControl){.free_count = (int)pieces->free_count,
                                        .wall_count = (int)(pieces->count - pieces->free_count),
                                        .beam_count = (int)pieces->beam_count,
-                                       .stop_step = OZ_PIECE_NEVER,
-                                       .stop_slot = OZ_PIECE_NEVER,
-                                       .deep_step = OZ_PIECE_NEVER,
-                                       .deep_slot = OZ_PIECE_NEVER};
+                                       .stop_step = OZ_NEVER,
+                                       .stop_index = OZ_NEVER,
+                                       .deep_step = OZ_NEVER,
+                                       .deep_index = OZ_NEVER};
 done:
     free(start.acceleration);
     free(start.third);

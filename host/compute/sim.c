@@ -42,7 +42,7 @@ static OzStatus upload_start(OzSim *sim)
         sim->control[m] = (OzControl){.stale_step = OZ_NEVER,
                                       .stale_places = OZ_NEVER,
                                       .stop_step = OZ_NEVER,
-                                      .stop_grain = OZ_NEVER,
+                                      .stop_index = OZ_NEVER,
                                       .truth = OZ_TRUTH_NONE};
     }
     OZ_TRY(oz_sim_write_parameters(sim));
