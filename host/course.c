@@ -6,6 +6,8 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/stage.h"
+#include "compute/capture.h"
+#include "compute/settle.h"
 #include "compute/stiffness.h"
 #include "model/calibrate.h"
 
@@ -23,8 +25,8 @@ OzStatus oz_course_open(OzCourse *course, const OzDevice *device, const char *so
         members[m] = (OzMember){&course->members[m]->scene, &course->members[m]->grains};
     }
     OZ_TRY(oz_device_branch(&course->device, device));
-    OZ_TRY(oz_drive_create(&course->drive, &course->device, members, (int)course->member_count,
-                           source_dir));
+    OZ_TRY(oz_sim_create(&course->sim, &course->device, members, (int)course->member_count,
+                         source_dir));
 done:
     free(members);
     return status;
@@ -32,9 +34,9 @@ done:
 
 void oz_course_close(OzCourse *course)
 {
-    oz_drive_free(course->drive);
+    oz_sim_free(course->sim);
     oz_device_close(&course->device);
-    course->drive = NULL;
+    course->sim = NULL;
 }
 
 /* A member of an ensemble that did not end well: said by name, remembered, and the others go on. */
@@ -51,7 +53,7 @@ static OzStatus drop_stopped(OzCourse *course)
     OzStatus status = OZ_OK;
     for (int64_t m = 0; course->is_ensemble && m < course->member_count; m++) {
         OzOutputs *member = course->members[m];
-        const char *why = oz_drive_stopped(course->drive, (int)m);
+        const char *why = oz_sim_stopped(course->sim, (int)m);
         if (why && member->is_open) {
             lose(member, OZ_ERR_BLOWUP, why);
             OZ_TRY(oz_outputs_close(member));
@@ -81,7 +83,7 @@ static OzStatus settle(OzCourse *course)
     if (course->leads) {
         oz_stage_begin(&course->stage, "settling");
     }
-    OzStatus status = oz_drive_settle(course->drive, &seconds, watch_settling, course);
+    OzStatus status = oz_settle_run(course->sim, &seconds, watch_settling, course);
     if (course->leads) {
         oz_stage_end(&course->stage);
     }
@@ -105,7 +107,7 @@ static OzStatus tell_contacts(const OzCourse *course)
         return OZ_OK;
     }
     oz_calibrate_say(&first->scene);
-    OZ_TRY(oz_drive_capture(course->drive, 0, &first->now, false));
+    OZ_TRY(oz_capture_snapshot(course->sim, 0, &first->now, false));
     OZ_TRY(oz_stiffness_measure(&stiffness, &first->now));
     oz_stiffness_say(&stiffness, &first->scene);
 done:
@@ -116,7 +118,7 @@ static OzStatus look_at(OzCourse *course, int64_t m, int due)
 {
     OzStatus status = OZ_OK;
     OzOutputs *member = course->members[m];
-    OZ_TRY(oz_drive_capture(course->drive, (int)m, &member->now, (due & OZ_DUE_ROW) != 0));
+    OZ_TRY(oz_capture_snapshot(course->sim, (int)m, &member->now, (due & OZ_DUE_ROW) != 0));
     OZ_TRY(oz_outputs_look(member, due));
 done:
     if (status == OZ_ERR_BLOWUP && course->is_ensemble) {
@@ -143,7 +145,7 @@ done:
 
 static void show_progress(const OzCourse *course)
 {
-    double step = (double)oz_drive_step(course->drive), last = (double)course->schedule.last_step;
+    double step = (double)oz_sim_step(course->sim), last = (double)course->schedule.last_step;
     double spent = oz_clock_now() - course->first_step, rate = spent > 0 ? step / spent : 0;
     char left[48];
     oz_clock_words(rate > 0 ? (last - step) / rate : 0, left, sizeof left);
@@ -154,17 +156,16 @@ static void show_progress(const OzCourse *course)
 
 static OzStatus launch(OzCourse *course, int64_t step, double *shown)
 {
-    OzStatus status = oz_drive_launch(course->drive, step);
+    OzStatus status = oz_sim_launch(course->sim, step);
     OZ_AFTER(status, drop_stopped(course));
     if (status == OZ_OK && course->leads && oz_clock_now() - *shown > 0.2) {
         show_progress(course);
         *shown = oz_clock_now();
     }
     if (status == OZ_OK && must_end(course)) {
-        status =
-            oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at step %lld, time %.9g s",
-                           (long long)oz_drive_step(course->drive),
-                           (double)oz_drive_step(course->drive) * course->schedule.scene->step);
+        status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at step %lld, time %.9g s",
+                                (long long)oz_sim_step(course->sim),
+                                (double)oz_sim_step(course->sim) * course->schedule.scene->step);
     }
     return status;
 }
@@ -180,7 +181,7 @@ static OzStatus walk(OzCourse *course)
         oz_log_line("first step %.2f s after start", course->first_step - course->started);
     }
     while (open > 0 && oz_schedule_next(&course->schedule, &step, &due)) {
-        while (oz_drive_step(course->drive) < step) {
+        while (oz_sim_step(course->sim) < step) {
             OZ_TRY(launch(course, step, &shown));
         }
         OZ_TRY(look(course, due, &open));
@@ -205,7 +206,7 @@ static OzStatus end_member(OzCourse *course, int64_t m, OzStatus so_far)
     OzStatus status = OZ_OK;
     OzOutputs *member = course->members[m];
     if (has_state(so_far)) {
-        OZ_TRY(oz_drive_capture(course->drive, (int)m, &member->now, false));
+        OZ_TRY(oz_capture_snapshot(course->sim, (int)m, &member->now, false));
         OZ_TRY(oz_outputs_write_final(member));
     }
 done:

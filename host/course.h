@@ -5,7 +5,7 @@
 #define OZ_COURSE_H
 
 #include "base/stage.h"
-#include "compute/drive.h"
+#include "compute/sim.h"
 #include "observe/schedule.h"
 #include "outputs.h"
 
@@ -14,7 +14,7 @@
 /* Zeroed is valid: what was not opened is not closed. Everything above `device` is set by who opens
  * it. It must not move in memory while open. */
 typedef struct OzCourse {
-    OzOutputs **members; /* borrowed; they fit together (oz_drive_fits)           */
+    OzOutputs **members; /* borrowed; they fit together (oz_company_fits)           */
     int64_t member_count;
     OzSchedule schedule; /* of all of them                                        */
     bool is_ensemble;    /* a member that fails leaves the others alone           */
@@ -22,7 +22,7 @@ typedef struct OzCourse {
     double started;      /* wall clock, of the program                            */
     atomic_bool *ended;  /* shared: a course that failed ends the others          */
     OzDevice device;     /* a branch                                              */
-    OzDrive *drive;
+    OzSim *sim;
     OzStage stage;            /* in hand, of the course that leads                     */
     double first_step, spent; /* wall clock; from the first step to the last      */
     OzStatus status;          /* how it ended, and why                            */

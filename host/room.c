@@ -1,7 +1,7 @@
 /* Estimating what a member needs. */
 #include "room.h"
 
-#include "compute/drive.h"
+#include "compute/company.h"
 
 #include <math.h>
 #include <sys/resource.h>
@@ -34,7 +34,7 @@ OzStatus oz_room_most(const OzOptions *options, const OzDevice *device, const Oz
     const double other_files = 64, files = 4; /* series, frames, movie, its folder's lock */
     double here = host_bytes(options, member), there = 0;
     double spare = (double)sysconf(_SC_AVPHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    OzStatus status = oz_drive_most(device, member, most, &there);
+    OzStatus status = oz_company_most(device, member, most, &there);
     double room = 0.7 * spare / (here + (device->is_cpu ? there : 0));
     room = fmin(room, (files_at_most() - other_files) / files);
     *most = (int64_t)fmax(1, fmin((double)*most, room));

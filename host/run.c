@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "compute/company.h"
 #include "course.h"
 #include "ensemble.h"
 #include "outputs.h"
@@ -174,7 +175,7 @@ static bool joins(const Run *run, const OzOutputs *member)
     const OzOutputs *first = run->members[0];
     OzMember a = {&first->scene, &first->grains}, b = {&member->scene, &member->grains};
     OzSchedule events = oz_schedule_create(&member->scene, run->options->until);
-    return oz_schedule_agrees(&run->schedule, &events) && oz_drive_fits(&run->device, &a, &b);
+    return oz_schedule_agrees(&run->schedule, &events) && oz_company_fits(&run->device, &a, &b);
 }
 
 /* The loaded member and those after it that can join it; the one that cannot begins the next group.
@@ -284,7 +285,7 @@ static OzSimCounts add_counts(const Run *run, double *spent)
     *spent = 0;
     for (int k = 0; k < run->course_count; k++) {
         const OzCourse *course = &run->courses[k];
-        OzSimCounts counts = oz_drive_counts(course->drive);
+        OzSimCounts counts = oz_sim_counts(course->sim);
         sum.steps = counts.steps > sum.steps ? counts.steps : sum.steps;
         sum.refreshes += counts.refreshes * course->member_count;
         sum.rebuilds += counts.rebuilds * course->member_count;

@@ -33,14 +33,14 @@ enum { OZ_DEEP_PAIR = 1, OZ_DEEP_WALL = 2, OZ_DEEP_SHARE = 1000000 };
  * step: next step to make; moved: its places are moved already (a list was full); full: a list was too small, to be
  * made again with larger ones; needed: the largest that were asked for; stop_bits: the model's reasons to stop,
  * stop_step: first step that stopped (OZ_NEVER), stop_index: the lowest in that step (OZ_NEVER); refreshes, rebuilds:
- * since the start of the run; deep_count: deep contacts of this launch, each counted once a step, deep_step: first
+ * since the start of the run; crossed: contacts without a normal (shafts crossing) met so far; deep_count: deep contacts of this launch, each counted once a step, deep_step: first
  * step with one (OZ_NEVER), deep_index: the lowest in it, a pair's first (OZ_NEVER), deep_depth: the greatest depth in
  * it, in OZ_DEEP_SHARE of its unit, deep_kinds: OZ_DEEP_... in it, 0 where the model does not tell. */
 #define OZ_CONTROL_HEAD                                                                                                \
     int step, moved, full;                                                                                             \
     int outer_needed, inner_needed, back_needed;                                                                       \
     int stop_bits, stop_step, stop_index;                                                                              \
-    int refreshes, rebuilds;                                                                                           \
+    int refreshes, rebuilds, crossed;                                                                                  \
     int deep_count, deep_step, deep_index, deep_depth, deep_kinds;
 
 #ifdef OZ_HOST

@@ -69,7 +69,6 @@ typedef struct OzControl {
                          scenes with an integrator that moves first only: others renew them in time */
     int truth;        /* where the tangential springs are now: OZ_TRUTH_...                      */
     int outer_stale;  /* the outer list no longer covers the inner skin                         */
-    int crossed;      /* contacts without a normal (shafts crossing) met so far                 */
 } OzControl;
 
 /* Words of a record: what a contact needs of a grain, one record a slot, OZ_RECORD scalars. */

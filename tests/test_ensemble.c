@@ -4,8 +4,8 @@
 
 #include "base/file.h"
 #include "base/student.h"
+#include "compute/rods_private.h"
 #include "compute/settle.h"
-#include "compute/sim_private.h"
 
 #include <sys/stat.h>
 
@@ -181,7 +181,9 @@ static void test_failure_ends_all(void **state)
 {
     (void)state;
     char command[256];
-    snprintf(command, sizeof command, "mkdir -p '%s/full/seed_00002' && touch '%s/full/seed_00002/snapshots'", folder, folder);
+    snprintf(command, sizeof command,
+             "mkdir -p '%s/full/seed_00002' && touch '%s/full/seed_00002/snapshots'", folder,
+             folder);
     assert_int_equal(system(command), 0);
     run(SHOWN " --threads 3", "full", 1);
     assert_said("cannot write full/seed_00002/snapshots/tap_00001.png.part: ");
@@ -294,13 +296,13 @@ static void test_nonsense_is_refused(void **state)
  * member's own. */
 static void shrink_lists(OzSim *sim)
 {
-    OzSizes tiny = sim->arrays.sizes;
-    tiny.outer_capacity = sim->arrays.switches.lanes;
-    tiny.inner_capacity = sim->arrays.switches.lanes;
+    OzSizes tiny = *oz_rods_sizes(sim);
+    tiny.outer_capacity = oz_rods_switches(sim)->lanes;
+    tiny.inner_capacity = oz_rods_switches(sim)->lanes;
     tiny.back_capacity = 1;
     must(oz_arrays_resize(&sim->arrays, &tiny));
     for (int m = 0; m < sim->crew.member_count; m++) {
-        sim->control[m].truth = OZ_TRUTH_NONE;
+        oz_rods_control(sim, m)->truth = OZ_TRUTH_NONE;
     }
 }
 

@@ -3,7 +3,7 @@
  * way of large scenes, in which grains change places. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/sim_private.h"
+#include "compute/rods_private.h"
 
 enum { STEPS = 2000, GRAINS = 61 };
 
@@ -77,7 +77,7 @@ static void check_rows(const char *broadphase, double skin, const OzDevice *devi
 {
     Bed b;
     open_bed(&b, broadphase, skin, device);
-    assert_int_equal(b.sim->arrays.switches.resort, device == &large_device);
+    assert_int_equal(oz_rods_switches(b.sim)->resort, device == &large_device);
     check_bed(&b);
 }
 
@@ -139,12 +139,12 @@ static void test_large_moves_first(void **state)
 /* Begins again with lists that hold next to nothing. */
 static void shrink_lists(OzSim *sim)
 {
-    OzSizes tiny = sim->arrays.sizes;
-    tiny.outer_capacity = sim->arrays.switches.lanes;
-    tiny.inner_capacity = sim->arrays.switches.lanes;
+    OzSizes tiny = *oz_rods_sizes(sim);
+    tiny.outer_capacity = oz_rods_switches(sim)->lanes;
+    tiny.inner_capacity = oz_rods_switches(sim)->lanes;
     tiny.back_capacity = 1;
     must(oz_arrays_resize(&sim->arrays, &tiny));
-    sim->control[0].truth = OZ_TRUTH_NONE;
+    oz_rods_control(sim, 0)->truth = OZ_TRUTH_NONE;
 }
 
 static void check_growth(const char *broadphase, const OzDevice *device)

@@ -2,8 +2,8 @@
  * precisions and in the host reference, and is never written as a result. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/drive.h"
 #include "compute/piece_reference.h"
+#include "compute/sim.h"
 #include "hand_bed.h"
 #include "observe/final.h"
 
@@ -54,15 +54,15 @@ static double *piece_word(OzGrains *grains, int k, bool is_float)
 /* That the device stops in the first steps for what is no number, and says so. */
 static void assert_device_stops(Rig *rig)
 {
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzMember member = {&rig->scene, &rig->grains};
-    OzStatus status = oz_drive_create(&drive, &rig_device, &member, 1, NULL);
+    OzStatus status = oz_sim_create(&sim, &rig_device, &member, 1, NULL);
     if (status == OZ_OK) {
-        status = oz_drive_advance(drive, 2);
+        status = oz_sim_advance(sim, 2);
     }
     assert_int_equal(status, OZ_ERR_BLOWUP);
     assert_non_null(strstr(oz_status_text(), "not a number"));
-    oz_drive_free(drive);
+    oz_sim_free(sim);
 }
 
 static void assert_rods_reference_stops(Rig *rig)

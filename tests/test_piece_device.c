@@ -2,8 +2,10 @@
  * is cut up, guards. */
 #include "device_rig.h"
 
-#include "compute/drive.h"
+#include "compute/capture.h"
+#include "compute/company.h"
 #include "compute/piece_reference.h"
+#include "compute/sim.h"
 #include "model/beam_limits.h"
 
 /* Two dice that meet at once. */
@@ -98,15 +100,15 @@ static void close_scene(Scene *s)
 static OzSnapshot run_device(const Scene *s, const OzDevice *device, int64_t step,
                              OzSimCounts *counts)
 {
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzSnapshot now;
     OzMember member = {&s->scene, &s->grains};
-    must(oz_drive_create(&drive, device, &member, 1, NULL));
-    must(oz_drive_advance(drive, step));
+    must(oz_sim_create(&sim, device, &member, 1, NULL));
+    must(oz_sim_advance(sim, step));
     must(oz_snapshot_create(&now, &s->scene, &s->grains));
-    must(oz_drive_capture(drive, 0, &now, true));
-    *counts = oz_drive_counts(drive);
-    oz_drive_free(drive);
+    must(oz_capture_snapshot(sim, 0, &now, true));
+    *counts = oz_sim_counts(sim);
+    oz_sim_free(sim);
     return now;
 }
 
@@ -302,26 +304,26 @@ static void test_members(void **state)
     (void)state;
     Scene s[2];
     OzMember members[2];
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzSnapshot now;
     OzSimCounts counts;
     for (int k = 0; k < 2; k++) {
         open_scene(&s[k], heap, "gear4", discs[k]);
         members[k] = (OzMember){&s[k].scene, &s[k].grains};
     }
-    assert_true(oz_drive_fits(&rig_device, &members[0], &members[1]));
-    must(oz_drive_create(&drive, &rig_device, members, 2, NULL));
-    must(oz_drive_advance(drive, STEPS));
+    assert_true(oz_company_fits(&rig_device, &members[0], &members[1]));
+    must(oz_sim_create(&sim, &rig_device, members, 2, NULL));
+    must(oz_sim_advance(sim, STEPS));
     for (int k = 0; k < 2; k++) {
         OzSnapshot alone = run_device(&s[k], &rig_device, STEPS, &counts);
         must(oz_snapshot_create(&now, &s[k].scene, &s[k].grains));
-        must(oz_drive_capture(drive, k, &now, true));
+        must(oz_capture_snapshot(sim, k, &now, true));
         assert_same_piece_bits(&alone, &now);
         assert_memory_equal(&alone.piece_ledger, &now.piece_ledger, sizeof now.piece_ledger);
         oz_snapshot_free(&alone);
         oz_snapshot_free(&now);
     }
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     for (int k = 0; k < 2; k++) {
         close_scene(&s[k]);
     }
@@ -394,18 +396,18 @@ static void test_guards(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof guards / sizeof guards[0]; k++) {
         Scene s;
-        OzDrive *drive = NULL;
+        OzSim *sim = NULL;
         open_scene(&s, two_dice, 1e-6, "velocity-verlet");
         guards[k].spoil(&s);
         OzMember member = {&s.scene, &s.grains};
-        OzStatus status = oz_drive_create(&drive, &rig_device, &member, 1, NULL);
-        status = status == OZ_OK ? oz_drive_advance(drive, 3) : status;
+        OzStatus status = oz_sim_create(&sim, &rig_device, &member, 1, NULL);
+        status = status == OZ_OK ? oz_sim_advance(sim, 3) : status;
         if (status != OZ_ERR_BLOWUP || !strstr(oz_status_text(), guards[k].text) ||
             !strstr(oz_status_text(), guards[k].advice)) {
             fail_msg("expected '%s' and '%s' in: %s", guards[k].text, guards[k].advice,
                      oz_status_text());
         }
-        oz_drive_free(drive);
+        oz_sim_free(sim);
         close_scene(&s);
     }
 }

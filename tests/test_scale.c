@@ -4,7 +4,8 @@
  * it. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/drive.h"
+#include "compute/capture.h"
+#include "compute/sim.h"
 
 /* Of lengths, 2^exponent, from grains of 1.4 nm to a vessel of 3 km; a metre is first, and the
  * others are compared with it. */
@@ -42,12 +43,12 @@ static const char pieces[] =
     "  - {kind: vessel, width: %.17g, height: %.17g, motion: {frequency: %.17g, amplitude: "
     "%.17g}}\n";
 
-static OzDrive *start_drive(const Rig *rig)
+static OzSim *start_sim_of(const Rig *rig)
 {
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzMember member = {&rig->scene, &rig->grains};
-    must(oz_drive_create(&drive, &rig_device, &member, 1, NULL));
-    return drive;
+    must(oz_sim_create(&sim, &rig_device, &member, 1, NULL));
+    return sim;
 }
 
 /* The bed at a step, in metres and seconds of the unscaled one. Contacts are not asked for: rods'
@@ -55,11 +56,11 @@ static OzDrive *start_drive(const Rig *rig)
 static OzSnapshot scaled_state(Rig *rig, int64_t step, double length, double time)
 {
     OzSnapshot now;
-    OzDrive *drive = start_drive(rig);
-    must(oz_drive_advance(drive, step));
+    OzSim *sim = start_sim_of(rig);
+    must(oz_sim_advance(sim, step));
     must(oz_snapshot_create(&now, &rig->scene, &rig->grains));
-    must(oz_drive_capture(drive, 0, &now, false));
-    oz_drive_free(drive);
+    must(oz_capture_snapshot(sim, 0, &now, false));
+    oz_sim_free(sim);
     for (int64_t k = 0; k < 3 * now.count; k++) {
         now.position[k] /= length;
         now.velocity[k] /= length / time;
@@ -139,11 +140,11 @@ static void test_fast_turns_are_seen(void **state)
         spin[0] = rate * axis[1]; /* across the shaft, about a level line */
         spin[1] = -rate * axis[0];
         spin[2] = 0;
-        OzDrive *drive = start_drive(&rig);
-        assert_int_equal(oz_drive_advance(drive, 10), OZ_ERR_BLOWUP);
+        OzSim *sim = start_sim_of(&rig);
+        assert_int_equal(oz_sim_advance(sim, 10), OZ_ERR_BLOWUP);
         assert_non_null(strstr(oz_status_text(), "step 1,"));
         assert_non_null(strstr(oz_status_text(), "moves more than"));
-        oz_drive_free(drive);
+        oz_sim_free(sim);
         rig_close(&rig);
     }
 }

@@ -3,7 +3,9 @@
 #include "device_rig.h"
 
 #include "base/log.h"
-#include "compute/drive.h"
+#include "compute/capture.h"
+#include "compute/settle.h"
+#include "compute/sim.h"
 
 #include <unistd.h>
 
@@ -42,25 +44,25 @@ static void open_drop(Rig *rig, double height, const char *settle)
     rig_open(rig, drop, height, height, settle);
 }
 
-static OzDrive *start_drive(const OzMember *members, int count)
+static OzSim *start_drive(const OzMember *members, int count)
 {
-    OzDrive *drive = NULL;
-    must(oz_drive_create(&drive, &rig_device, members, count, NULL));
-    return drive;
+    OzSim *sim = NULL;
+    must(oz_sim_create(&sim, &rig_device, members, count, NULL));
+    return sim;
 }
 
-static OzDrive *start_alone(const Rig *rig)
+static OzSim *start_alone(const Rig *rig)
 {
     OzMember member = {&rig->scene, &rig->grains};
     return start_drive(&member, 1);
 }
 
 /* The caller frees the snapshot. */
-static OzSnapshot look(OzDrive *drive, int member, const Rig *rig)
+static OzSnapshot look(OzSim *sim, int member, const Rig *rig)
 {
     OzSnapshot now;
     must(oz_snapshot_create(&now, &rig->scene, &rig->grains));
-    must(oz_drive_capture(drive, member, &now, true));
+    must(oz_capture_snapshot(sim, member, &now, true));
     return now;
 }
 
@@ -104,12 +106,12 @@ static void assert_close(const char *what, double gap, double tolerance)
     }
 }
 
-static void assert_nothing_counted(const OzDrive *drive)
+static void assert_nothing_counted(const OzSim *sim)
 {
     static const OzSimCounts none;
-    OzSimCounts counts = oz_drive_counts(drive);
+    OzSimCounts counts = oz_sim_counts(sim);
     assert_memory_equal(&counts, &none, sizeof none);
-    assert_int_equal(oz_drive_step(drive), 0);
+    assert_int_equal(oz_sim_step(sim), 0);
 }
 
 /* Whether the log says that settling was cut short after so long. */
@@ -134,16 +136,16 @@ static void test_comes_to_rest(void **state)
     Watched seen = {0};
     double seconds = 0;
     open_drop(&rig, LOW, REST);
-    OzDrive *drive = start_alone(&rig);
+    OzSim *sim = start_alone(&rig);
     must(oz_log_open(log_path));
-    must(oz_drive_settle(drive, &seconds, watch, &seen));
+    must(oz_settle_run(sim, &seconds, watch, &seen));
     must(oz_log_open(NULL));
     assert_false(is_logged("still"));
     assert_true(seen.ratio < threshold);
     assert_close("looks at the energy", fabs(seen.time - seen.judged * JUDGED_EVERY * step), 1e-12);
     assert_close("time", fabs(seconds - seen.time), 1e-12);
-    assert_nothing_counted(drive);
-    OzSnapshot now = look(drive, 0, &rig);
+    assert_nothing_counted(sim);
+    OzSnapshot now = look(sim, 0, &rig);
     static const OzPieceLedger none;
     assert_true(now.step == 0 && now.time == 0 && now.has_ledger);
     assert_memory_equal(&now.piece_ledger, &none, sizeof none);
@@ -153,12 +155,12 @@ static void test_comes_to_rest(void **state)
      * bottom, from a start 2e-3 above it */
     assert_true(fabs(now.position[4] - 1e-3) < 1e-4);
     assert_true(now.position[1] < sqrt(2) * 1e-3 + 1e-4);
-    must(oz_drive_advance(drive, 100));
-    OzSnapshot later = look(drive, 0, &rig);
+    must(oz_sim_advance(sim, 100));
+    OzSnapshot later = look(sim, 0, &rig);
     assert_true(later.position[1] != now.position[1]); /* it waits no longer */
     oz_snapshot_free(&later);
     oz_snapshot_free(&now);
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     rig_close(&rig);
 }
 
@@ -170,16 +172,16 @@ static void test_time_max_ends_it(void **state)
     Rig rig;
     double seconds = 0, fall = STEPS * step;
     open_drop(&rig, 0.05, "{drag: 500, threshold: 1e-6, rest_time: 1e-3, time_max: 4e-3}");
-    OzDrive *drive = start_alone(&rig);
+    OzSim *sim = start_alone(&rig);
     must(oz_log_open(log_path));
-    must(oz_drive_settle(drive, &seconds, NULL, NULL));
+    must(oz_settle_run(sim, &seconds, NULL, NULL));
     must(oz_log_open(NULL));
     assert_true(is_logged("N m g d after 0.004 s (threshold 1e-06)"));
     assert_close("time", fabs(seconds - 5e-3), 1e-12);
-    assert_nothing_counted(drive);
-    OzSnapshot start = look(drive, 0, &rig);
-    must(oz_drive_advance(drive, STEPS));
-    OzSnapshot now = look(drive, 0, &rig);
+    assert_nothing_counted(sim);
+    OzSnapshot start = look(sim, 0, &rig);
+    must(oz_sim_advance(sim, STEPS));
+    OzSnapshot now = look(sim, 0, &rig);
     int64_t floor = 2 * start.grains->pieces->free_count + 1;
     /* Drag leaves of g / drag all but e^-2, rest adds g times 1e-3 s; that drag ends at once is an
      * error of about the speed of a step, 2e-5 m/s. */
@@ -187,14 +189,14 @@ static void test_time_max_ends_it(void **state)
     assert_close("speed", fabs(now.velocity[1] - start.velocity[1] + 10 * fall), 1e-4);
     assert_true(start.piece_position[floor] == rig.grains.pieces->position[floor]);
     assert_true(now.piece_position[floor] != start.piece_position[floor]);
-    assert_int_equal(oz_drive_counts(drive).steps, STEPS);
+    assert_int_equal(oz_sim_counts(sim).steps, STEPS);
     oz_snapshot_free(&start);
     oz_snapshot_free(&now);
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     rig_close(&rig);
 }
 
-static void assert_same_pieces(OzDrive *a, int member_a, OzDrive *b, int member_b, const Rig *rig)
+static void assert_same_pieces(OzSim *a, int member_a, OzSim *b, int member_b, const Rig *rig)
 {
     OzSnapshot one = look(a, member_a, rig), other = look(b, member_b, rig);
     size_t count = (size_t)one.piece_count * sizeof(double);
@@ -214,28 +216,28 @@ static void test_members_wait(void **state)
     (void)state;
     Rig rigs[2];
     OzMember members[2];
-    OzDrive *alone[2];
+    OzSim *alone[2];
     double seconds[2], together = 0;
     for (int m = 0; m < 2; m++) {
         open_drop(&rigs[m], heights[m], REST);
         members[m] = (OzMember){&rigs[m].scene, &rigs[m].grains};
         alone[m] = start_alone(&rigs[m]);
-        must(oz_drive_settle(alone[m], &seconds[m], NULL, NULL));
+        must(oz_settle_run(alone[m], &seconds[m], NULL, NULL));
     }
-    OzDrive *both = start_drive(members, 2);
-    must(oz_drive_settle(both, &together, NULL, NULL));
+    OzSim *both = start_drive(members, 2);
+    must(oz_settle_run(both, &together, NULL, NULL));
     assert_true(seconds[0] + 2 * JUDGED_EVERY * step < seconds[1]);
     assert_true(together == seconds[1]);
     for (int m = 0; m < 2; m++) {
         assert_same_pieces(both, m, alone[m], 0, &rigs[m]);
     }
-    must(oz_drive_advance(both, 700));
+    must(oz_sim_advance(both, 700));
     for (int m = 0; m < 2; m++) {
-        must(oz_drive_advance(alone[m], 700));
+        must(oz_sim_advance(alone[m], 700));
         assert_same_pieces(both, m, alone[m], 0, &rigs[m]);
-        oz_drive_free(alone[m]);
+        oz_sim_free(alone[m]);
     }
-    oz_drive_free(both);
+    oz_sim_free(both);
     for (int m = 0; m < 2; m++) {
         rig_close(&rigs[m]);
     }
@@ -248,11 +250,11 @@ static void test_watch_ends_it(void **state)
     Watched seen = {.patience = 3};
     double seconds = 0;
     open_drop(&rig, LOW, REST);
-    OzDrive *drive = start_alone(&rig);
-    assert_int_equal(oz_drive_settle(drive, &seconds, watch, &seen), OZ_ERR_INTERRUPTED);
+    OzSim *sim = start_alone(&rig);
+    assert_int_equal(oz_settle_run(sim, &seconds, watch, &seen), OZ_ERR_INTERRUPTED);
     assert_int_equal(seen.judged, 3);
-    assert_int_equal(oz_drive_step(drive), 3 * JUDGED_EVERY);
-    oz_drive_free(drive);
+    assert_int_equal(oz_sim_step(sim), 3 * JUDGED_EVERY);
+    oz_sim_free(sim);
     rig_close(&rig);
 }
 
@@ -262,14 +264,14 @@ static void test_without_settle(void **state)
     Rig rig;
     double seconds = 1;
     open_drop(&rig, LOW, "false");
-    OzDrive *drive = start_alone(&rig);
-    must(oz_drive_settle(drive, &seconds, NULL, NULL));
-    OzSnapshot now = look(drive, 0, &rig);
+    OzSim *sim = start_alone(&rig);
+    must(oz_settle_run(sim, &seconds, NULL, NULL));
+    OzSnapshot now = look(sim, 0, &rig);
     assert_true(seconds == 0);
     assert_memory_equal(now.piece_position, rig.grains.pieces->position,
                         2 * (size_t)rig.grains.pieces->free_count * sizeof(double));
     oz_snapshot_free(&now);
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     rig_close(&rig);
 }
 
@@ -286,15 +288,15 @@ static void test_no_grains(void **state)
                    "walls:\n"
                    "  - {kind: drum, diameter: 2e-2, motion: {angular_velocity: 1}}\n"
                    "settle: {drag: 20}\n");
-    OzDrive *drive = start_alone(&rig);
-    must(oz_drive_settle(drive, &seconds, NULL, NULL));
+    OzSim *sim = start_alone(&rig);
+    must(oz_settle_run(sim, &seconds, NULL, NULL));
     assert_true(seconds == 0);
-    must(oz_drive_advance(drive, 1000));
-    OzSnapshot now = look(drive, 0, &rig);
+    must(oz_sim_advance(sim, 1000));
+    OzSnapshot now = look(sim, 0, &rig);
     const OzPieces *pieces = rig.grains.pieces;
     assert_true(now.piece_position[0] != pieces->position[0]);
     oz_snapshot_free(&now);
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     rig_close(&rig);
 }
 

@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* Whether two scenes can share launches: the same kernel switches, number of grains, step, kinds of
- * walls and settling, and a size and way of making lists that one work-group a scene can do. */
+/* Whether two scenes can share launches: the same model, kernel switches, step and settling, and
+ * what else the model asks for. */
 bool oz_company_fits(const OzDevice *device, const OzMember *a, const OzMember *b);
 
 /* How many members like this one fit the device's memory at a time, lists grown by half included;

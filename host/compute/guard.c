@@ -1,62 +1,23 @@
 /* Stop bits into text. */
 #include "compute/guard.h"
 
-#include "compute/advice.h"
-
 #include <stdio.h>
 #include <string.h>
 
-/* A grain beyond the domain. */
-static void advise_escaped(char *text, size_t size, const OzSnapshot *now)
+OzStatus oz_guard_fail(const OzModel *model, const OzControlHead *control, const OzSnapshot *now,
+                       bool settling)
 {
-    OzParameters parameters;
-    int order[OZ_WALLS_MAX];
-    bool is_float = now->scene->precision == OZ_PRECISION_FLOAT;
-    snprintf(text, size, "no wall holds it");
-    if (oz_constants_fill(&parameters, order, now->scene, now->grains) == OZ_OK) {
-        snprintf(text, size, "it is beyond %.3g m, where no wall holds it%s",
-                 parameters.domain * parameters.length_unit,
-                 is_float ? " and precision: float no place (double does)" : "");
-    }
-}
-
-/* What would help: the guards of depth know, the others say where to look. */
-static void advise(char *text, size_t size, const OzControl *control, const OzSnapshot *now)
-{
-    if (control->stop_bits & OZ_STOP_NAN) {
-        snprintf(text, size, "`orzo check` says what step is stable");
-    } else if (control->stop_bits & OZ_STOP_FAST) {
-        snprintf(text, size, "try a smaller time.step (`orzo check` says what is stable)");
-    } else if (control->stop_bits & (OZ_STOP_DEEP | OZ_STOP_MET)) {
-        oz_advice_write(text, size, now, control->stop_index);
-    } else {
-        advise_escaped(text, size, now);
-    }
-}
-
-OzStatus oz_guard_fail(const OzControl *control, const OzSnapshot *now, bool settling)
-{
-    static const struct {
-        int bit;
-        const char *text;
-    } reasons[] = {
-        {OZ_STOP_NAN, "its state is not a number"},
-        {OZ_STOP_ESCAPED, "it has left its container"},
-        {OZ_STOP_MET, "it overlaps another body so far that shafts meet, or a centre lies behind "
-                      "a wall"},
-        {OZ_STOP_DEEP, "it overlaps another body by more than guards.overlap.stop"},
-        {OZ_STOP_FAST, "an end of it moves more than half its radius in one step"},
-    };
-    char text[320] = "", advice[320];
-    for (size_t i = 0; i < sizeof reasons / sizeof reasons[0]; i++) {
-        if (control->stop_bits & reasons[i].bit) {
+    char text[512] = "", advice[320];
+    for (int i = 0; i < model->stop_count; i++) {
+        if (control->stop_bits & model->stops[i].bit) {
             size_t used = strlen(text);
-            snprintf(text + used, sizeof text - used, "%s%s", used ? "; " : "", reasons[i].text);
+            snprintf(text + used, sizeof text - used, "%s%s", used ? "; " : "",
+                     model->stops[i].words);
         }
     }
-    advise(advice, sizeof advice, control, now);
-    return oz_status_fail(OZ_ERR_BLOWUP,
-                          "%s: stopped at step %lld%s, time %.9g s, grain %d: %s; %s",
-                          now->scene->path, (long long)now->step, settling ? " of settling" : "",
-                          now->time, control->stop_index, text, advice);
+    model->advise(advice, sizeof advice, control, now);
+    return oz_status_fail(
+        OZ_ERR_BLOWUP, "%s: stopped at step %lld%s, time %.9g s, grain %d: %s; %s",
+        now->scene->path, (long long)now->step, settling ? " of settling" : "", now->time,
+        model->grain_of(now->grains, control->stop_index), text, advice);
 }

@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 #include "compute/pack.h"
-#include "compute/sim_private.h"
-#include "compute/sizes.h"
+#include "compute/rods_private.h"
+#include "compute/scalars.h"
 #include "compute/sort_axis.h"
 
 #include <stdlib.h>
@@ -38,27 +38,18 @@ typedef struct Work {
 
 static const OzSizes *sizes_of(const Work *w)
 {
-    return &w->sim->arrays.sizes;
+    return oz_rods_sizes(w->sim);
 }
 
 static const OzSwitches *switches_of(const Work *w)
 {
-    return &w->sim->arrays.switches;
-}
-
-static OzStatus download(Work *w, OzFieldId field, void *data)
-{
-    size_t bytes = oz_arrays_bytes(field, switches_of(w), sizes_of(w));
-    OzStatus status = oz_memory_new((void **)data, bytes, 1, "list");
-    return status == OZ_OK
-               ? oz_arrays_read(&w->sim->arrays, field, w->member, *(void **)data, bytes)
-               : status;
+    return oz_rods_switches(w->sim);
 }
 
 static OzStatus upload(Work *w, OzFieldId field, const void *data)
 {
     return oz_arrays_write(&w->sim->arrays, field, w->member, data,
-                           oz_arrays_bytes(field, switches_of(w), sizes_of(w)));
+                           oz_arrays_bytes(&w->sim->arrays, field));
 }
 
 static int by_slots(const void *one, const void *other)
@@ -72,7 +63,7 @@ static void keep_spring(Work *w, int a, int b, const void *history, int64_t pair
     Spring spring = {.a = a, .b = b};
     for (int c = 0; c < 3; c++) {
         spring.words[c] =
-            oz_pack_scalar(history, (size_t)(3 * pair + c), switches_of(w)->is_double);
+            oz_scalars_get(history, (size_t)(3 * pair + c), switches_of(w)->is_double);
     }
     if (spring.words[0] != 0 || spring.words[1] != 0 || spring.words[2] != 0) {
         w->springs[w->spring_count++] = spring;
@@ -86,13 +77,13 @@ static OzStatus read_springs(Work *w)
     const OzSizes *z = sizes_of(w);
     int *a = NULL, *b = NULL, *count = NULL;
     void *history = NULL;
-    if (!switches_of(w)->history || w->sim->control[w->member].truth != OZ_TRUTH_OUTER) {
+    if (!switches_of(w)->history || oz_rods_control(w->sim, w->member)->truth != OZ_TRUTH_OUTER) {
         return OZ_OK;
     }
-    OZ_TRY(download(w, OZ_FIELD_outer_a, &a));
-    OZ_TRY(download(w, OZ_FIELD_outer_b, &b));
-    OZ_TRY(download(w, OZ_FIELD_outer_count, &count));
-    OZ_TRY(download(w, OZ_FIELD_outer_history, &history));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_a, w->member, &a));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_b, w->member, &b));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_count, w->member, &count));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_history, w->member, &history));
     OZ_TRY(OZ_NEW(&w->springs, (int64_t)z->regions * z->outer_capacity));
     for (int r = 0; r < z->regions; r++) {
         int64_t begin = (int64_t)r * z->outer_capacity;
@@ -135,7 +126,7 @@ static int by_slot_then_id(const void *one, const void *other)
 static OzStatus find_entries(Work *w)
 {
     OzStatus status = OZ_OK;
-    const OzParameters *p = &w->sim->parameters[w->member];
+    const OzParameters *p = oz_rods_parameters(w->sim, w->member);
     OZ_TRY(oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis,
                               2 * p->outer_most));
     OZ_TRY(OZ_NEW(&w->entries, w->pairs.count));
@@ -156,7 +147,7 @@ static int region_of(const Work *w, Entry entry)
 static OzStatus make_room(Work *w)
 {
     OzSizes sizes = *sizes_of(w);
-    OzControl needed = {0};
+    OzControlHead needed = {0};
     int64_t begin = 0;
     for (int64_t k = 0; k < w->pairs.count; k++) {
         begin = region_of(w, w->entries[k]) != region_of(w, w->entries[begin]) ? k : begin;
@@ -166,7 +157,7 @@ static OzStatus make_room(Work *w)
     if (needed.outer_needed <= sizes.outer_capacity) {
         return OZ_OK;
     }
-    oz_sizes_grow(&sizes, &needed, switches_of(w));
+    oz_arrays_grow((OzSizesHead *)(void *)&sizes, &needed, switches_of(w)->lanes);
     w->sim->crew.counts.growths++;
     return oz_arrays_resize(&w->sim->arrays, &sizes);
 }
@@ -179,8 +170,8 @@ static void put_history(Work *w, int64_t to, int a, int b)
                                               : NULL;
     if (found) {
         size_t size = switches_of(w)->is_double ? sizeof(double) : sizeof(float);
-        oz_pack_scalars((char *)w->history + 3 * (size_t)to * size, found->words, 3,
-                        switches_of(w)->is_double);
+        oz_scalars_put((char *)w->history + 3 * (size_t)to * size, found->words, 3,
+                       switches_of(w)->is_double);
     }
 }
 
@@ -222,10 +213,10 @@ static void half_shaft(const Work *w, const void *state, int slot, double half[3
 {
     const OzSwitches *s = switches_of(w);
     int id = slot < sizes_of(w)->count ? w->id[slot] : 0;
-    double turn[4], unit = w->sim->parameters[w->member].units.length;
+    double turn[4], unit = oz_rods_parameters(w->sim, w->member)->units.length;
     for (int c = 0; c < 4; c++) { /* words are x, y, z, w */
         turn[(c + 1) % 4] =
-            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), s->is_double);
+            oz_scalars_get(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), s->is_double);
     }
     oz_grains_axis(turn, half);
     for (int c = 0; c < 3; c++) {
@@ -241,21 +232,21 @@ static OzStatus write_reference(Work *w)
     const OzSwitches *s = switches_of(w);
     size_t size = s->is_double ? sizeof(double) : sizeof(float);
     char *state = NULL, *reference;
-    const OzParameters *p = &w->sim->parameters[w->member];
+    const OzParameters *p = oz_rods_parameters(w->sim, w->member);
     double half[3], skin = p->outer_most / p->units.length;
-    OZ_TRY(download(w, OZ_FIELD_state, &state));
-    OZ_TRY(download(w, OZ_FIELD_reference_outer, &w->reference));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_state, w->member, &state));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_reference_outer, w->member, &w->reference));
     reference = w->reference;
     for (int slot = 0; slot < sizes_of(w)->slots; slot++) {
         half_shaft(w, state, slot, half);
         for (int c = 0; c < 3; c++) {
             memcpy(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, c),
                    state + size * oz_pack_lane(s, slot, OZ_STATE, OZ_S_PLACE + c), size);
-            oz_pack_scalars(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, 3 + c), &half[c],
-                            1, s->is_double);
+            oz_scalars_put(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, 3 + c), &half[c],
+                           1, s->is_double);
         }
-        oz_pack_scalars(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, OZ_REFERENCE_SKIN),
-                        &skin, 1, s->is_double);
+        oz_scalars_put(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, OZ_REFERENCE_SKIN),
+                       &skin, 1, s->is_double);
     }
     OZ_TRY(upload(w, OZ_FIELD_reference_outer, reference));
 done:
@@ -266,12 +257,13 @@ done:
 static OzStatus make_list(Work *w)
 {
     OzStatus status = OZ_OK;
-    OzControl *control = &w->sim->control[w->member];
+    OzControl *control = oz_rods_control(w->sim, w->member);
     const OzMember *member = &w->sim->crew.members[w->member];
     OZ_TRY(oz_snapshot_create(&w->now, member->scene, member->grains));
-    OZ_TRY(oz_pack_state(&w->sim->arrays, w->member, &w->sim->parameters[w->member], &w->now));
-    OZ_TRY(download(w, OZ_FIELD_id, &w->id));
-    OZ_TRY(download(w, OZ_FIELD_slot_of, &w->slot_of));
+    OZ_TRY(
+        oz_pack_state(&w->sim->arrays, w->member, oz_rods_parameters(w->sim, w->member), &w->now));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_id, w->member, &w->id));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_slot_of, w->member, &w->slot_of));
     OZ_TRY(read_springs(w));
     OZ_TRY(find_entries(w));
     OZ_TRY(make_room(w));
@@ -306,7 +298,7 @@ OzStatus oz_host_lists_make(OzSim *sim)
     OzStatus status = OZ_OK;
     bool made = false;
     for (int m = 0; m < sim->crew.member_count; m++) {
-        if (sim->arrays.switches.host_lists && waits(&sim->control[m])) {
+        if (oz_rods_switches(sim)->host_lists && waits(oz_rods_control(sim, m))) {
             Work work = {.sim = sim, .member = m};
             status = make_list(&work);
             free_work(&work);

@@ -95,12 +95,12 @@ static OzStatus queue_phase(OzLarge *large, OzArrays *arrays, Phase phase, int n
 {
     OzStatus status = OZ_OK;
     cl_kernel kernel = large->kernel[phase];
-    size_t group = (size_t)arrays->switches.group, items = group;
+    size_t group = (size_t)oz_rods_fields_switches(arrays)->group, items = group;
     if (!kernel) {
         return OZ_OK;
     }
     if (!single[phase]) {
-        items = ((size_t)arrays->sizes.regions + group - 1) / group * group;
+        items = ((size_t)oz_rods_fields_sizes(arrays)->regions + group - 1) / group * group;
     }
     CL_TRY(clSetKernelArg(kernel, OZ_FIELD_COUNT + 1, sizeof number, &number));
     CL_TRY(clEnqueueNDRangeKernel(large->device->queue, kernel, 1, NULL, &items, &group, 0, NULL,
@@ -167,7 +167,7 @@ static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool
         OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
     }
     bool holds = control->truth == OZ_TRUTH_OUTER && !control->outer_stale;
-    if (!holds && arrays->switches.host_lists) {
+    if (!holds && oz_rods_fields_switches(arrays)->host_lists) {
         *waits = true;
         goto done;
     }

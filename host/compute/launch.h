@@ -2,16 +2,19 @@
 #ifndef OZ_COMPUTE_LAUNCH_H
 #define OZ_COMPUTE_LAUNCH_H
 
-#include "compute/sim.h"
+#include "compute/sim_private.h"
 
-/* Makes exactly so many steps (at most sizes.motion_steps; 0 makes the lists), no first force
- * evaluation. Lists hold afterwards but for members that a guard stopped. Fails with OZ_ERR_BLOWUP
- * when none is left. */
-OzStatus oz_launch_steps(OzSim *sim, int steps);
+/* Makes up to so many steps (0 makes what lists there are to make), fewer when what a launch is
+ * given of walls ends on the way; *made receives how many. Fails with OZ_ERR_BLOWUP when guards
+ * have stopped all members. */
+OzStatus oz_launch_steps(OzSim *sim, int64_t steps, int *made);
 
-/* Writes offset and velocity of every wall of a member for so many steps (at most
- * sizes.motion_steps) from the present one on, and for their end; all the present one's while the
- * step has no length. A launch does so by itself. */
-OzStatus oz_launch_move_walls(OzSim *sim, int member, int steps);
+/* A kernel over all members, one work-group each, and waits; last is its one argument of its own,
+ * unless negative. */
+OzStatus oz_launch_enqueue(OzSim *sim, cl_kernel kernel, int last);
+
+/* Control words of all members to the device, and back. */
+OzStatus oz_launch_write_control(OzSim *sim);
+OzStatus oz_launch_read_control(OzSim *sim);
 
 #endif

@@ -2,26 +2,16 @@
 #include "compute/pack.h"
 
 #include "base/memory.h"
+#include "compute/scalars.h"
 #include "compute/units.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void oz_pack_scalars(void *to, const double *from, size_t count, bool is_double)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (is_double) {
-            ((double *)to)[i] = from[i];
-        } else {
-            ((float *)to)[i] = (float)from[i];
-        }
-    }
-}
-
 static void put(void *words, size_t index, double value, bool is_double)
 {
-    oz_pack_scalars((char *)words + index * (is_double ? sizeof(double) : sizeof(float)), &value, 1,
-                    is_double);
+    oz_scalars_put((char *)words + index * (is_double ? sizeof(double) : sizeof(float)), &value, 1,
+                   is_double);
 }
 
 /* A coordinate, in units: an integer's bits in single precision. */
@@ -32,11 +22,6 @@ static void put_place(void *words, size_t index, double units, bool is_double)
     } else {
         ((int32_t *)words)[index] = (int32_t)units;
     }
-}
-
-double oz_pack_scalar(const void *words, size_t index, bool is_double)
-{
-    return is_double ? ((const double *)words)[index] : (double)((const float *)words)[index];
 }
 
 static double get_place(const void *words, size_t index, bool is_double)
@@ -143,11 +128,11 @@ OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *paramet
                        const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
-    const OzSwitches *s = &arrays->switches;
-    const OzSizes *z = &arrays->sizes;
-    size_t state_bytes = oz_arrays_bytes(OZ_FIELD_state, s, z);
-    size_t shape_bytes = oz_arrays_bytes(OZ_FIELD_shape, s, z);
-    size_t record_bytes = oz_arrays_bytes(OZ_FIELD_record, s, z);
+    const OzSwitches *s = oz_rods_fields_switches(arrays);
+    const OzSizes *z = oz_rods_fields_sizes(arrays);
+    size_t state_bytes = oz_arrays_bytes(arrays, OZ_FIELD_state);
+    size_t shape_bytes = oz_arrays_bytes(arrays, OZ_FIELD_shape);
+    size_t record_bytes = oz_arrays_bytes(arrays, OZ_FIELD_record);
     void *state = NULL, *shape = NULL, *record = NULL;
     int *id = NULL;
     OZ_TRY(oz_memory_new(&state, state_bytes, 1, "grain state"));
@@ -181,11 +166,11 @@ OzStatus oz_pack_parameters(OzArrays *arrays, int member, const OzParameters *pa
 {
     double narrow[sizeof(OzParameters) / sizeof(double)];
     size_t count = sizeof(OzParameters) / sizeof(double);
-    OzParameters counted = oz_units_parameters(parameters, arrays->switches.law);
-    oz_pack_scalars(narrow, (const double *)(const void *)&counted, count,
-                    arrays->switches.is_double);
+    OzParameters counted = oz_units_parameters(parameters, oz_rods_fields_switches(arrays)->law);
+    oz_scalars_put(narrow, (const double *)(const void *)&counted, count,
+                   oz_rods_fields_switches(arrays)->is_double);
     return oz_arrays_write(arrays, OZ_FIELD_parameters, member, narrow,
-                           oz_arrays_bytes(OZ_FIELD_parameters, &arrays->switches, &arrays->sizes));
+                           oz_arrays_bytes(arrays, OZ_FIELD_parameters));
 }
 
 /* Spin for an angular momentum. */
@@ -216,7 +201,7 @@ static void get_turn(const void *state, const OzSwitches *s, int64_t slot, doubl
         size_t whole = oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c);
         size_t rest = oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN_REST + c);
         turn[(c + 1) % 4] =
-            oz_pack_scalar(state, whole, s->is_double) + oz_pack_scalar(state, rest, s->is_double);
+            oz_scalars_get(state, whole, s->is_double) + oz_scalars_get(state, rest, s->is_double);
     }
     make_unit(turn);
 }
@@ -229,13 +214,13 @@ static void get_state(const void *state, const OzSwitches *s, const OzParameters
     double spin_unit = oz_units_spin(&p->units, s->gyroscopic);
     for (int c = 0; c < 3; c++) {
         double whole = get_place(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_PLACE + c), wide);
-        double rest = oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_REST + c), wide);
+        double rest = oz_scalars_get(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_REST + c), wide);
         snapshot->position[3 * i + c] = (whole + rest) * p->length_unit;
         snapshot->velocity[3 * i + c] =
-            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide) *
+            oz_scalars_get(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_VELOCITY + c), wide) *
             speed_unit;
         snapshot->spin[3 * i + c] =
-            oz_pack_scalar(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), wide) * spin_unit;
+            oz_scalars_get(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_SPIN + c), wide) * spin_unit;
     }
     get_turn(state, s, slot, &snapshot->quaternion[4 * i]);
     oz_grains_axis(&snapshot->quaternion[4 * i], &snapshot->axis[3 * i]);
@@ -248,9 +233,9 @@ OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *p
                        OzSnapshot *snapshot)
 {
     OzStatus status = OZ_OK;
-    const OzSwitches *s = &arrays->switches;
-    const OzSizes *z = &arrays->sizes;
-    size_t bytes = oz_arrays_bytes(OZ_FIELD_state, s, z);
+    const OzSwitches *s = oz_rods_fields_switches(arrays);
+    const OzSizes *z = oz_rods_fields_sizes(arrays);
+    size_t bytes = oz_arrays_bytes(arrays, OZ_FIELD_state);
     void *state = NULL;
     int *id = NULL;
     OZ_TRY(oz_memory_new(&state, bytes, 1, "grain state"));

@@ -2,11 +2,11 @@
 #ifndef OZ_COMPUTE_PACK_H
 #define OZ_COMPUTE_PACK_H
 
-#include "compute/arrays.h"
+#include "compute/rods_fields.h"
 #include "observe/snapshot.h"
 
-/* Writes the start of a member: state, shapes, records, ids. Padding repeats the first grain, at rest; the
- * record after the last one is far away and serves unused pairs. */
+/* Writes the start of a member: state, shapes, records, ids. Padding repeats the first grain, at
+ * rest; the record after the last one is far away and serves unused pairs. */
 OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *parameters,
                        const OzGrains *grains);
 
@@ -16,12 +16,6 @@ OzStatus oz_pack_parameters(OzArrays *arrays, int member, const OzParameters *pa
 /* Reads a member's state into snapshot: position, quaternion, axis, velocity, spin. */
 OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *parameters,
                        OzSnapshot *snapshot);
-
-/* Converts doubles to the device's scalars in place of `to`. */
-void oz_pack_scalars(void *to, const double *from, size_t count, bool is_double);
-
-/* One of the device's scalars. */
-double oz_pack_scalar(const void *words, size_t index, bool is_double);
 
 /* Where word `word` of a slot lies, in scalars, in an array of blocks of `words` words. */
 size_t oz_pack_lane(const OzSwitches *switches, int64_t slot, int words, int word);

@@ -1,14 +1,15 @@
-/* Snapshots of a simulation of trigrains. */
+/* What a snapshot knows of trigrains. */
 #ifndef OZ_COMPUTE_PIECE_CAPTURE_H
 #define OZ_COMPUTE_PIECE_CAPTURE_H
 
-#include "compute/piece_sim.h"
-#include "observe/snapshot.h"
+#include "compute/model.h"
 
-/* The state of a member now, into a snapshot made for its scene and grains. contacts: the sums over
- * contacts and beams and, with the ledger on, the energies too (dearer: the host looks for all
- * contacts). They are left out when the run was stopped by a guard. */
-OzStatus oz_piece_capture_snapshot(OzPieceSim *sim, int member, OzSnapshot *snapshot,
-                                   bool contacts);
+/* For the model's row (compute/model.h). The host looks for all contacts. Pieces move against each
+ * other: the energy is theirs, not the grains'. When the ledger starts nothing moves fast enough
+ * for the power to matter that its rate starts from. */
+OzStatus oz_piece_capture_state(OzSim *sim, int member, OzSnapshot *snapshot);
+OzStatus oz_piece_capture_contacts(OzSim *sim, int member, OzSnapshot *snapshot);
+double oz_piece_capture_energy(const OzSnapshot *now);
+OzStatus oz_piece_capture_start_ledger(OzSim *sim);
 
 #endif

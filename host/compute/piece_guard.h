@@ -1,14 +1,14 @@
-/* What a guard of trigrains' kernels found, in words. */
+/* What trigrains' guards say. */
 #ifndef OZ_COMPUTE_PIECE_GUARD_H
 #define OZ_COMPUTE_PIECE_GUARD_H
 
-#include "compute/piece_arrays.h"
-#include "observe/snapshot.h"
+#include "compute/model.h"
 
-#include <stdbool.h>
-
-/* Fails with OZ_ERR_BLOWUP, naming grain, step, time, reasons, and what would help. now: the state
- * after that step. */
-OzStatus oz_piece_guard_fail(const OzPieceControl *control, const OzSnapshot *now, bool settling);
+/* For the model's row (compute/model.h). */
+enum { OZ_PIECE_GUARD_STOPS = 7 };
+extern const OzStop oz_piece_guard_stops[OZ_PIECE_GUARD_STOPS];
+int oz_piece_guard_grain(const OzGrains *grains, int slot);
+void oz_piece_guard_advise(char *text, size_t size, const OzControlHead *control,
+                           const OzSnapshot *now);
 
 #endif

@@ -10,15 +10,15 @@
 
 /* Words of a slot's state: kernels know them as OZ_PIECE_STATE, a constant of their program. The host
  * serves programs of every order and takes it from the switches. */
-static int state_words(const OzPieceArrays *arrays)
+static int state_words(const OzArrays *arrays)
 {
-    return 3 * arrays->switches.order;
+    return 3 * oz_piece_fields_switches(arrays)->order;
 }
 
 /* Where word `word` of a slot is in an array of blocks of `words` words. */
-static size_t at(const OzPieceArrays *arrays, int slot, int words, int word)
+static size_t at(const OzArrays *arrays, int slot, int words, int word)
 {
-    int lanes = arrays->switches.lanes;
+    int lanes = oz_piece_fields_switches(arrays)->lanes;
     return ((size_t)(slot / lanes) * (size_t)words + (size_t)word) * (size_t)lanes +
            (size_t)(slot % lanes);
 }
@@ -35,16 +35,16 @@ static double stride_most(const OzPieces *pieces, int64_t i)
     return 0.5 * fmin(pieces->reach[i], pieces->area[i] / pieces->reach[i]);
 }
 
-static OzStatus write_shapes(OzPieceArrays *arrays, int member, const OzUnits *units,
+static OzStatus write_shapes(OzArrays *arrays, int member, const OzUnits *units,
                              const OzPieces *pieces)
 {
     OzStatus status = OZ_OK;
-    const OzPieceSizes *z = &arrays->sizes;
+    const OzPieceSizes *z = oz_piece_fields_sizes(arrays);
     size_t count = (size_t)z->slots * OZ_PIECE_SHAPE;
     double *words = NULL, length = units->length, inertia = oz_units_inertia(units);
     OZ_TRY(OZ_NEW(&words, count));
     for (int64_t i = 0; i < pieces->count; i++) {
-        int slot = oz_piece_arrays_slot(z, pieces, i);
+        int slot = oz_piece_fields_slot(z, pieces, i);
         double shape[OZ_PIECE_SHAPE] = {
             [OZ_PS_REACH] = pieces->reach[i] / length,
             [OZ_PS_RADIUS] = pieces->radius[i] / length,
@@ -58,17 +58,17 @@ static OzStatus write_shapes(OzPieceArrays *arrays, int member, const OzUnits *u
             words[at(arrays, slot, OZ_PIECE_SHAPE, k)] = shape[k];
         }
     }
-    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_shape, member, words, count));
+    OZ_TRY(oz_arrays_write_scalars(arrays, OZ_PIECE_FIELD_shape, member, words, count));
 done:
     free(words);
     return status;
 }
 
 /* A coordinate and its derivatives, times dt^n / n!. */
-static void put_coordinate(const OzPieceArrays *arrays, double *words, int slot, int coordinate,
+static void put_coordinate(const OzArrays *arrays, double *words, int slot, int coordinate,
                            double dt, const double derivative[5])
 {
-    int order = arrays->switches.order;
+    int order = oz_piece_fields_switches(arrays)->order;
     double scale = 1;
     for (int n = 0; n < order; n++) {
         words[at(arrays, slot, state_words(arrays), coordinate * order + n)] =
@@ -77,16 +77,16 @@ static void put_coordinate(const OzPieceArrays *arrays, double *words, int slot,
     }
 }
 
-static OzStatus write_state(OzPieceArrays *arrays, int member, const OzPieceParameters *p,
+static OzStatus write_state(OzArrays *arrays, int member, const OzPieceParameters *p,
                             const OzPieces *pieces, const OzPieceStart *start)
 {
     OzStatus status = OZ_OK;
-    const OzPieceSizes *z = &arrays->sizes;
+    const OzPieceSizes *z = oz_piece_fields_sizes(arrays);
     size_t count = (size_t)z->slots * (size_t)state_words(arrays);
     double *words = NULL;
     OZ_TRY(OZ_NEW(&words, count));
     for (int64_t i = 0; i < pieces->count; i++) {
-        int slot = oz_piece_arrays_slot(z, pieces, i);
+        int slot = oz_piece_fields_slot(z, pieces, i);
         bool free = i < pieces->free_count;
         for (int c = 0; c < 3; c++) {
             double place = c < 2 ? pieces->position[2 * i + c] : pieces->angle[i];
@@ -99,19 +99,19 @@ static OzStatus write_state(OzPieceArrays *arrays, int member, const OzPiecePara
             put_coordinate(arrays, words, slot, c, p->dt, d);
         }
     }
-    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_state, member, words, count));
+    OZ_TRY(oz_arrays_write_scalars(arrays, OZ_PIECE_FIELD_state, member, words, count));
 done:
     free(words);
     return status;
 }
 
-static OzStatus write_slow_loads(OzPieceArrays *arrays, int member, const OzUnits *units,
+static OzStatus write_slow_loads(OzArrays *arrays, int member, const OzUnits *units,
                                  const OzPieces *pieces, const double *touch)
 {
     OzStatus status = OZ_OK;
-    size_t count = (size_t)arrays->sizes.slots * OZ_PIECE_LOAD;
+    size_t count = (size_t)oz_piece_fields_sizes(arrays)->slots * OZ_PIECE_LOAD;
     double *words = NULL;
-    if (arrays->switches.substeps == 1) {
+    if (oz_piece_fields_switches(arrays)->substeps == 1) {
         return OZ_OK;
     }
     OZ_TRY(OZ_NEW(&words, count));
@@ -120,17 +120,17 @@ static OzStatus write_slow_loads(OzPieceArrays *arrays, int member, const OzUnit
         words[OZ_PIECE_LOAD * i + 1] = touch[3 * i + 1] / oz_units_force(units);
         words[OZ_PIECE_LOAD * i + 2] = touch[3 * i + 2] / oz_units_energy(units);
     }
-    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_slow_load, member, words, count));
+    OZ_TRY(oz_arrays_write_scalars(arrays, OZ_PIECE_FIELD_slow_load, member, words, count));
 done:
     free(words);
     return status;
 }
 
-OzStatus oz_piece_pack_bodies(OzPieceArrays *arrays, int member, const OzGrains *grains,
+OzStatus oz_piece_pack_bodies(OzArrays *arrays, int member, const OzGrains *grains,
                               unsigned present)
 {
     OzStatus status = OZ_OK;
-    const OzPieceSizes *z = &arrays->sizes;
+    const OzPieceSizes *z = oz_piece_fields_sizes(arrays);
     const OzPieces *pieces = grains->pieces;
     int *body = NULL, *wall = NULL;
     OZ_TRY(OZ_NEW(&body, z->slots));
@@ -140,15 +140,15 @@ OzStatus oz_piece_pack_bodies(OzPieceArrays *arrays, int member, const OzGrains 
         wall[slot] = slot < z->free_slots ? -1 : 0;
     }
     for (int64_t i = 0; i < pieces->count; i++) {
-        int slot = oz_piece_arrays_slot(z, pieces, i);
+        int slot = oz_piece_fields_slot(z, pieces, i);
         int w = i < pieces->free_count ? -1 : pieces->body[i] - (int)pieces->grain_count;
         wall[slot] = w;
         body[slot] = w < 0 || (present >> w & 1U) ? pieces->body[i] : -1;
     }
-    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_body, member, body,
-                                 (size_t)z->slots * sizeof *body));
-    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_wall, member, wall,
-                                 (size_t)z->slots * sizeof *wall));
+    OZ_TRY(oz_arrays_write(arrays, OZ_PIECE_FIELD_body, member, body,
+                           (size_t)z->slots * sizeof *body));
+    OZ_TRY(oz_arrays_write(arrays, OZ_PIECE_FIELD_wall, member, wall,
+                           (size_t)z->slots * sizeof *wall));
 done:
     free(body);
     free(wall);
@@ -157,10 +157,10 @@ done:
 
 /* Which beams each piece has, by partner: beams are ordered by their first piece, then by the
  * second. */
-static OzStatus write_adjacency(OzPieceArrays *arrays, int member, const OzPieces *pieces)
+static OzStatus write_adjacency(OzArrays *arrays, int member, const OzPieces *pieces)
 {
     OzStatus status = OZ_OK;
-    int slots = arrays->sizes.free_slots;
+    int slots = oz_piece_fields_sizes(arrays)->free_slots;
     int *first = NULL, *of = NULL;
     OZ_TRY(OZ_NEW(&first, slots + 2));
     OZ_TRY(OZ_NEW(&of, 2 * pieces->beam_count + 1));
@@ -177,10 +177,10 @@ static OzStatus write_adjacency(OzPieceArrays *arrays, int member, const OzPiece
     for (int64_t k = 0; k < pieces->beam_count; k++) {
         of[first[pieces->beam_a[k] + 1]++] = (int)k;
     }
-    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_first, member, first,
-                                 (size_t)(slots + 1) * sizeof *first));
-    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_of, member, of,
-                                 2 * (size_t)pieces->beam_count * sizeof *of));
+    OZ_TRY(oz_arrays_write(arrays, OZ_PIECE_FIELD_beam_first, member, first,
+                           (size_t)(slots + 1) * sizeof *first));
+    OZ_TRY(oz_arrays_write(arrays, OZ_PIECE_FIELD_beam_of, member, of,
+                           2 * (size_t)pieces->beam_count * sizeof *of));
 done:
     free(first);
     free(of);
@@ -188,11 +188,12 @@ done:
 }
 
 /* Beams, filled up to whole blocks with the first. */
-static OzStatus write_beams(OzPieceArrays *arrays, int member, const OzUnits *units,
+static OzStatus write_beams(OzArrays *arrays, int member, const OzUnits *units,
                             const OzPieces *pieces)
 {
     OzStatus status = OZ_OK;
-    size_t count = (size_t)arrays->sizes.beam_blocks * (size_t)arrays->switches.lanes;
+    size_t count = (size_t)oz_piece_fields_sizes(arrays)->beam_blocks *
+                   (size_t)oz_piece_fields_switches(arrays)->lanes;
     int *a = NULL, *b = NULL;
     double *rest = NULL;
     if (pieces->beam_count == 0) {
@@ -209,10 +210,10 @@ static OzStatus write_beams(OzPieceArrays *arrays, int member, const OzUnits *un
         rest[at(arrays, (int)k, OZ_BEAM_REST, 1)] = pieces->beam_rest_a[beam];
         rest[at(arrays, (int)k, OZ_BEAM_REST, 2)] = pieces->beam_rest_b[beam];
     }
-    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_a, member, a, count * sizeof *a));
-    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_beam_b, member, b, count * sizeof *b));
-    OZ_TRY(oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_beam_rest, member, rest,
-                                         OZ_BEAM_REST * count));
+    OZ_TRY(oz_arrays_write(arrays, OZ_PIECE_FIELD_beam_a, member, a, count * sizeof *a));
+    OZ_TRY(oz_arrays_write(arrays, OZ_PIECE_FIELD_beam_b, member, b, count * sizeof *b));
+    OZ_TRY(oz_arrays_write_scalars(arrays, OZ_PIECE_FIELD_beam_rest, member, rest,
+                                   OZ_BEAM_REST * count));
     OZ_TRY(write_adjacency(arrays, member, pieces));
 done:
     free(a);
@@ -221,11 +222,11 @@ done:
     return status;
 }
 
-OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzUnits *units,
+OzStatus oz_piece_pack_ledger(OzArrays *arrays, int member, const OzUnits *units,
                               const OzPieceLedger *power)
 {
     OzStatus status = OZ_OK;
-    size_t bytes = oz_piece_arrays_bytes(OZ_PIECE_FIELD_ledger, &arrays->switches, &arrays->sizes);
+    size_t bytes = oz_arrays_bytes(arrays, OZ_PIECE_FIELD_ledger);
     double *words = NULL, unit = oz_units_energy(units) / units->time; /* W */
     OZ_TRY(oz_memory_new((void **)&words, bytes + sizeof(double) * OZ_PIECE_LEDGER_WORDS, 1,
                          "ledger"));
@@ -234,13 +235,13 @@ OzStatus oz_piece_pack_ledger(OzPieceArrays *arrays, int member, const OzUnits *
     words[OZ_PIECE_LEDGER + OZ_PL_DISC_DAMPING] = power->disc_damping / unit;
     words[OZ_PIECE_LEDGER + OZ_PL_DISC_FRICTION] = power->disc_friction / unit;
     words[OZ_PIECE_LEDGER + OZ_PL_WORK_WALLS] = power->work_walls / unit;
-    OZ_TRY(oz_piece_arrays_write(arrays, OZ_PIECE_FIELD_ledger, member, words, bytes));
+    OZ_TRY(oz_arrays_write(arrays, OZ_PIECE_FIELD_ledger, member, words, bytes));
 done:
     free(words);
     return status;
 }
 
-OzStatus oz_piece_pack_start(OzPieceArrays *arrays, int member, const OzPieceParameters *parameters,
+OzStatus oz_piece_pack_start(OzArrays *arrays, int member, const OzPieceParameters *parameters,
                              const OzGrains *grains, const OzPieceStart *start)
 {
     OzStatus status = OZ_OK;
@@ -255,21 +256,20 @@ done:
     return status;
 }
 
-OzStatus oz_piece_pack_parameters(OzPieceArrays *arrays, int member,
-                                  const OzPieceParameters *parameters)
+OzStatus oz_piece_pack_parameters(OzArrays *arrays, int member, const OzPieceParameters *parameters)
 {
     OzPieceParameters counted = oz_units_pieces(parameters);
-    return oz_piece_arrays_write_scalars(arrays, OZ_PIECE_FIELD_parameters, member,
-                                         (const double *)&counted, sizeof counted / sizeof(double));
+    return oz_arrays_write_scalars(arrays, OZ_PIECE_FIELD_parameters, member,
+                                   (const double *)&counted, sizeof counted / sizeof(double));
 }
 
-OzStatus oz_piece_pack_state(const OzPieceArrays *arrays, int member,
+OzStatus oz_piece_pack_state(const OzArrays *arrays, int member,
                              const OzPieceParameters *parameters, OzSnapshot *snapshot)
 {
     OzStatus status = OZ_OK;
     double *words = NULL;
-    int order = arrays->switches.order, all = state_words(arrays);
-    OZ_TRY(oz_piece_arrays_read_scalars(arrays, OZ_PIECE_FIELD_state, member, &words));
+    int order = oz_piece_fields_switches(arrays)->order, all = state_words(arrays);
+    OZ_TRY(oz_arrays_read_scalars(arrays, OZ_PIECE_FIELD_state, member, &words));
     for (int slot = 0; slot < (int)snapshot->grains->pieces->free_count; slot++) {
         for (int c = 0; c < 3; c++) {
             double unit = c < 2 ? parameters->units.length : 1;

@@ -3,7 +3,7 @@
 #ifndef OZ_COMPUTE_PIECE_PHASES_H
 #define OZ_COMPUTE_PIECE_PHASES_H
 
-#include "compute/piece_sim.h"
+#include "compute/sim.h"
 
 /* THE list of parts: name, kernel, the kernel whose time is taken off (NULL: none). */
 #define OZ_PIECE_PHASES(X)                                                                         \
@@ -29,7 +29,7 @@ const char *oz_piece_phases_name(OzPiecePhase phase);
 /* Seconds (of a CPU: processor time) of doing each once for all pieces of the first member.
  * Afterwards every array of the device holds the same bits as before, and the simulation can go on.
  */
-OzStatus oz_piece_phases_measure(double seconds[OZ_PIECE_PHASE_COUNT], OzPieceSim *sim,
+OzStatus oz_piece_phases_measure(double seconds[OZ_PIECE_PHASE_COUNT], OzSim *sim,
                                  const char *source_dir);
 
 #endif

@@ -1,23 +1,40 @@
-/* What the files of trigrains' simulation share among themselves. */
+/* What the files of trigrains' simulation share among themselves: what the driver keeps for them,
+ * as what it is. */
 #ifndef OZ_COMPUTE_PIECE_PRIVATE_H
 #define OZ_COMPUTE_PIECE_PRIVATE_H
 
-#include "compute/crew.h"
-#include "compute/piece_arrays.h"
-#include "compute/piece_sim.h"
+#include "compute/piece_fields.h"
+#include "compute/sim_private.h"
 
-struct OzPieceSim {
-    const OzDevice *device; /* borrowed */
-    OzCrew crew;
-    OzPieceParameters *parameters; /* one a member, in double                          */
-    OzPieceControl *control;       /* one a member, as last read or to be written next */
-    unsigned *present;             /* one a member: a bit for each wall that is there  */
-    cl_program program;
-    cl_kernel advance, begin;
-    OzPieceArrays arrays;
-};
+/* Trigrains' own part of a simulation. */
+typedef struct OzTrigrains {
+    unsigned *present; /* one a member: a bit for each wall that is there */
+    cl_kernel begin;
+} OzTrigrains;
 
-/* Uploads sim->parameters. */
-OzStatus oz_piece_sim_write_parameters(OzPieceSim *sim);
+static inline OzTrigrains *oz_piece_own(const OzSim *sim)
+{
+    return sim->own;
+}
+
+static inline const OzPieceSwitches *oz_piece_switches(const OzSim *sim)
+{
+    return sim->arrays.switches;
+}
+
+static inline const OzPieceSizes *oz_piece_sizes(const OzSim *sim)
+{
+    return sim->arrays.sizes;
+}
+
+static inline OzPieceControl *oz_piece_control(const OzSim *sim, int member)
+{
+    return (OzPieceControl *)sim->control + member;
+}
+
+static inline OzPieceParameters *oz_piece_parameters(const OzSim *sim, int member)
+{
+    return (OzPieceParameters *)sim->parameters + member;
+}
 
 #endif

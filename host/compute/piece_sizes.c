@@ -73,9 +73,9 @@ static void extents(const OzPieces *pieces, double middle[2], double size[2])
     }
 }
 
-OzStatus oz_piece_sizes_parameters(OzPieceParameters *p, const OzScene *scene,
-                                   const OzGrains *grains)
+OzStatus oz_piece_sizes_parameters(void *parameters, const OzScene *scene, const OzGrains *grains)
 {
+    OzPieceParameters *p = parameters;
     const OzPieces *pieces = grains->pieces;
     double reach = mean_reach(pieces), size[2];
     memset(p, 0, sizeof *p);
@@ -124,9 +124,11 @@ static void choose_cells(OzPieceSizes *z, const OzPieceParameters *p, const OzPi
     z->cells = z->cells_x * z->cells_y;
 }
 
-void oz_piece_sizes_choose(OzPieceSizes *z, const OzPieceParameters *p, const OzScene *scene,
-                           const OzGrains *grains, const OzPieceSwitches *s)
+void oz_piece_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
+                           const OzGrains *grains, const void *switches)
 {
+    OzPieceSizes *z = sizes;
+    const OzPieceSwitches *s = switches;
     const OzPieces *pieces = grains->pieces;
     *z = (OzPieceSizes){0};
     z->free_slots = round_up((double)pieces->free_count, s->lanes);
@@ -142,7 +144,7 @@ void oz_piece_sizes_choose(OzPieceSizes *z, const OzPieceParameters *p, const Oz
     z->walls = scene->wall_count;
     z->motion_steps = MOTION_STEPS;
     z->members = 1;
-    choose_cells(z, p, pieces);
+    choose_cells(z, parameters, pieces);
 }
 
 static int larger(int a, int b)
@@ -150,8 +152,10 @@ static int larger(int a, int b)
     return a > b ? a : b;
 }
 
-void oz_piece_sizes_join(OzPieceSizes *z, const OzPieceSizes *other)
+void oz_piece_sizes_join(void *sizes, const void *another)
 {
+    OzPieceSizes *z = sizes;
+    const OzPieceSizes *other = another;
     z->slots = larger(z->slots - z->free_slots, other->slots - other->free_slots) +
                larger(z->free_slots, other->free_slots);
     z->blocks = larger(z->blocks - z->free_blocks, other->blocks - other->free_blocks) +
@@ -166,17 +170,4 @@ void oz_piece_sizes_join(OzPieceSizes *z, const OzPieceSizes *other)
     z->cells_x = larger(z->cells_x, other->cells_x);
     z->cells_y = larger(z->cells_y, other->cells_y);
     z->cells = z->cells_x * z->cells_y;
-    z->members += other->members;
-}
-
-static int larger_capacity(int now, int needed, int lanes)
-{
-    return needed > now ? round_up(1.25 * needed + lanes, lanes) : now;
-}
-
-void oz_piece_sizes_grow(OzPieceSizes *z, const OzPieceControl *control, const OzPieceSwitches *s)
-{
-    z->outer_capacity = larger_capacity(z->outer_capacity, control->outer_needed, s->lanes);
-    z->inner_capacity = larger_capacity(z->inner_capacity, control->inner_needed, s->lanes);
-    z->back_capacity = larger_capacity(z->back_capacity, control->back_needed, 1);
 }

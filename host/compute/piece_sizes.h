@@ -3,23 +3,18 @@
 #ifndef OZ_COMPUTE_PIECE_SIZES_H
 #define OZ_COMPUTE_PIECE_SIZES_H
 
-#include "compute/piece_arrays.h"
+#include "compute/piece_fields.h"
 
-/* Constants of a scene, in double, and its lists' skins and cells. Fails with OZ_ERR_INPUT when
+/* For the model's row (compute/model.h), of OzPieceSizes, OzPieceParameters and OzPieceSwitches.
+ * Constants of a scene, in double, and its lists' skins and cells; fails with OZ_ERR_INPUT when
  * there are more walls than the kernels hold. */
-OzStatus oz_piece_sizes_parameters(OzPieceParameters *parameters, const OzScene *scene,
-                                   const OzGrains *grains);
+OzStatus oz_piece_sizes_parameters(void *parameters, const OzScene *scene, const OzGrains *grains);
 
 /* Sizes that a member of this kind needs. */
-void oz_piece_sizes_choose(OzPieceSizes *sizes, const OzPieceParameters *parameters,
-                           const OzScene *scene, const OzGrains *grains,
-                           const OzPieceSwitches *switches);
+void oz_piece_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
+                           const OzGrains *grains, const void *switches);
 
 /* Makes sizes large enough for another member too. */
-void oz_piece_sizes_join(OzPieceSizes *sizes, const OzPieceSizes *other);
-
-/* Enlarges the capacities that control asks for, with room to spare. */
-void oz_piece_sizes_grow(OzPieceSizes *sizes, const OzPieceControl *control,
-                         const OzPieceSwitches *switches);
+void oz_piece_sizes_join(void *sizes, const void *another);
 
 #endif

@@ -40,36 +40,3 @@ OzPieceSwitches oz_piece_switches_derive(const OzScene *scene, const OzGrains *g
     s.ledger = scene->observe.ledger;
     return s;
 }
-
-void oz_piece_switches_options(const OzPieceSwitches *switches, char *text, size_t size)
-{
-    size_t used = 0;
-    text[0] = '\0';
-#define ADD(name, member, left_out)                                                                \
-    if (used < size) {                                                                             \
-        used +=                                                                                    \
-            (size_t)snprintf(text + used, size - used, "-DOZ_" #name "=%d ", switches->member);    \
-    }
-    OZ_PIECE_SWITCHES(ADD)
-#undef ADD
-    if (switches->is_double && used < size) {
-        snprintf(text + used, size - used, "-DOZ_DOUBLE=1 ");
-    }
-}
-
-void oz_piece_switches_print(const OzPieceSwitches *switches, FILE *file)
-{
-    char options[1024];
-    const char *separator = "";
-    oz_piece_switches_options(switches, options, sizeof options);
-    fprintf(file, "kernel switches    %s\n", options);
-    fprintf(file, "left out           ");
-#define MISSING(name, member, left_out)                                                            \
-    if ((left_out) && !switches->member) {                                                         \
-        fprintf(file, "%s%s", separator, (const char *)(left_out));                                \
-        separator = ", ";                                                                          \
-    }
-    OZ_PIECE_SWITCHES(MISSING)
-#undef MISSING
-    fprintf(file, "\n");
-}

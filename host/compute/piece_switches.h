@@ -7,36 +7,29 @@
 #include "model/grains.h"
 #include "scene/scene.h"
 
-/* name, what the kernels do with it, what is saved without it (NULL: not a feature that can be
- * missing) */
+/* Begins as compute/model.h says: name, what the kernels do with it, what is saved without it
+ * (NULL: not a feature that can be missing) */
 #define OZ_PIECE_SWITCHES(X)                                                                       \
     X(LANES, lanes, NULL)                                                                          \
     X(GROUP, group, NULL)                                                                          \
+    X(LEDGER, ledger, "energy ledger")                                                             \
     X(ORDER, order, NULL)                                                                          \
     X(MOVING, moving, "moving walls")                                                              \
     X(DISCS, discs, "discs")                                                                       \
     X(BEAMS, beams, "beams")                                                                       \
     X(SUBSTEPS, substeps, NULL)                                                                    \
     X(FORCE_POINT, force_point, NULL)                                                              \
-    X(DAMPING_SHEAR, damping_shear, NULL)                                                          \
-    X(LEDGER, ledger, "energy ledger")
-
+    X(DAMPING_SHEAR, damping_shear, NULL)
 typedef struct OzPieceSwitches {
+    int is_double; /* -D OZ_DOUBLE when set */
 #define OZ_PIECE_SWITCHES_MEMBER(name, member, left_out) int member;
     OZ_PIECE_SWITCHES(OZ_PIECE_SWITCHES_MEMBER)
 #undef OZ_PIECE_SWITCHES_MEMBER
-    int is_double; /* -D OZ_DOUBLE when set */
 } OzPieceSwitches;
 
 /* The switches of a scene on a device. order is the number of words that a coordinate takes: 5 for
  * gear4, 3 for velocity-verlet. Work-groups of several work-items compute with one lane. */
 OzPieceSwitches oz_piece_switches_derive(const OzScene *scene, const OzGrains *grains,
                                          const OzDevice *device);
-
-/* "-DOZ_LANES=8 -DOZ_GROUP=1 ..." */
-void oz_piece_switches_options(const OzPieceSwitches *switches, char *text, size_t size);
-
-/* Prints the switches, and the features left out. */
-void oz_piece_switches_print(const OzPieceSwitches *switches, FILE *file);
 
 #endif

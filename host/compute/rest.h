@@ -1,5 +1,5 @@
 /* Bringing the members of a simulation to rest before time 0, whatever their model: the settling
- * that rods (compute/settle.h) and trigrains (compute/piece_settle.h) share. */
+ * of compute/settle.h. */
 #ifndef OZ_COMPUTE_REST_H
 #define OZ_COMPUTE_REST_H
 

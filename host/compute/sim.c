@@ -1,4 +1,4 @@
-/* Running the kernels: launches, growth of lists, guards. */
+/* Running a model's kernels: layout, program, uploads, launches of a length that suits. */
 #include "compute/sim_private.h"
 
 #include "base/clock.h"
@@ -6,92 +6,103 @@
 #include "compute/cl_try.h"
 #include "compute/company.h"
 #include "compute/launch.h"
-#include "compute/pack.h"
+#include "compute/models.h"
 #include "compute/program.h"
-#include "compute/sizes.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-/* The device's idea of the shared structs against ours. */
-static OzStatus check_layout(const OzSim *sim, const OzSwitches *switches)
+OzParametersHead *oz_sim_parameters(const OzSim *sim, int member)
 {
-    OzLayout layout = {.parameters = sizeof(OzParameters) / sizeof(double),
-                       .control = sizeof(OzControl),
-                       .sizes = sizeof(OzSizes),
-                       .lanes = switches->lanes,
-                       .is_double = switches->is_double != 0};
-    return oz_program_check(sim->program, sim->device, &layout);
+    return (void *)((char *)sim->parameters + (size_t)member * sim->model->parameters_bytes);
+}
+
+OzControlHead *oz_sim_control(const OzSim *sim, int member)
+{
+    return (void *)((char *)sim->control + (size_t)member * sim->model->control_bytes);
 }
 
 OzStatus oz_sim_write_parameters(OzSim *sim)
 {
     OzStatus status = OZ_OK;
     for (int m = 0; m < sim->crew.member_count; m++) {
-        OZ_TRY(oz_pack_parameters(&sim->arrays, m, &sim->parameters[m]));
+        OZ_TRY(sim->model->write_parameters(sim, m));
     }
 done:
     return status;
 }
 
-/* Parameters, lists' sizes and the start of every member. */
-static OzStatus upload_start(OzSim *sim)
+/* One member's layout into what all share. */
+static OzStatus take_layout(OzSim *sim, int m, const OzModelLayout *own, OzModelLayout *shared)
+{
+    const OzMember *member = &sim->crew.members[m];
+    if (m > 0 && !oz_company_fits(sim->device, &sim->crew.members[0], member)) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s: members of one launch must have the same %s",
+                              member->scene->path, sim->model->alike);
+    }
+    memcpy(oz_sim_parameters(sim, m), own->parameters, sim->model->parameters_bytes);
+    if (m > 0) {
+        sim->model->join(shared->sizes, own->sizes);
+    }
+    sim->is_empty = sim->is_empty && member->grains->count == 0;
+    return OZ_OK;
+}
+
+/* Switches, which all members must share, and sizes that serve all; arrays of these. */
+static OzStatus choose_layout(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->crew.member_count; m++) {
-        OZ_TRY(oz_pack_start(&sim->arrays, m, &sim->parameters[m], sim->crew.members[m].grains));
-        sim->control[m] = (OzControl){.stale_step = OZ_NEVER,
-                                      .stale_places = OZ_NEVER,
-                                      .stop_step = OZ_NEVER,
-                                      .stop_index = OZ_NEVER,
-                                      .truth = OZ_TRUTH_NONE};
+    const OzMember *members = sim->crew.members;
+    OzModelLayout shared = {0}, own = {0};
+    OZ_TRY(oz_model_layout(&shared, sim->model, &members[0], sim->device));
+    OZ_TRY(take_layout(sim, 0, &shared, &shared));
+    for (int m = 1; m < sim->crew.member_count; m++) {
+        OZ_TRY(oz_model_layout(&own, sim->model, &members[m], sim->device));
+        OZ_TRY(take_layout(sim, m, &own, &shared));
+        oz_model_layout_free(&own);
     }
-    OZ_TRY(oz_sim_write_parameters(sim));
+    ((OzSizesHead *)shared.sizes)->members = sim->crew.member_count;
+    OZ_TRY(oz_arrays_create(&sim->arrays, sim->device, sim->model, shared.switches, shared.sizes));
 done:
+    oz_model_layout_free(&own);
+    oz_model_layout_free(&shared);
     return status;
 }
 
-/* Switches and sizes, which all members must share. */
-static OzStatus choose_layout(OzSim *sim, OzSwitches *switches, OzSizes *sizes)
+/* The program, and the device's idea of the shared structs against ours. */
+static OzStatus build(OzSim *sim, const char *source_dir)
 {
     OzStatus status = OZ_OK;
-    for (int m = 0; m < sim->crew.member_count; m++) {
-        const OzMember *member = &sim->crew.members[m];
-        OzSwitches s = oz_switches_derive(member->scene, member->grains, sim->device);
-        OzSizes z;
-        OZ_TRY(
-            oz_constants_fill(&sim->parameters[m], sim->wall_order, member->scene, member->grains));
-        oz_sizes_choose(&z, &sim->parameters[m], member->scene, member->grains, &s,
-                        sim->crew.member_count);
-        if (m > 0 && !oz_company_fits(sim->device, &sim->crew.members[0], member)) {
-            status = oz_status_fail(OZ_ERR_INPUT,
-                                    "%s: members of one launch must have the same "
-                                    "features, number of grains, step and settling",
-                                    member->scene->path);
-            goto done;
-        }
-        *switches = s;
-        *sizes = z;
-    }
-done:
-    return status;
-}
-
-static OzStatus build(OzSim *sim, const OzSwitches *switches, const char *source_dir)
-{
-    OzStatus status = OZ_OK;
-    cl_int code = CL_SUCCESS;
     char options[1024];
+    const OzModel *model = sim->model;
+    const OzSwitchesHead *switches = oz_arrays_switches(&sim->arrays);
+    const OzLayout layout = {.parameters = model->parameters_bytes / sizeof(double),
+                             .control = model->control_bytes,
+                             .sizes = model->sizes_bytes,
+                             .lanes = switches->lanes,
+                             .is_double = switches->is_double != 0};
     OZ_TRY(oz_device_check_double(sim->device, switches->is_double || switches->ledger));
-    oz_switches_options(switches, options, sizeof options);
-    const char *name = switches->resort ? "kernels/rods_large.cl" : "kernels/rods.cl";
-    OZ_TRY(oz_program_build(&sim->program, sim->device, source_dir, name, options));
-    if (switches->resort) {
-        OZ_TRY(oz_large_create(&sim->large, sim->program, sim->device, switches));
-    } else {
-        sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
-        CL_TRY(code);
-    }
-    OZ_TRY(check_layout(sim, switches));
+    oz_model_options(model, switches, options, sizeof options);
+    OZ_TRY(oz_program_build(&sim->program, sim->device, source_dir, model->program(switches),
+                            options));
+    OZ_TRY(model->open(sim));
+    OZ_TRY(oz_program_check(sim->program, sim->device, &layout));
+done:
+    return status;
+}
+
+static OzStatus create(OzSim *sim, const OzMember *members, int member_count,
+                       const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_crew_create(&sim->crew, members, member_count));
+    OZ_TRY(oz_memory_new(&sim->parameters, (size_t)member_count, sim->model->parameters_bytes,
+                         "parameters"));
+    OZ_TRY(oz_memory_new(&sim->control, (size_t)member_count, sim->model->control_bytes,
+                         "control words"));
+    OZ_TRY(choose_layout(sim));
+    OZ_TRY(build(sim, source_dir));
+    OZ_TRY(sim->model->start(sim));
 done:
     return status;
 }
@@ -101,20 +112,12 @@ OzStatus oz_sim_create(OzSim **out, const OzDevice *device, const OzMember *memb
 {
     OzStatus status = OZ_OK;
     OzSim *sim = NULL;
-    OzSwitches switches = {0};
-    OzSizes sizes = {0};
     *out = NULL;
     OZ_TRY(OZ_NEW(&sim, 1));
     sim->device = device;
-    OZ_TRY(oz_crew_create(&sim->crew, members, member_count));
-    OZ_TRY(OZ_NEW(&sim->parameters, member_count));
-    OZ_TRY(OZ_NEW(&sim->control, member_count));
-    OZ_TRY(OZ_NEW(&sim->spring_start, member_count));
-    OZ_TRY(choose_layout(sim, &switches, &sizes));
-    OZ_TRY(build(sim, &switches, source_dir));
-    OZ_TRY(oz_arrays_create(&sim->arrays, device, &switches, &sizes));
-    OZ_TRY(upload_start(sim));
-    OZ_TRY(oz_launch_steps(sim, 0));
+    sim->model = oz_models_of(members[0].scene);
+    sim->is_empty = true;
+    OZ_TRY(create(sim, members, member_count, source_dir));
     *out = sim;
     sim = NULL;
 done:
@@ -128,7 +131,7 @@ void oz_sim_free(OzSim *sim)
         return;
     }
     oz_arrays_free(&sim->arrays);
-    oz_large_free(sim->large);
+    sim->model->close(sim);
     if (sim->advance) {
         clReleaseKernel(sim->advance);
     }
@@ -138,48 +141,25 @@ void oz_sim_free(OzSim *sim)
     oz_crew_free(&sim->crew);
     free(sim->parameters);
     free(sim->control);
-    free(sim->spring_start);
     free(sim);
-}
-
-/* Where places move before the forces, the first accelerations are needed: forces at the start, over
- * no time. */
-OzStatus oz_sim_prime(OzSim *sim)
-{
-    OzStatus status = OZ_OK;
-    if (!sim->arrays.switches.moves_before || sim->primed) {
-        return OZ_OK;
-    }
-    double step = sim->parameters[0].dt;
-    for (int m = 0; m < sim->crew.member_count; m++) {
-        sim->parameters[m].dt = 0;
-    }
-    OZ_TRY(oz_sim_write_parameters(sim));
-    OZ_TRY(oz_launch_steps(sim, 1));
-    sim->crew.step -= 1;
-    sim->crew.counts.steps -= 1;
-    sim->primed = true;
-    for (int m = 0; m < sim->crew.member_count; m++) {
-        sim->crew.reached[m] -= 1;
-        sim->parameters[m].dt = step;
-    }
-    OZ_TRY(oz_sim_write_parameters(sim));
-done:
-    return status;
 }
 
 OzStatus oz_sim_launch(OzSim *sim, int64_t step)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_sim_prime(sim));
-    if (sim->crew.step >= step || sim->arrays.sizes.count == 0) {
+    int made = 0;
+    if (sim->model->prime) {
+        OZ_TRY(sim->model->prime(sim));
+    }
+    if (sim->crew.step >= step || sim->is_empty) {
         oz_crew_skip(&sim->crew, step);
         goto done;
     }
     int steps = oz_crew_launch_steps(&sim->crew, step);
     double start = oz_clock_now();
-    OZ_TRY(oz_launch_steps(sim, steps));
-    oz_crew_note_launch(&sim->crew, steps, oz_clock_now() - start, sim->arrays.sizes.motion_steps);
+    OZ_TRY(oz_launch_steps(sim, steps, &made));
+    oz_crew_note_launch(&sim->crew, made, oz_clock_now() - start,
+                        oz_arrays_sizes(&sim->arrays)->motion_steps);
 done:
     return status;
 }
@@ -208,9 +188,10 @@ OzSimCounts oz_sim_counts(const OzSim *sim)
     OzSimCounts counts = sim->crew.counts;
     counts.refreshes = counts.rebuilds = counts.crossed = 0;
     for (int m = 0; m < sim->crew.member_count; m++) {
-        counts.refreshes += sim->control[m].refreshes;
-        counts.rebuilds += sim->control[m].rebuilds;
-        counts.crossed += sim->control[m].crossed;
+        const OzControlHead *control = oz_sim_control(sim, m);
+        counts.refreshes += control->refreshes;
+        counts.rebuilds += control->rebuilds;
+        counts.crossed += control->crossed;
     }
     counts.refreshes /= sim->crew.member_count;
     counts.rebuilds /= sim->crew.member_count;
@@ -221,15 +202,14 @@ OzStatus oz_sim_describe(const OzDevice *device, const OzScene *scene, const OzG
                          FILE *file)
 {
     OzStatus status = OZ_OK;
-    OzParameters parameters;
-    int order[OZ_WALLS_MAX];
-    OzSizes sizes;
-    OzSwitches switches = oz_switches_derive(scene, grains, device);
-    OZ_TRY(oz_constants_fill(&parameters, order, scene, grains));
-    oz_sizes_choose(&sizes, &parameters, scene, grains, &switches, 1);
-    oz_switches_print(&switches, file);
+    const OzModel *model = oz_models_of(scene);
+    const OzMember member = {scene, grains};
+    OzModelLayout layout;
+    OZ_TRY(oz_model_layout(&layout, model, &member, device));
+    oz_model_print_switches(model, layout.switches, file);
     fprintf(file, "device memory of one scene on %s:\n", device->name);
-    oz_arrays_print(&switches, &sizes, file);
+    oz_arrays_print(model, layout.switches, layout.sizes, grains, file);
 done:
+    oz_model_layout_free(&layout);
     return status;
 }

@@ -4,27 +4,26 @@
 
 #include "compute/arrays.h"
 #include "compute/crew.h"
-#include "compute/large.h"
-#include "compute/sim.h"
+#include "compute/model.h"
 
 struct OzSim {
     const OzDevice *device; /* borrowed */
+    const OzModel *model;
     OzCrew crew;
-    OzParameters *parameters;     /* one a member, in double                          */
-    OzControl *control;           /* one a member, as last read or to be written next */
-    double *spring_start;         /* one a member: J in tangential springs at time 0  */
-    int wall_order[OZ_WALLS_MAX]; /* scene's wall of each kernel wall             */
+    void *parameters; /* one a member, the model's struct, in double                          */
+    void *control;    /* one a member, the model's struct, as last read or to be written next */
     cl_program program;
-    cl_kernel advance; /* small scenes */
-    OzLarge *large;    /* large scenes */
+    cl_kernel advance; /* many steps, one work-group a member; NULL where the model has others */
     OzArrays arrays;
-    bool primed; /* velocity-verlet knows its first acceleration */
+    bool is_empty; /* there is nothing that moves */
+    void *own;     /* the model's own part        */
 };
 
-/* Uploads sim->parameters. */
-OzStatus oz_sim_write_parameters(OzSim *sim);
+/* What all models' parameters and control words of a member begin with. */
+OzParametersHead *oz_sim_parameters(const OzSim *sim, int member);
+OzControlHead *oz_sim_control(const OzSim *sim, int member);
 
-/* The first force evaluation of integrators that need one. */
-OzStatus oz_sim_prime(OzSim *sim);
+/* Uploads all members' parameters. */
+OzStatus oz_sim_write_parameters(OzSim *sim);
 
 #endif

@@ -102,9 +102,12 @@ static void choose_cells(OzSizes *z, OzParameters *p, const OzGrains *grains)
     z->cells = cells[0] * cells[1] * cells[2];
 }
 
-void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const OzGrains *grains,
-                     const OzSwitches *s, int members)
+void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
+                     const void *switches)
 {
+    OzSizes *z = sizes;
+    OzParameters *p = parameters;
+    const OzSwitches *s = switches;
     double diameter = mean_diameter(grains);
     const Skins *skins = s->resort ? &large_skins : &small_skins;
     *z = (OzSizes){0};
@@ -114,7 +117,7 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
     p->skin_most = fmin(skins->most * diameter, p->outer_least / 2);
     p->skin_least = fmin(skins->least * diameter, p->skin_most);
     p->skin_time = skins->steps * scene->step;
-    z->members = members;
+    z->members = 1;
     z->count = (int)grains->count;
     z->slots = round_up((double)z->count, s->lanes);
     z->blocks = z->slots / s->lanes;
@@ -131,14 +134,7 @@ void oz_sizes_choose(OzSizes *z, OzParameters *p, const OzScene *scene, const Oz
     choose_cells(z, p, grains);
 }
 
-static int larger_capacity(int now, int needed, int lanes)
+void oz_sizes_join(void *sizes, const void *other)
 {
-    return needed > now ? round_up(1.25 * needed + lanes, lanes) : now;
-}
-
-void oz_sizes_grow(OzSizes *z, const OzControl *control, const OzSwitches *s)
-{
-    z->outer_capacity = larger_capacity(z->outer_capacity, control->outer_needed, s->lanes);
-    z->inner_capacity = larger_capacity(z->inner_capacity, control->inner_needed, s->lanes);
-    z->back_capacity = larger_capacity(z->back_capacity, control->back_needed, 1);
+    *(OzSizes *)sizes = *(const OzSizes *)other;
 }

@@ -4,12 +4,11 @@
 
 #include "compute/constants.h"
 
-/* Fills sizes for members scenes like this one side by side, and the list parameters (skins, cells) of
- * parameters. */
-void oz_sizes_choose(OzSizes *sizes, OzParameters *parameters, const OzScene *scene,
-                     const OzGrains *grains, const OzSwitches *switches, int members);
-
-/* Enlarges the capacities that control asks for, with room to spare. */
-void oz_sizes_grow(OzSizes *sizes, const OzControl *control, const OzSwitches *switches);
+/* For the model's row (compute/model.h), of OzSizes, OzParameters and OzSwitches: the sizes that a
+ * scene needs, and the list parameters (skins, cells); members have the same number of grains, and
+ * the last one's grid serves all. */
+void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
+                     const void *switches);
+void oz_sizes_join(void *sizes, const void *other);
 
 #endif

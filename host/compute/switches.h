@@ -7,11 +7,12 @@
 #include "model/grains.h"
 #include "scene/scene.h"
 
-/* name, what the kernels do with it, what is saved without it (NULL: not a feature that can be
- * missing) */
+/* Begins as compute/model.h says: name, what the kernels do with it, what is saved without it
+ * (NULL: not a feature that can be missing) */
 #define OZ_SWITCHES(X)                                                                             \
     X(LANES, lanes, NULL)                                                                          \
     X(GROUP, group, NULL)                                                                          \
+    X(LEDGER, ledger, "energy ledger")                                                             \
     X(INTEGRATOR_ID, integrator, NULL)                                                             \
     X(MOVES_BEFORE, moves_before, NULL)                                                            \
     X(ROUND, round, NULL)                                                                          \
@@ -30,25 +31,18 @@
     X(WALL_COUNT, walls, "walls")                                                                  \
     X(WALL_KINDS, wall_kinds, NULL)                                                                \
     X(MOVING, moving, "moving walls")                                                              \
-    X(LEDGER, ledger, "energy ledger")                                                             \
     X(ALL_PAIRS, all_pairs, NULL)                                                                  \
     X(HOST_LISTS, host_lists, NULL)                                                                \
     X(RESORT, resort, "spatial re-sort of grains")
 
 typedef struct OzSwitches {
+    int is_double; /* -D OZ_DOUBLE when set */
 #define OZ_SWITCHES_MEMBER(name, member, left_out) int member;
     OZ_SWITCHES(OZ_SWITCHES_MEMBER)
 #undef OZ_SWITCHES_MEMBER
-    int is_double; /* -D OZ_DOUBLE when set */
 } OzSwitches;
 
 /* The switches of a scene on a device. */
 OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, const OzDevice *device);
-
-/* "-DOZ_LANES=16 -DOZ_GROUP=1 ..." */
-void oz_switches_options(const OzSwitches *switches, char *text, size_t size);
-
-/* Prints the features that are on, and those left out. */
-void oz_switches_print(const OzSwitches *switches, FILE *file);
 
 #endif

@@ -4,9 +4,10 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/folder.h"
-#include "compute/piece_capture.h"
+#include "compute/capture.h"
 #include "compute/piece_phases.h"
-#include "compute/piece_settle.h"
+#include "compute/settle.h"
+#include "compute/sim.h"
 #include "study/apart.h"
 
 #include <errno.h>
@@ -30,7 +31,7 @@ typedef struct Result {
 typedef struct Job {
     const OzBenchBed *bed;
     const OzOptions *options;
-    OzPieceSim *sim;
+    OzSim *sim;
     Result *result;
 } Job;
 
@@ -39,11 +40,11 @@ static double clock_of(const OzDevice *device)
     return device->is_cpu ? oz_clock_processor() : oz_clock_now();
 }
 
-static OzStatus advance(OzPieceSim *sim, int64_t step)
+static OzStatus advance(OzSim *sim, int64_t step)
 {
     OzStatus status = OZ_OK;
-    while (status == OZ_OK && oz_piece_sim_step(sim) < step) {
-        status = oz_piece_sim_launch(sim, step);
+    while (status == OZ_OK && oz_sim_step(sim) < step) {
+        status = oz_sim_launch(sim, step);
     }
     return status;
 }
@@ -59,13 +60,13 @@ static OzStatus time_steps(Job *job, const OzDevice *device)
     OzStatus status = OZ_OK;
     double times[TURNS];
     int64_t each = job->options->quick ? TIMED_QUICK : TIMED;
-    OzSimCounts before = oz_piece_sim_counts(job->sim);
+    OzSimCounts before = oz_sim_counts(job->sim);
     for (int k = 0; k < TURNS; k++) {
         double start = clock_of(device);
-        OZ_TRY(advance(job->sim, oz_piece_sim_step(job->sim) + each));
+        OZ_TRY(advance(job->sim, oz_sim_step(job->sim) + each));
         times[k] = (clock_of(device) - start) / (double)each;
     }
-    OzSimCounts after = oz_piece_sim_counts(job->sim);
+    OzSimCounts after = oz_sim_counts(job->sim);
     qsort(times, TURNS, sizeof times[0], compare);
     job->result->step = times[TURNS / 2];
     job->result->refreshes = (double)(after.refreshes - before.refreshes) / (double)(TURNS * each);
@@ -79,7 +80,7 @@ static OzStatus count_touches(Job *job)
     OzStatus status = OZ_OK;
     OzSnapshot now = {0};
     OZ_TRY(oz_snapshot_create(&now, &job->bed->scene, &job->bed->grains));
-    OZ_TRY(oz_piece_capture_snapshot(job->sim, 0, &now, true));
+    OZ_TRY(oz_capture_snapshot(job->sim, 0, &now, true));
     memcpy(job->result->touches, now.pieces.touches, sizeof now.pieces.touches);
     job->result->pieces = job->bed->grains.pieces->count;
     job->result->beams = job->bed->grains.pieces->beam_count;
@@ -97,15 +98,15 @@ static OzStatus measure(void *context)
     const OzOptions *options = job->options;
     double settled = 0;
     OZ_TRY(oz_device_open(&device, options->device, options->threads ? options->threads : 1));
-    OZ_TRY(oz_piece_sim_create(&job->sim, &device, &member, 1, options->source_dir));
-    OZ_TRY(oz_piece_settle_run(job->sim, &settled, NULL, NULL));
+    OZ_TRY(oz_sim_create(&job->sim, &device, &member, 1, options->source_dir));
+    OZ_TRY(oz_settle_run(job->sim, &settled, NULL, NULL));
     OZ_TRY(
         advance(job->sim, llround(fmin(warm_time, member.scene->duration) / member.scene->step)));
     OZ_TRY(time_steps(job, &device));
     OZ_TRY(count_touches(job));
     OZ_TRY(oz_piece_phases_measure(job->result->phase, job->sim, options->source_dir));
 done:
-    oz_piece_sim_free(job->sim);
+    oz_sim_free(job->sim);
     oz_device_close(&device);
     return status;
 }

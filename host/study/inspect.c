@@ -135,7 +135,7 @@ static OzStatus print_kernels(FILE *file, const OzVerdict *v)
     if (!scene->movie.present && scene->snapshots.count == 0 && !(scene->snapshots.strobe > 0)) {
         fprintf(file, "not opened         GL and libav (neither movie nor snapshots)\n");
     }
-    return oz_drive_describe(v->device, scene, v->grains, file);
+    return oz_sim_describe(v->device, scene, v->grains, file);
 }
 
 static OzStatus print_all(FILE *file, const OzVerdict *v)

@@ -2,6 +2,7 @@
 #include "study/inspect_verdict.h"
 
 #include "base/clock.h"
+#include "compute/company.h"
 #include "compute/resolution.h"
 #include "draw/renderer.h"
 #include "model/beam_limits.h"
@@ -207,7 +208,7 @@ static OzStatus print_memory(FILE *file, const OzVerdict *v)
     OzMember member = {v->scene, v->grains};
     int64_t most = 0;
     double bytes = 0;
-    OzStatus status = oz_drive_most(v->device, &member, &most, &bytes);
+    OzStatus status = oz_company_most(v->device, &member, &most, &bytes);
     fprintf(file, "  memory           %.3g MB of %s\n", bytes / 1e6, v->device->name);
     return status;
 }

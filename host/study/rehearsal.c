@@ -3,6 +3,8 @@
 
 #include "base/clock.h"
 #include "base/stage.h"
+#include "compute/capture.h"
+#include "compute/settle.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,12 +23,12 @@ static bool is_patient(void *context, double time, double ratio)
     return oz_clock_now() < patience->deadline;
 }
 
-static OzStatus settle(OzRehearsal *r, OzDrive *drive, const OzScene *scene, double seconds)
+static OzStatus settle(OzRehearsal *r, OzSim *sim, const OzScene *scene, double seconds)
 {
     double now = oz_clock_now();
     Patience patience = {.start = now, .deadline = now + seconds};
     oz_stage_begin(&patience.stage, "settling");
-    OzStatus status = oz_drive_settle(drive, &r->settled_time, is_patient, &patience);
+    OzStatus status = oz_settle_run(sim, &r->settled_time, is_patient, &patience);
     oz_stage_end(&patience.stage);
     r->settled_in = oz_clock_now() - patience.start;
     r->cut = status == OZ_ERR_INTERRUPTED;
@@ -39,19 +41,19 @@ static OzStatus settle(OzRehearsal *r, OzDrive *drive, const OzScene *scene, dou
 }
 
 /* The first launch is not timed where others follow: drivers finish their kernels in it. */
-static OzStatus make_steps(OzRehearsal *r, OzDrive *drive, const OzScene *scene, double stretch)
+static OzStatus make_steps(OzRehearsal *r, OzSim *sim, const OzScene *scene, double stretch)
 {
     OzStatus status = OZ_OK;
-    int64_t first = oz_drive_step(drive), last = first + llround(scene->duration / scene->step);
+    int64_t first = oz_sim_step(sim), last = first + llround(scene->duration / scene->step);
     double start = oz_clock_now(), deadline = start + stretch;
-    for (int launches = 0; oz_drive_step(drive) < last && oz_clock_now() < deadline; launches++) {
+    for (int launches = 0; oz_sim_step(sim) < last && oz_clock_now() < deadline; launches++) {
         if (launches == 1) {
-            first = oz_drive_step(drive);
+            first = oz_sim_step(sim);
             start = oz_clock_now();
             deadline = start + stretch;
         }
-        OZ_TRY(oz_drive_launch(drive, last));
-        r->steps = oz_drive_step(drive) - first;
+        OZ_TRY(oz_sim_launch(sim, last));
+        r->steps = oz_sim_step(sim) - first;
         r->spent = oz_clock_now() - start;
     }
 done:
@@ -77,17 +79,17 @@ static OzStatus rehearse(OzRehearsal *r, const OzScene *scene, const OzDevice *d
                          const char *source_dir, double patience, double stretch)
 {
     OzStatus status = OZ_OK;
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzMember member = {scene, r->now.grains};
-    OZ_TRY(oz_drive_create(&drive, device, &member, 1, source_dir));
-    OZ_TRY(settle(r, drive, scene, patience));
-    OZ_TRY(oz_drive_capture(drive, 0, &r->now, false));
+    OZ_TRY(oz_sim_create(&sim, device, &member, 1, source_dir));
+    OZ_TRY(settle(r, sim, scene, patience));
+    OZ_TRY(oz_capture_snapshot(sim, 0, &r->now, false));
     OZ_TRY(measure_stiffness(r, scene));
     if (stretch > 0) {
-        OZ_TRY(make_steps(r, drive, scene, stretch));
+        OZ_TRY(make_steps(r, sim, scene, stretch));
     }
 done:
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     return status;
 }
 

@@ -3,7 +3,7 @@
 #ifndef OZ_STUDY_REHEARSAL_H
 #define OZ_STUDY_REHEARSAL_H
 
-#include "compute/drive.h"
+#include "compute/sim.h"
 #include "compute/stiffness.h"
 
 #include <stdbool.h>

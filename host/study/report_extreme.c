@@ -2,7 +2,8 @@
 #include "study/report_extreme.h"
 
 #include "base/log.h"
-#include "compute/drive.h"
+#include "compute/capture.h"
+#include "compute/sim.h"
 #include "model/place.h"
 #include "scene/keys.h"
 #include "study/report_extreme_pieces.h"
@@ -45,19 +46,19 @@ static OzStatus run_case(double *value, const OzExtremeCase *row, const OzDevice
 {
     OzStatus status = OZ_OK;
     OzGrains grains = {0};
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzSnapshot end = {0};
     OzMember member = {scene, &grains};
     OZ_TRY(oz_place_grains(&grains, scene));
     OZ_TRY(row->forced ? OZ_OK : oz_report_refuse_unstable(scene, &grains));
-    OZ_TRY(oz_drive_create(&drive, device, &member, 1, source_dir));
-    OZ_TRY(oz_drive_advance(drive, llround(scene->duration / scene->step)));
+    OZ_TRY(oz_sim_create(&sim, device, &member, 1, source_dir));
+    OZ_TRY(oz_sim_advance(sim, llround(scene->duration / scene->step)));
     OZ_TRY(oz_snapshot_create(&end, scene, &grains));
-    OZ_TRY(oz_drive_capture(drive, 0, &end, true));
+    OZ_TRY(oz_capture_snapshot(sim, 0, &end, true));
     *value = row->value ? row->value(&end) : NAN;
 done:
     oz_snapshot_free(&end);
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     oz_grains_free(&grains);
     return status;
 }

@@ -3,8 +3,9 @@
 
 #include "base/file.h"
 #include "base/folder.h"
-#include "compute/drive.h"
+#include "compute/capture.h"
 #include "compute/piece_forces.h"
+#include "compute/sim.h"
 #include "model/place.h"
 #include "observe/piece_energy.h"
 #include "scene/keys.h"
@@ -136,24 +137,24 @@ OzStatus oz_report_midpoint_pile(OzMidpointPile *pile, const OzScene *scene, con
 {
     OzStatus status = OZ_OK;
     OzGrains grains = {0};
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzSnapshot now = {0};
     Look looks[SAMPLES];
     OzMember member = {scene, &grains};
     int64_t steps = llround(scene->duration / scene->step);
     OZ_TRY(oz_place_grains(&grains, scene));
-    OZ_TRY(oz_drive_create(&drive, device, &member, 1, source_dir));
+    OZ_TRY(oz_sim_create(&sim, device, &member, 1, source_dir));
     OZ_TRY(oz_snapshot_create(&now, scene, &grains));
     for (int i = 0; i < SAMPLES; i++) {
-        OZ_TRY(oz_drive_advance(drive, steps * (i + 1) / SAMPLES));
-        OZ_TRY(oz_drive_capture(drive, 0, &now, true));
+        OZ_TRY(oz_sim_advance(sim, steps * (i + 1) / SAMPLES));
+        OZ_TRY(oz_capture_snapshot(sim, 0, &now, true));
         looks[i] = look_at(&now);
     }
     sum_up(pile, looks);
     write_looks(csv, scene, looks);
 done:
     oz_snapshot_free(&now);
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     oz_grains_free(&grains);
     return status;
 }

@@ -5,7 +5,8 @@
 #include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "compute/drive.h"
+#include "compute/capture.h"
+#include "compute/sim.h"
 #include "model/predict.h"
 #include "scene/keys.h"
 
@@ -132,11 +133,11 @@ static OzStatus open_course(Course *course, const OzReportStart *start, const Oz
     return OZ_NEW(&course->place, 3 * start->grains.count * looks);
 }
 
-static OzStatus look(Course *course, OzDrive *drive, OzSnapshot *now, int k)
+static OzStatus look(Course *course, OzSim *sim, OzSnapshot *now, int k)
 {
     OzStatus status = OZ_OK;
     size_t words = 3 * (size_t)now->count;
-    OZ_TRY(oz_drive_capture(drive, 0, now, true));
+    OZ_TRY(oz_capture_snapshot(sim, 0, now, true));
     memcpy(course->place + (size_t)k * words, now->position, words * sizeof(double));
     course->touched |= now->contacts.pair_count + now->contacts.wall_count +
                            now->pieces.grain_pairs + now->pieces.wall_touches >
@@ -148,21 +149,21 @@ done:
 static OzStatus follow(Course *course, int looks, const OzOptions *options, const OzDevice *device)
 {
     OzStatus status = OZ_OK;
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzSnapshot now = {0};
     OzMember member = {&course->scene, &course->start->grains};
-    OZ_TRY(oz_drive_create(&drive, device, &member, 1, options->source_dir));
+    OZ_TRY(oz_sim_create(&sim, device, &member, 1, options->source_dir));
     OZ_TRY(oz_snapshot_create(&now, &course->scene, &course->start->grains));
-    OZ_TRY(oz_drive_advance(drive, 1)); /* the driver makes itself ready */
+    OZ_TRY(oz_sim_advance(sim, 1)); /* the driver makes itself ready */
     double begin = oz_clock_now(), steps = (double)(looks * course->steps - 1);
     for (int k = 0; k < looks; k++) {
-        OZ_TRY(oz_drive_advance(drive, (k + 1) * course->steps));
-        OZ_TRY(look(course, drive, &now, k));
+        OZ_TRY(oz_sim_advance(sim, (k + 1) * course->steps));
+        OZ_TRY(look(course, sim, &now, k));
     }
     course->wall = (oz_clock_now() - begin) / (fmax(steps, 1) * course->scene.step);
 done:
     oz_snapshot_free(&now);
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     return status;
 }
 

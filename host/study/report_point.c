@@ -2,9 +2,10 @@
 #include "study/report_point.h"
 
 #include "base/clock.h"
-#include "compute/drive.h"
+#include "compute/capture.h"
 #include "compute/piece_reference.h"
 #include "compute/reference.h"
+#include "compute/sim.h"
 #include "study/report_refuse.h"
 #include "study/report_runs.h"
 
@@ -57,19 +58,19 @@ static void take_error(OzReportPoint *point, double error, int copy, int copies)
     }
 }
 
-static OzStatus take_errors(OzReportPoint *point, const OzReportJob *job, OzDrive *drive,
+static OzStatus take_errors(OzReportPoint *point, const OzReportJob *job, OzSim *sim,
                             const OzReportRuns *runs)
 {
     OzStatus status = OZ_OK;
     OzSnapshot end = {0};
     for (int i = 0; i < runs->count; i++) {
-        const char *stopped = oz_drive_stopped(drive, i);
+        const char *stopped = oz_sim_stopped(sim, i);
         if (stopped) {
             status = oz_status_fail(OZ_ERR_BLOWUP, "%s", stopped);
             goto done;
         }
         OZ_TRY(oz_snapshot_create(&end, &runs->scene, &runs->starts[i]));
-        OZ_TRY(oz_drive_capture(drive, i, &end, true));
+        OZ_TRY(oz_capture_snapshot(sim, i, &end, true));
         take_error(point, error_of(job, point, &end), i, runs->count);
         oz_snapshot_free(&end);
     }
@@ -84,19 +85,18 @@ static OzStatus run_once(double *seconds, OzReportPoint *point, const OzReportJo
                          const OzReportRuns *runs, bool first)
 {
     OzStatus status = OZ_OK;
-    OzDrive *drive = NULL;
-    OZ_TRY(
-        oz_drive_create(&drive, job->device, runs->members, runs->count, job->options->source_dir));
-    OZ_TRY(oz_drive_advance(drive, 1));
+    OzSim *sim = NULL;
+    OZ_TRY(oz_sim_create(&sim, job->device, runs->members, runs->count, job->options->source_dir));
+    OZ_TRY(oz_sim_advance(sim, 1));
     double start = oz_clock_now();
-    OZ_TRY(oz_drive_advance(drive, runs->steps));
+    OZ_TRY(oz_sim_advance(sim, runs->steps));
     *seconds =
         (oz_clock_now() - start) * (double)runs->steps / (double)(runs->steps - 1) / runs->count;
     if (first) {
-        OZ_TRY(take_errors(point, job, drive, runs));
+        OZ_TRY(take_errors(point, job, sim, runs));
     }
 done:
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     return status;
 }
 

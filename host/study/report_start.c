@@ -3,7 +3,9 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "compute/drive.h"
+#include "compute/capture.h"
+#include "compute/settle.h"
+#include "compute/sim.h"
 #include "model/beam_limits.h"
 #include "model/place.h"
 #include "model/predict.h"
@@ -133,7 +135,7 @@ static bool has_movable_clock(const OzScene *scene)
 }
 
 /* Runs the scene until grains touch. */
-static OzStatus warm(OzReportStart *start, OzDrive *drive, OzSnapshot *now, double deadline)
+static OzStatus warm(OzReportStart *start, OzSim *sim, OzSnapshot *now, double deadline)
 {
     OzStatus status = OZ_OK;
     const OzScene *scene = &start->scene;
@@ -145,8 +147,8 @@ static OzStatus warm(OzReportStart *start, OzDrive *drive, OzSnapshot *now, doub
     while (touches_of(start, now) * 2 < now->count && time + piece <= scene->duration / 2 &&
            oz_clock_now() < deadline) {
         time += piece;
-        OZ_TRY(oz_drive_advance(drive, llround(time / scene->step)));
-        OZ_TRY(oz_drive_capture(drive, 0, now, true));
+        OZ_TRY(oz_sim_advance(sim, llround(time / scene->step)));
+        OZ_TRY(oz_capture_snapshot(sim, 0, now, true));
     }
     if (time > 0) {
         snprintf(start->how, sizeof start->how, "the bed as it is after %.3g s", time);
@@ -155,14 +157,14 @@ done:
     return status;
 }
 
-static OzStatus settle(OzReportStart *start, OzDrive *drive, OzSnapshot *now, double deadline)
+static OzStatus settle(OzReportStart *start, OzSim *sim, OzSnapshot *now, double deadline)
 {
     double begin = oz_clock_now(), spent;
-    OzStatus status = oz_drive_settle(drive, &start->settled, is_patient, &deadline);
+    OzStatus status = oz_settle_run(sim, &start->settled, is_patient, &deadline);
     spent = oz_clock_now() - begin;
     bool cut = status == OZ_ERR_INTERRUPTED;
     OZ_TRY(cut ? OZ_OK : status);
-    OZ_TRY(oz_drive_capture(drive, 0, now, true));
+    OZ_TRY(oz_capture_snapshot(sim, 0, now, true));
     snprintf(start->how, sizeof start->how,
              cut ? "the bed settled in part: %.3g s of computing are spent on it"
                  : "the bed settled for %.3g s",
@@ -175,14 +177,14 @@ done:
 }
 
 /* Wall time of a step, in launches. */
-static OzStatus time_steps(OzReportStart *start, OzDrive *drive)
+static OzStatus time_steps(OzReportStart *start, OzSim *sim)
 {
     OzStatus status = OZ_OK;
     int64_t made = 0;
-    OZ_TRY(oz_drive_advance(drive, oz_drive_step(drive) + 1)); /* the driver makes itself ready */
+    OZ_TRY(oz_sim_advance(sim, oz_sim_step(sim) + 1)); /* the driver makes itself ready */
     double begin = oz_clock_now();
     while (made == 0 || oz_clock_now() - begin < timing) {
-        OZ_TRY(oz_drive_advance(drive, oz_drive_step(drive) + TIMED_STEPS));
+        OZ_TRY(oz_sim_advance(sim, oz_sim_step(sim) + TIMED_STEPS));
         made += TIMED_STEPS;
     }
     start->step_seconds = (oz_clock_now() - begin) / (double)made;
@@ -196,22 +198,22 @@ static OzStatus prepare(OzReportStart *start, OzSnapshot *now, const OzOptions *
                         const OzDevice *device)
 {
     OzStatus status = OZ_OK;
-    OzDrive *drive = NULL;
+    OzSim *sim = NULL;
     OzMember member = {&start->scene, &start->grains};
     double deadline = oz_clock_now() + patience_of(options);
-    OZ_TRY(oz_drive_create(&drive, device, &member, 1, options->source_dir));
+    OZ_TRY(oz_sim_create(&sim, device, &member, 1, options->source_dir));
     if (start->scene.settle.present) {
-        OZ_TRY(settle(start, drive, now, deadline));
+        OZ_TRY(settle(start, sim, now, deadline));
     } else {
-        OZ_TRY(oz_drive_capture(drive, 0, now, true));
+        OZ_TRY(oz_capture_snapshot(sim, 0, now, true));
         if (now->count >= OZ_REPORT_START_FEW && has_movable_clock(&start->scene)) {
-            OZ_TRY(warm(start, drive, now, deadline));
+            OZ_TRY(warm(start, sim, now, deadline));
         }
     }
     start->touches = touches_of(start, now) > 0;
-    OZ_TRY(time_steps(start, drive));
+    OZ_TRY(time_steps(start, sim));
 done:
-    oz_drive_free(drive);
+    oz_sim_free(sim);
     return status;
 }
 

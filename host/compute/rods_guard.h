@@ -1,0 +1,14 @@
+/* What rods' guards say. */
+#ifndef OZ_COMPUTE_RODS_GUARD_H
+#define OZ_COMPUTE_RODS_GUARD_H
+
+#include "compute/model.h"
+
+/* For the model's row (compute/model.h). */
+enum { OZ_RODS_GUARD_STOPS = 5 };
+extern const OzStop oz_rods_guard_stops[OZ_RODS_GUARD_STOPS];
+int oz_rods_guard_grain(const OzGrains *grains, int index);
+void oz_rods_guard_advise(char *text, size_t size, const OzControlHead *control,
+                          const OzSnapshot *now);
+
+#endif
