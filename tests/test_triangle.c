@@ -101,8 +101,7 @@ static double distance(OzVec2 a, OzVec2 b)
     return oz_length2(oz_minus2(a, b));
 }
 
-/* Rounding alone separates two ways to clip: 1e-14 is some tens of the numbers' last digits. The
- * push's direction is that of a chord, which has fewer digits the shorter it is: some are 1e-4. */
+/* Rounding alone separates two ways to clip. */
 static void test_areas(void **state)
 {
     (void)state;
@@ -118,8 +117,7 @@ static void test_areas(void **state)
         assert_true(fabs(o.area - area) < 1e-14);
         assert_true(fabs(o.moment - oz_cross2(centroid, o.push)) < 1e-14);
         assert_true(distance(o.push, oz_scale2(back.push, -1)) < 1e-12);
-        /* rounding: an energy is a third moment, a sum of some tens of products; a push is no
-         * longer than the area */
+        /* a third moment: a sum of some tens of products; a push is no longer than the area */
         assert_true(fabs(o.energy - back.energy) < 1e-13);
         assert_true(o.kind == back.kind && o.deep == back.deep);
         assert_true(oz_length2(o.push) <= o.area * (1 + 1e-12));
@@ -212,16 +210,14 @@ static void test_push(void **state)
         /* coordinates of 3 have 4e-16 as last digit, the chord is 0.05 wide: 2e-17 */
         OzOverlap o = oz_triangle_overlap(&wide, &aside);
         assert_true(fabs(o.area - area) < 1e-16);
-        /* 2e-17, as above */
         assert_true(fabs(o.push.x) < 1e-16 && fabs(o.push.y + area) < 1e-16);
-        assert_true(fabs(o.moment + 0.5 * area) < 1e-16);
+        assert_true(fabs(o.moment + 0.5 * area) < 1e-16); /* all of them */
         assert_true(fabs(o.energy - area * h / 3) < 1e-16);
         /* lying slanted, the middle of the chord is not above the centroid */
         OzTriangle slanted = triangle(0, -1.9, 0, -3, 1, -3);
         o = oz_triangle_overlap(&wide, &slanted);
         double width = 0.1 / 1.1, along = at_midpoint ? width / 2 : width / 3;
-        /* 2e-17, as above */
-        assert_true(fabs(o.moment + along * width * h / 2) < 1e-16);
+        assert_true(fabs(o.moment + along * width * h / 2) < 1e-16); /* 2e-17 again */
     }
     at_midpoint = 0;
 }
@@ -303,9 +299,8 @@ static void test_loop(void **state)
     print_message("net work of a closed loop over the stored energy: centroid %.1e, midpoint "
                   "%.3f\n",
                   centroid, midpoint);
-    /* the paper's point loses some hundredths */
     assert_true(fabs(centroid) < 1e-10);
-    assert_true(fabs(midpoint) > 0.05);
+    assert_true(fabs(midpoint) > 0.05); /* the paper's point loses some hundredths */
 }
 
 static void test_deep_and_swallowed(void **state)
@@ -382,15 +377,14 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* None but rounding's for the changes that a resting or sliding grain meets; the others are said.
- * The bisection ends 1e-16 from the change, and short chords have fewer digits. */
+/* None but rounding's for the changes that a resting or sliding grain meets; others are said. */
 static void check_jumps(int low, int high, int count, double *jumps)
 {
     qsort(jumps, (size_t)count, sizeof(double), ascending);
     print_message("kinds %d-%d: %d changes, jump over area: median %.2g, 90%% %.2g\n", low, high,
                   count, jumps[count / 2], jumps[count * 9 / 10]);
     if (low == 0 || (low == 1 && high != 3)) {
-        /* 1e-16 over chords of 1e-4 and areas likewise small: 2e-13 */
+        /* the bisection ends 1e-16 from the change; chords and areas are small there: 2e-13 */
         assert_true(jumps[count * 99 / 100] < 1e-10);
     } else if (high < 5 && low < 3) {
         /* medians of some thousands: 0.43 and 0.46, a few hundredths for the sample */
