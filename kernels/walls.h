@@ -14,19 +14,22 @@
     X(PLANE, plane, "plane", 1)                                                                    \
     X(CYLINDER, cylinder, "cylinder", 1)
 
-/* X(NAME, name, choice), of trigrains: a smooth straight wall from one point to another; a toothed floor of a width
- * about a point; two slopes with an opening between them, and upright sides above; the inside of a toothed circle;
- * bottom and two sides. host/model/piece_walls.c cuts each into strips of triangles (add_<name>), host/model/basin.c
- * says what lies inside (inside_<name>). */
+/* X(NAME, name, choice, rank), of trigrains: a smooth straight wall from one point to another; a toothed floor of a
+ * width about a point; two slopes with an opening between them, and upright sides above; the inside of a toothed
+ * circle; bottom and two sides.
+ *   rank   0: encloses nothing; else the scene's first wall of the highest rank is the one that grains placed at random
+ *          lie in
+ * host/model/piece_walls.c cuts each into strips of triangles (add_<name>), host/model/basin.c says whether a circle
+ * lies inside (inside_<name>). */
 #define OZ_TRIGRAINS_WALLS(X)                                                                      \
-    X(SEGMENT, segment, "segment")                                                                 \
-    X(FLOOR, floor, "floor")                                                                       \
-    X(HOPPER, hopper, "hopper")                                                                    \
-    X(DRUM, drum, "drum")                                                                          \
-    X(VESSEL, vessel, "vessel")
+    X(SEGMENT, segment, "segment", 0)                                                              \
+    X(FLOOR, floor, "floor", 1)                                                                    \
+    X(HOPPER, hopper, "hopper", 3)                                                                 \
+    X(DRUM, drum, "drum", 3)                                                                       \
+    X(VESSEL, vessel, "vessel", 2)
 
-#define OZ_WALLS_ID(NAME, name, choice, fine) OZ_WALL_##NAME,
-#define OZ_WALLS_FLAT_ID(NAME, name, choice)  OZ_WALL_##NAME,
+#define OZ_WALLS_ID(NAME, name, choice, fine)      OZ_WALL_##NAME,
+#define OZ_WALLS_FLAT_ID(NAME, name, choice, rank) OZ_WALL_##NAME,
 typedef enum OzWallKind {
     OZ_WALLS(OZ_WALLS_ID) OZ_TRIGRAINS_WALLS(OZ_WALLS_FLAT_ID) OZ_WALLS_END
 } OzWallKind;

@@ -5,19 +5,20 @@
 #include <math.h>
 #include <stddef.h>
 
-/* The wall of the first of these kinds that the scene has. */
+/* The first wall of the highest rank that the scene has; NULL where none encloses anything. */
 static const OzWall *find_container(const OzScene *scene)
 {
-    static const unsigned ranks[] = {1u << OZ_WALL_HOPPER | 1u << OZ_WALL_DRUM,
-                                     1u << OZ_WALL_VESSEL, 1u << OZ_WALL_FLOOR};
-    for (size_t rank = 0; rank < sizeof ranks / sizeof *ranks; rank++) {
-        for (int w = 0; w < scene->wall_count; w++) {
-            if (ranks[rank] >> scene->walls[w].kind & 1) {
-                return &scene->walls[w];
-            }
+#define ROW(NAME, name, choice, rank) [OZ_WALL_##NAME] = rank,
+    static const int ranks[OZ_WALLS_END] = {OZ_TRIGRAINS_WALLS(ROW)};
+#undef ROW
+    const OzWall *found = NULL;
+    for (int w = 0; w < scene->wall_count; w++) {
+        int rank = ranks[scene->walls[w].kind];
+        if (rank > (found ? ranks[found->kind] : 0)) {
+            found = &scene->walls[w];
         }
     }
-    return NULL;
+    return found;
 }
 
 /* How high the basin must be for this area, m. */
@@ -164,7 +165,7 @@ static bool inside_segment(const OzWall *wall, double x, double y, double radius
     return true;
 }
 
-#define ROW(NAME, name, choice) [OZ_WALL_##NAME] = inside_##name,
+#define ROW(NAME, name, choice, rank) [OZ_WALL_##NAME] = inside_##name,
 static bool (*const insides[])(const OzWall *wall, double x, double y,
                                double radius) = {OZ_TRIGRAINS_WALLS(ROW)};
 #undef ROW

@@ -134,7 +134,7 @@ static void add_segment(Strips *strips, const OzWall *wall)
 
 static void list_strips(Strips *strips, const OzWall *wall)
 {
-#define ROW(NAME, name, choice) [OZ_WALL_##NAME] = add_##name,
+#define ROW(NAME, name, choice, rank) [OZ_WALL_##NAME] = add_##name,
     static void (*const adders[OZ_WALLS_END])(Strips * strips,
                                               const OzWall *wall) = {OZ_TRIGRAINS_WALLS(ROW)};
 #undef ROW

@@ -41,9 +41,9 @@ static const char *const RESTITUTIONS_AT[] = {
     [OZ_RESTITUTION_CENTRE] = "centre", [OZ_RESTITUTION_CONTACT] = "contact", NULL};
 static const char *const CALIBRATIONS[] = {
     [OZ_CALIBRATION_NONE] = "none", [OZ_CALIBRATION_DISCRETE] = "discrete", NULL};
-#define OZ_CHOICES_WALL(NAME, name, choice, fine)    choice,
-#define OZ_CHOICES_NO_WALL(NAME, name, choice, fine) "",
-#define OZ_CHOICES_FLAT_WALL(NAME, name, choice)     choice,
+#define OZ_CHOICES_WALL(NAME, name, choice, fine)      choice,
+#define OZ_CHOICES_NO_WALL(NAME, name, choice, fine)   "",
+#define OZ_CHOICES_FLAT_WALL(NAME, name, choice, rank) choice,
 static const char *const WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_WALL) NULL};
 static const char *const FLAT_WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_NO_WALL)
                                                   OZ_TRIGRAINS_WALLS(OZ_CHOICES_FLAT_WALL) NULL};

@@ -19,7 +19,7 @@ enum {
 enum { OZ_SHAPES(SHAPE_BIT) };
 #undef SHAPE_BIT
 #define WALL_BIT(NAME, name, choice, fine) NAME = 1 << OZ_WALL_##NAME,
-#define FLAT_BIT(NAME, name, choice)       NAME = 1 << OZ_WALL_##NAME,
+#define FLAT_BIT(NAME, name, choice, rank) NAME = 1 << OZ_WALL_##NAME,
 enum { OZ_WALLS(WALL_BIT) OZ_TRIGRAINS_WALLS(FLAT_BIT) TOOTHED = FLOOR | HOPPER | DRUM };
 #undef WALL_BIT
 #undef FLAT_BIT
