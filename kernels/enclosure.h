@@ -37,6 +37,7 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
     side.first = index % ends == 0;
     side.sign = REAL(side.first ? 1.0 : -1.0);
     side.shape = w->parameters->wall[side.wall].shape;
+    side.shape.kind = oz_wall_kind(side.wall);
     for (int c = 0; c < 3; c++) {
         side.point[c] = (spot_kind)side.shape.point[c];
     }

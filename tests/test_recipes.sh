@@ -237,6 +237,7 @@ for scene in cone rhombus; do
     "$work/build/orzo" run "$work/$scene.yaml" -o "$work/$scene" --no-video >"$work/log" 2>&1 ||
         { cat "$work/log"; fail "$scene.yaml"; }
 done
+grep -q 'half_angle: 45' "$work/cone/scene.yaml" || fail 'the new key is not written back'
 "$work/build/orzo" keys half_angle | grep -q 'of the cone' || fail 'keys does not know the new one'
 
 cat >"$work/judge.pl" <<'CODE'

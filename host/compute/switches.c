@@ -37,12 +37,17 @@ static bool moves_before(OzIntegrator integrator)
     return moves[integrator];
 }
 
-/* A bit for each kind. */
+#define ONE(NAME, name, choice, fine) +1
+_Static_assert(0 OZ_WALLS(ONE) <= 6, "five bits a kind of wall fill an int");
+#undef ONE
+
+/* How many walls of each kind, as kernels/wall.h has them; constants.c refuses more walls than
+ * that. */
 static int kinds_of_walls(const OzScene *scene)
 {
     int kinds = 0;
-    for (int w = 0; w < scene->wall_count; w++) {
-        kinds |= 1 << scene->walls[w].kind;
+    for (int w = 0; w < scene->wall_count && w < 31; w++) {
+        kinds += 1 << 5 * (int)scene->walls[w].kind;
     }
     return kinds;
 }
