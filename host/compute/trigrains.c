@@ -6,11 +6,11 @@
 #include "compute/launch.h"
 #include "compute/piece_capture.h"
 #include "compute/piece_guard.h"
+#include "compute/piece_motion.h"
 #include "compute/piece_pack.h"
 #include "compute/piece_private.h"
 #include "compute/piece_sizes.h"
 #include "compute/piece_upload.h"
-#include "compute/piece_walls.h"
 
 #include <stdlib.h>
 
@@ -84,7 +84,7 @@ static OzStatus start(OzSim *sim)
     }
     OZ_TRY(oz_sim_write_parameters(sim));
     for (int m = 0; m < sim->crew.member_count; m++) {
-        OZ_TRY(oz_piece_walls_write_motion(sim, m, 0));
+        OZ_TRY(oz_piece_motion_write_motion(sim, m, 0));
     }
     OZ_TRY(oz_launch_write_control(sim));
     OZ_TRY(oz_launch_enqueue(sim, oz_piece_own(sim)->begin, -1));
@@ -136,8 +136,8 @@ const OzModel oz_trigrains_model = {
     .start = start,
     .close = close,
     .write_parameters = write_parameters,
-    .steps_alike = oz_piece_walls_steps_alike,
-    .prepare = oz_piece_walls_prepare,
+    .steps_alike = oz_piece_motion_steps_alike,
+    .prepare = oz_piece_motion_prepare,
     .is_through = is_through,
     .let_go = let_go,
     .unpack = oz_piece_capture_state,

@@ -1,15 +1,15 @@
 /* Walls of trigrains from launch to launch. */
-#ifndef OZ_COMPUTE_PIECE_WALLS_H
-#define OZ_COMPUTE_PIECE_WALLS_H
+#ifndef OZ_COMPUTE_PIECE_MOTION_H
+#define OZ_COMPUTE_PIECE_MOTION_H
 
 #include "compute/model.h"
 
 /* For the model's row (compute/model.h): how many of these steps can be made before a wall of the
  * member comes or goes; bodies of walls that are there and walls' motion for a launch. */
-int64_t oz_piece_walls_steps_alike(const OzSim *sim, int member, int64_t steps);
-OzStatus oz_piece_walls_prepare(OzSim *sim, int member, int steps);
+int64_t oz_piece_motion_steps_alike(const OzSim *sim, int member, int64_t steps);
+OzStatus oz_piece_motion_prepare(OzSim *sim, int member, int steps);
 
 /* The motion of every wall of a member at each step of the launch, and at its end. */
-OzStatus oz_piece_walls_write_motion(OzSim *sim, int member, int steps);
+OzStatus oz_piece_motion_write_motion(OzSim *sim, int member, int steps);
 
 #endif

@@ -1,5 +1,5 @@
 /* Walls of trigrains from launch to launch: where they are, and which are there. */
-#include "compute/piece_walls.h"
+#include "compute/piece_motion.h"
 
 #include "base/memory.h"
 #include "compute/piece_pack.h"
@@ -36,7 +36,7 @@ static unsigned present_at(const OzSim *sim, int member, int64_t step)
 
 /* How many of these steps can be made before a wall of the member comes or goes: a step feels the
  * walls as they are at its end. */
-int64_t oz_piece_walls_steps_alike(const OzSim *sim, int member, int64_t steps)
+int64_t oz_piece_motion_steps_alike(const OzSim *sim, int member, int64_t steps)
 {
     int64_t low = 1, high = steps;
     unsigned first = present_at(sim, member, sim->crew.step + 1);
@@ -51,7 +51,7 @@ int64_t oz_piece_walls_steps_alike(const OzSim *sim, int member, int64_t steps)
 }
 
 /* The motion of every wall of a member at each step of the launch, and at its end. */
-OzStatus oz_piece_walls_write_motion(OzSim *sim, int member, int steps)
+OzStatus oz_piece_motion_write_motion(OzSim *sim, int member, int steps)
 {
     OzStatus status = OZ_OK;
     const OzScene *scene = sim->crew.members[member].scene;
@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-OzStatus oz_piece_walls_prepare(OzSim *sim, int member, int steps)
+OzStatus oz_piece_motion_prepare(OzSim *sim, int member, int steps)
 {
     OzStatus status = OZ_OK;
     OzPieceControl *control = oz_piece_control(sim, member);
@@ -94,7 +94,7 @@ OzStatus oz_piece_walls_prepare(OzSim *sim, int member, int steps)
         control->outer_holds = control->inner_holds = 0;
         oz_piece_own(sim)->present[member] = present;
     }
-    OZ_TRY(oz_piece_walls_write_motion(sim, member, steps));
+    OZ_TRY(oz_piece_motion_write_motion(sim, member, steps));
 done:
     return status;
 }
