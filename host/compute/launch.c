@@ -128,8 +128,8 @@ done:
     return status;
 }
 
-/* Deep contacts of a member that has not counted the launch's steps yet. The kernels' unit at a wall
- * is half of the radius (kernels/depth.h); it is told in radii. */
+/* Deep contacts of a member that has not counted the launch's steps yet. The kernels' unit at a
+ * wall is half of the radius (kernels/depth.h); it is told in radii. */
 static void note_deep(OzSim *sim, int member)
 {
     const OzControlHead *control = oz_sim_control(sim, member);

@@ -12,9 +12,15 @@
 #include "compute/sizes.h"
 #include "compute/units.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 
 enum { JUDGE_STEPS = 128 };
+
+_Static_assert(offsetof(OzSwitches, ledger) == offsetof(OzSwitchesHead, ledger) &&
+                   offsetof(OzSwitches, lanes) == offsetof(OzSwitchesHead, lanes) &&
+                   offsetof(OzSwitches, group) == offsetof(OzSwitchesHead, group),
+               "switches begin with what the driver reads");
 
 static const OzSwitch switch_rows[] = {
 #define ROW(name, member, left_out) {#name, left_out},

@@ -12,9 +12,15 @@
 #include "compute/piece_sizes.h"
 #include "compute/piece_upload.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 
 enum { JUDGE_STEPS = 512 };
+
+_Static_assert(offsetof(OzPieceSwitches, ledger) == offsetof(OzSwitchesHead, ledger) &&
+                   offsetof(OzPieceSwitches, lanes) == offsetof(OzSwitchesHead, lanes) &&
+                   offsetof(OzPieceSwitches, group) == offsetof(OzSwitchesHead, group),
+               "switches begin with what the driver reads");
 
 static const OzSwitch switch_rows[] = {
 #define ROW(name, member, left_out) {#name, left_out},
