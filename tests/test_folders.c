@@ -226,6 +226,29 @@ static void test_draw(void **state)
     assert_kept("pictures/notes.txt");
 }
 
+/* Studies write into folders of their own by the same rules, and refuse before they compute. */
+static void test_studies(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *command;
+    } cases[] = {{"bench.csv", "bench --quick -o studies"},
+                 {"report.csv", "report bed.yaml --quick -o studies"},
+                 {"ensemble.csv", "report --ensemble bed.yaml --quick -o studies"},
+                 {"stability.csv", "report --map -o studies"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char path[64], said[128];
+        double start = now_seconds();
+        shell("rm -rf studies && mkdir studies");
+        snprintf(path, sizeof path, "studies/%s", cases[i].name);
+        snprintf(said, sizeof said, "%s is there and no run of orzo has written it", path);
+        keep(path);
+        expect(2, said, cases[i].command);
+        assert_kept(path);
+        assert_true(now_seconds() - start < 30); /* the studies themselves take minutes */
+    }
+}
+
 /* No file may become larger than some frames: rows and frames are whole, and the last state is
  * there. */
 static void test_no_room(void **state)
@@ -293,6 +316,7 @@ int main(void)
         cmocka_unit_test(test_killed),
         cmocka_unit_test(test_one_owner),
         cmocka_unit_test(test_draw),
+        cmocka_unit_test(test_studies),
         cmocka_unit_test(test_no_room),
         cmocka_unit_test(test_scenes_that_are_no_files),
         cmocka_unit_test(test_kernel_cache),

@@ -212,6 +212,7 @@ static OzStatus study_scenes(Report *report)
     OZ_TRY(OZ_NEW(&report->points, options->path_count * METHODS_MOST * RUNGS));
     OZ_TRY(open_devices(report));
     OZ_TRY(oz_folder_open(&report->owned, report->folder, &use));
+    OZ_TRY(oz_folder_note(report->folder, "report.csv")); /* refused now, not at the end */
     for (int i = 0; i < options->path_count; i++) {
         const OzReportCase *row = NULL;
         const OzReportPieceCase *pieces = NULL;

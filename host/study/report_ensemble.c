@@ -191,6 +191,8 @@ OzStatus oz_report_ensemble_run(const OzOptions *options, const char *folder)
     OZ_TRY(look_at_scene(&contact_time, &title, &asked, options));
     OZ_TRY(OZ_NEW(&points, rungs * OZ_PREDICT_INTEGRATORS));
     OZ_TRY(oz_folder_open(&owned, folder, &use));
+    OZ_TRY(oz_folder_note(folder, "ensemble.csv")); /* refused now, not at the end */
+    OZ_TRY(oz_folder_note(folder, "ensemble.png"));
     for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
         bool chosen = !is_set(options, "integrator") || i == (int)asked;
         for (int r = 0; chosen && r < rungs; r++) {
