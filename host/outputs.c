@@ -149,8 +149,10 @@ OzStatus oz_outputs_write_final(OzOutputs *outputs)
     OzStatus status = OZ_OK;
     char *spectrum = NULL;
     OZ_TRY(oz_final_write(&outputs->now, outputs->final));
-    OZ_TRY(claim(&spectrum, outputs, "inclination_spectrum.csv", NULL));
-    OZ_TRY(oz_series_write_spectrum(outputs->series, spectrum));
+    if (oz_series_has_spectrum(outputs->series)) { /* a name is noted only for a file that comes */
+        OZ_TRY(claim(&spectrum, outputs, "inclination_spectrum.csv", NULL));
+        OZ_TRY(oz_series_write_spectrum(outputs->series, spectrum));
+    }
 done:
     free(spectrum);
     return status;

@@ -89,6 +89,11 @@ static void test_what_a_user_added(void **state)
     assert_kept("added/notes.txt");
     assert_kept("added/snapshots/holiday.png");
     assert_false(is_there("added/movie.mp4") || is_there("added/snapshots/tap_00000.png"));
+    keep("added/inclination_spectrum.csv"); /* no drum, none written */
+    expect(2, "added/inclination_spectrum.csv is there and no run",
+           "run bed.yaml -o added --overwrite");
+    assert_kept("added/inclination_spectrum.csv");
+    shell("rm added/inclination_spectrum.csv");
     keep("added/movie.mp4"); /* the last run made none */
     expect(2, "added/movie.mp4 is there and no run", "run shown.yaml -o added --overwrite");
     assert_kept("added/movie.mp4");

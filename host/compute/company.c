@@ -4,6 +4,7 @@
 #include "compute/models.h"
 #include "compute/rest.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +19,7 @@ bool oz_company_fits(const OzDevice *device, const OzMember *a, const OzMember *
     if (model != oz_models_of(b->scene)) {
         return false;
     }
+    assert(model->switches_bytes <= sizeof s);
     model->derive(s, a->scene, a->grains, device);
     model->derive(other, b->scene, b->grains, device);
     return memcmp(s, other, sizeof s) == 0 && a->scene->step == b->scene->step &&

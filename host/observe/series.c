@@ -171,6 +171,11 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
     return status == OZ_OK ? oz_surplus_check(&series->surplus, snapshot) : status;
 }
 
+bool oz_series_has_spectrum(const OzSeries *series)
+{
+    return series->flow.sample_count > 0;
+}
+
 OzStatus oz_series_write_spectrum(const OzSeries *series, const char *path)
 {
     return oz_flow_write_spectrum(&series->flow, series->scene->observe.interval, path);

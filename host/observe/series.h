@@ -25,6 +25,9 @@ void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot);
  * empty otherwise. energy_residual counts from the first row written. */
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot);
 
+/* Whether there is a drum's inclination to write a spectrum of. */
+bool oz_series_has_spectrum(const OzSeries *series);
+
 /* After the last row: writes what a drum's inclination is made of (oz_flow_write_spectrum); without
  * a drum it writes no file. */
 OzStatus oz_series_write_spectrum(const OzSeries *series, const char *path);
