@@ -6,6 +6,7 @@
 #include "compute/capture.h"
 #include "compute/settle.h"
 #include "compute/sim.h"
+#include "study/rehearsal.h"
 
 #include <unistd.h>
 
@@ -300,6 +301,22 @@ static void test_no_grains(void **state)
     rig_close(&rig);
 }
 
+/* In the first launch drivers finish their kernels, which takes seconds. A launch begins with 16
+ * steps, so that of 20 at most 4 are timed. */
+static void test_rehearsal_leaves_out_the_first_launch(void **state)
+{
+    (void)state;
+    Rig rig;
+    OzRehearsal rehearsal;
+    open_drop(&rig, HIGH, REST);
+    rig.scene.settle.present = false;
+    rig.scene.duration = 20 * step;
+    must(oz_rehearsal_run(&rehearsal, &rig.scene, &rig.grains, &rig_device, NULL, 0, 1e-9));
+    assert_in_range(rehearsal.steps, 1, 4);
+    oz_rehearsal_free(&rehearsal);
+    rig_close(&rig);
+}
+
 static int open_all(void **state)
 {
     int file = mkstemp(log_path);
@@ -315,9 +332,13 @@ static int close_all(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comes_to_rest),  cmocka_unit_test(test_time_max_ends_it),
-        cmocka_unit_test(test_members_wait),   cmocka_unit_test(test_watch_ends_it),
-        cmocka_unit_test(test_without_settle), cmocka_unit_test(test_no_grains),
+        cmocka_unit_test(test_comes_to_rest),
+        cmocka_unit_test(test_time_max_ends_it),
+        cmocka_unit_test(test_members_wait),
+        cmocka_unit_test(test_watch_ends_it),
+        cmocka_unit_test(test_without_settle),
+        cmocka_unit_test(test_no_grains),
+        cmocka_unit_test(test_rehearsal_leaves_out_the_first_launch),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);
 }
