@@ -1,8 +1,12 @@
-/* THE list of device arrays: kind of element, name, number of elements a member. Kernel arguments, the
- * kernels' view of memory, the host's buffers and `orzo check`'s memory table are all made of it. A count
- * of 0 means that the scene does not need the array: it is not allocated. z is the OzSizes.
- * Kinds: parameters, control, scalar, real (one scalar per lane), spot (one coordinate of a place),
- * integer, ledger (double). */
+/* THE list of device arrays: kind of element, name, number of elements a member, class. Kernel
+ * arguments, the kernels' view of memory, the host's buffers and `orzo check`'s memory table are
+ * all made of it. A count of 0 means that the scene does not need the array: it is not allocated. z
+ * is the OzSizes. Kinds: parameters, control, scalar, real (one scalar per lane), spot (one
+ * coordinate of a place), integer, ledger (double). Classes: STATE, what the next step depends on;
+ * SPRING, the tangential memory of contacts; LIST, neighbour lists that are made again from these
+ * two; SCRATCH, written before it is read by the host at each launch or by each step. Springs of
+ * pairs outlive the lists in the saved_ arrays alone, where oz_shelve puts them (springs.h); others
+ * are LIST. */
 #ifndef OZ_KERNELS_FIELDS_H
 #define OZ_KERNELS_FIELDS_H
 
@@ -19,56 +23,60 @@ enum { OZ_CONTACT_LEDGER = 15 };
 #define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + 1)
 
 #define OZ_FIELDS(X)                                                                               \
-    X(parameters, parameters, 1)                                                                   \
-    X(control, control, 1)                                                                         \
-    X(scalar, motion, OZ_MOVING ? (z.motion_steps + 1) * OZ_MOTION * OZ_WALL_COUNT : 0)              \
-    X(real, state, z.blocks *OZ_STATE)                                                             \
-    X(real, shape, OZ_EQUAL ? 0 : z.blocks * OZ_SHAPE)                                             \
-    X(real, wall_history, OZ_HISTORY ? z.blocks * OZ_WALL_ENDS * 3 : 0)                            \
-    X(integer, wall_picked, z.blocks *OZ_WALL_ENDS)                                                \
-    X(scalar, record, (z.slots + 1) * OZ_RECORD)                                                   \
-    X(real, reference_inner, z.blocks *OZ_REFERENCE)                                               \
-    X(real, reference_outer, z.blocks *OZ_REFERENCE)                                               \
-    X(integer, id, z.slots)                                                                        \
-    X(integer, slot_of, z.slots)                                                                   \
-    X(integer, cell_of, z.slots)                                                                   \
-    X(integer, cell_first, z.cells + 2)                                                            \
-    X(spot, sorted_x, z.slots + OZ_LANES)                                                          \
-    X(spot, sorted_y, z.slots + OZ_LANES)                                                          \
-    X(spot, sorted_z, z.slots + OZ_LANES)                                                          \
-    X(scalar, sorted_reach, OZ_EQUAL ? 0 : z.slots + OZ_LANES)                                     \
-    X(integer, sorted_slot, z.slots + OZ_LANES)                                                    \
-    X(integer, sorted_id, z.slots + OZ_LANES)                                                      \
-    X(scalar, sorted_skin, z.slots + OZ_LANES)                                                     \
-    X(integer, outer_a, z.regions *z.outer_capacity)                                               \
-    X(integer, outer_b, z.regions *z.outer_capacity)                                               \
-    X(scalar, outer_history, OZ_HISTORY ? z.regions * z.outer_capacity * 3 : 0)                    \
-    X(integer, outer_count, z.regions)                                                             \
-    X(integer, outer_first, z.slots)                                                               \
-    X(integer, outer_number, z.slots)                                                              \
-    X(integer, pair_a, z.regions *z.inner_capacity)                                                \
-    X(integer, pair_b, z.regions *z.inner_capacity)                                                \
-    X(integer, pair_outer, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                          \
-    X(scalar, pair_history, OZ_HISTORY ? z.regions * z.inner_capacity * OZ_SPRING : 0)             \
-    X(scalar, load, z.slots *OZ_LOAD)                                                              \
-    X(scalar, pair_force, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_FORCE)           \
-    X(scalar, pair_torque, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_TORQUE)         \
-    X(integer, pair_picked, z.regions *z.inner_capacity / OZ_LANES)                                \
-    X(integer, pair_kept, OZ_SCATTER ? 0 : z.regions * z.inner_capacity / OZ_LANES)                \
-    X(integer, pair_count, z.regions)                                                              \
-    X(integer, pair_first, OZ_SCATTER ? 0 : z.slots)                                               \
-    X(integer, pair_number, OZ_SCATTER ? 0 : z.slots)                                              \
-    X(integer, back_number, OZ_SCATTER ? 0 : z.slots)                                              \
-    X(integer, back_before, OZ_SCATTER | OZ_EQUAL ? 0 : z.slots)                                   \
-    X(integer, back, OZ_SCATTER ? 0 : z.slots * z.back_capacity)                                   \
-    X(integer, saved_a, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                             \
-    X(integer, saved_b, OZ_HISTORY ? z.regions * z.inner_capacity : 0)                             \
-    X(scalar, saved_history, OZ_HISTORY ? z.regions * z.inner_capacity * 3 : 0)                    \
-    X(integer, saved_count, OZ_HISTORY ? z.regions : 0)                                            \
-    X(ledger, ledger, OZ_LEDGER ? z.regions * OZ_LEDGER_WORDS : 0)                                 \
-    X(real, pair_ledger, OZ_LEDGER ? z.regions * z.inner_capacity / OZ_LANES * OZ_CONTACT_LEDGER : 0) \
-    X(real, pair_couple, OZ_LEDGER & OZ_LINE ? z.regions * z.inner_capacity / OZ_LANES * 6 : 0)    \
-    X(real, wall_ledger, OZ_LEDGER ? z.blocks * OZ_WALL_ENDS * OZ_CONTACT_LEDGER : 0)               \
-    X(scalar, spare, OZ_RESORT ? z.slots * OZ_SPARE : 0)
+    X(parameters, parameters, 1, SCRATCH)                                                          \
+    X(control, control, 1, STATE)                                                                  \
+    X(scalar, motion, OZ_MOVING ? (z.motion_steps + 1) * OZ_MOTION *OZ_WALL_COUNT : 0, SCRATCH)    \
+    X(real, state, z.blocks *OZ_STATE, STATE)                                                      \
+    X(real, shape, OZ_EQUAL ? 0 : z.blocks *OZ_SHAPE, STATE)                                       \
+    X(real, wall_history, OZ_HISTORY ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)                     \
+    X(integer, wall_picked, z.blocks *OZ_WALL_ENDS, SPRING)                                        \
+    X(scalar, record, (z.slots + 1) * OZ_RECORD, STATE)                                            \
+    X(real, reference_inner, z.blocks *OZ_REFERENCE, LIST)                                         \
+    X(real, reference_outer, z.blocks *OZ_REFERENCE, LIST)                                         \
+    X(integer, id, z.slots, STATE)                                                                 \
+    X(integer, slot_of, z.slots, STATE)                                                            \
+    X(integer, cell_of, z.slots, LIST)                                                             \
+    X(integer, cell_first, z.cells + 2, LIST)                                                      \
+    X(spot, sorted_x, z.slots + OZ_LANES, LIST)                                                    \
+    X(spot, sorted_y, z.slots + OZ_LANES, LIST)                                                    \
+    X(spot, sorted_z, z.slots + OZ_LANES, LIST)                                                    \
+    X(scalar, sorted_reach, OZ_EQUAL ? 0 : z.slots + OZ_LANES, LIST)                               \
+    X(integer, sorted_slot, z.slots + OZ_LANES, LIST)                                              \
+    X(integer, sorted_id, z.slots + OZ_LANES, LIST)                                                \
+    X(scalar, sorted_skin, z.slots + OZ_LANES, LIST)                                               \
+    X(integer, outer_a, z.regions *z.outer_capacity, LIST)                                         \
+    X(integer, outer_b, z.regions *z.outer_capacity, LIST)                                         \
+    X(scalar, outer_history, OZ_HISTORY ? z.regions *z.outer_capacity * 3 : 0, LIST)               \
+    X(integer, outer_count, z.regions, LIST)                                                       \
+    X(integer, outer_first, z.slots, LIST)                                                         \
+    X(integer, outer_number, z.slots, LIST)                                                        \
+    X(integer, pair_a, z.regions *z.inner_capacity, LIST)                                          \
+    X(integer, pair_b, z.regions *z.inner_capacity, LIST)                                          \
+    X(integer, pair_outer, OZ_HISTORY ? z.regions *z.inner_capacity : 0, LIST)                     \
+    X(scalar, pair_history, OZ_HISTORY ? z.regions *z.inner_capacity *OZ_SPRING : 0, LIST)         \
+    X(scalar, load, z.slots *OZ_LOAD, SCRATCH)                                                     \
+    X(scalar, pair_force, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_FORCE,     \
+      SCRATCH)                                                                                     \
+    X(scalar, pair_torque, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_TORQUE,   \
+      SCRATCH)                                                                                     \
+    X(integer, pair_picked, z.regions *z.inner_capacity / OZ_LANES, LIST)                          \
+    X(integer, pair_kept, OZ_SCATTER ? 0 : z.regions *z.inner_capacity / OZ_LANES, SCRATCH)        \
+    X(integer, pair_count, z.regions, LIST)                                                        \
+    X(integer, pair_first, OZ_SCATTER ? 0 : z.slots, LIST)                                         \
+    X(integer, pair_number, OZ_SCATTER ? 0 : z.slots, LIST)                                        \
+    X(integer, back_number, OZ_SCATTER ? 0 : z.slots, LIST)                                        \
+    X(integer, back_before, OZ_SCATTER | OZ_EQUAL ? 0 : z.slots, LIST)                             \
+    X(integer, back, OZ_SCATTER ? 0 : z.slots *z.back_capacity, LIST)                              \
+    X(integer, saved_a, OZ_HISTORY ? z.regions *z.inner_capacity : 0, SPRING)                      \
+    X(integer, saved_b, OZ_HISTORY ? z.regions *z.inner_capacity : 0, SPRING)                      \
+    X(scalar, saved_history, OZ_HISTORY ? z.regions *z.inner_capacity * 3 : 0, SPRING)             \
+    X(integer, saved_count, OZ_HISTORY ? z.regions : 0, SPRING)                                    \
+    X(ledger, ledger, OZ_LEDGER ? z.regions *OZ_LEDGER_WORDS : 0, STATE)                           \
+    X(real, pair_ledger,                                                                           \
+      OZ_LEDGER ? z.regions *z.inner_capacity / OZ_LANES *OZ_CONTACT_LEDGER : 0, SCRATCH)          \
+    X(real, pair_couple, OZ_LEDGER &OZ_LINE ? z.regions *z.inner_capacity / OZ_LANES * 6 : 0,      \
+      SCRATCH)                                                                                     \
+    X(real, wall_ledger, OZ_LEDGER ? z.blocks *OZ_WALL_ENDS *OZ_CONTACT_LEDGER : 0, SCRATCH)       \
+    X(scalar, spare, OZ_RESORT ? z.slots *OZ_SPARE : 0, SCRATCH)
 
 #endif

@@ -1,14 +1,15 @@
-/* The trigrains kernels' view of memory: every array of one member, and how work is shared out. OpenCL C only.
- * OZ_GROUP 1: one work-item does a member's whole launch, with any number of lanes; otherwise the work-group's
- * size, with one lane. Switches: OZ_ORDER (words of a coordinate: 5 is gear4, 3 velocity-verlet), OZ_MOVING (some wall
- * moves), OZ_DISCS and OZ_BEAMS (the scene has any), OZ_SUBSTEPS, OZ_LEDGER, OZ_FORCE_POINT, OZ_DAMPING_SHEAR. The law
- * of discs is no switch: it is a number in the parameters, of its own for each wall. */
+/* The trigrains kernels' view of memory: every array of one member, and how work is shared out.
+ * OpenCL C only. OZ_GROUP 1: one work-item does a member's whole launch, with any number of lanes;
+ * otherwise the work-group's size, with one lane. Switches: OZ_ORDER (words of a coordinate: 5 is
+ * gear4, 3 velocity-verlet), OZ_MOVING (some wall moves), OZ_DISCS and OZ_BEAMS (the scene has
+ * any), OZ_SUBSTEPS, OZ_LEDGER, OZ_FORCE_POINT, OZ_DAMPING_SHEAR. The law of discs is no switch: it
+ * is a number in the parameters, of its own for each wall. */
 #ifndef OZ_KERNELS_PIECE_WORK_H
 #define OZ_KERNELS_PIECE_WORK_H
 
 #include "kernels/lanes.h"
-#include "kernels/piece_layout.h"
 #include "kernels/piece_fields.h"
+#include "kernels/piece_layout.h"
 #include "kernels/triangle.h"
 
 typedef OzPieceParameters parameters_kind;
@@ -23,9 +24,9 @@ typedef double ledger_kind;
 typedef int ledger_kind;
 #endif
 
-#define OZ_PIECE_MEMBER(kind, name, count)   global kind##_kind *name;
-#define OZ_PIECE_ARGUMENT(kind, name, count) global kind##_kind *name,
-#define OZ_PIECE_TAKE(kind, name, count)     w.name = name + (size_t)member * (size_t)(count);
+#define OZ_PIECE_MEMBER(kind, name, count, class)   global kind##_kind *name;
+#define OZ_PIECE_ARGUMENT(kind, name, count, class) global kind##_kind *name,
+#define OZ_PIECE_TAKE(kind, name, count, class)     w.name = name + (size_t)member * (size_t)(count);
 
 typedef struct OzPieceWork {
     OZ_PIECE_FIELDS(OZ_PIECE_MEMBER)
@@ -48,17 +49,16 @@ typedef struct OzPieceWork {
 #if OZ_GROUP == 1
 #define OZ_PIECE_MEET()
 #define OZ_PIECE_COUNT(counter) ((*(counter))++)
-#define OZ_PIECE_ITEM   0
-#define OZ_PIECE_STRIDE 1
+#define OZ_PIECE_ITEM           0
+#define OZ_PIECE_STRIDE         1
 #else
-#define OZ_PIECE_MEET() barrier(CLK_GLOBAL_MEM_FENCE)
+#define OZ_PIECE_MEET()         barrier(CLK_GLOBAL_MEM_FENCE)
 #define OZ_PIECE_COUNT(counter) atomic_inc(counter)
-#define OZ_PIECE_ITEM   ((int)get_local_id(0))
-#define OZ_PIECE_STRIDE ((int)get_local_size(0))
+#define OZ_PIECE_ITEM           ((int)get_local_id(0))
+#define OZ_PIECE_STRIDE         ((int)get_local_size(0))
 #endif
 
-#define OZ_EACH(w, index, count)                                                                   \
-    for (int index = (w)->item; index < (count); index += (w)->stride)
+#define OZ_EACH(w, index, count) for (int index = (w)->item; index < (count); index += (w)->stride)
 
 /* Asks for an end: reason bits, step and the lowest slot of the first step that had any. */
 OZ_INLINE void oz_piece_work_stop(OzPieceWork *w, int bits, int step, int slot)

@@ -1,7 +1,7 @@
 /* A kernel's view of memory: every array of one member, and how work is shared out. OpenCL C only.
- * OZ_GROUP 1: one work-item does a member's whole launch and needs neither barriers nor atomics; otherwise the
- * work-group's size. OZ_RESORT 1: a large scene, phase by phase over many work-groups. Work-items look after
- * regions: runs of slots with their own pair lists. */
+ * OZ_GROUP 1: one work-item does a member's whole launch and needs neither barriers nor atomics;
+ * otherwise the work-group's size. OZ_RESORT 1: a large scene, phase by phase over many
+ * work-groups. Work-items look after regions: runs of slots with their own pair lists. */
 #ifndef OZ_KERNELS_WORK_H
 #define OZ_KERNELS_WORK_H
 
@@ -28,9 +28,9 @@ typedef double ledger_kind;
 typedef int ledger_kind;
 #endif
 
-#define OZ_WORK_MEMBER(kind, name, count)   global kind##_kind *name;
-#define OZ_WORK_ARGUMENT(kind, name, count) global kind##_kind *name,
-#define OZ_WORK_TAKE(kind, name, count)     w.name = name + (size_t)member * (size_t)(count);
+#define OZ_WORK_MEMBER(kind, name, count, class)   global kind##_kind *name;
+#define OZ_WORK_ARGUMENT(kind, name, count, class) global kind##_kind *name,
+#define OZ_WORK_TAKE(kind, name, count, class)     w.name = name + (size_t)member * (size_t)(count);
 
 typedef struct OzWork {
     OZ_FIELDS(OZ_WORK_MEMBER)
@@ -50,13 +50,13 @@ typedef struct OzWork {
 #if OZ_GROUP == 1 && !OZ_RESORT
 #define OZ_WORK_MEET()
 #define OZ_WORK_COUNT(counter) ((*(counter))++)
-#define OZ_WORK_ITEM   0
-#define OZ_WORK_STRIDE 1
+#define OZ_WORK_ITEM           0
+#define OZ_WORK_STRIDE         1
 #else
-#define OZ_WORK_MEET() barrier(CLK_GLOBAL_MEM_FENCE)
+#define OZ_WORK_MEET()         barrier(CLK_GLOBAL_MEM_FENCE)
 #define OZ_WORK_COUNT(counter) atomic_inc(counter)
-#define OZ_WORK_ITEM   ((int)get_local_id(0))
-#define OZ_WORK_STRIDE ((int)get_local_size(0))
+#define OZ_WORK_ITEM           ((int)get_local_id(0))
+#define OZ_WORK_STRIDE         ((int)get_local_size(0))
 #endif
 
 /* Asks for an end: reason bits, step and the lowest id of the first step that had any. */
@@ -202,8 +202,8 @@ OZ_INLINE void oz_work_store3(global real *words, OzVec3 v)
 OZ_INLINE void oz_work_clear_loads(OzWork *w, int region)
 {
     global real *words = (global real *)w->load;
-    for (int k = oz_work_block_begin(w, region) * OZ_LOAD; k < oz_work_block_end(w, region) * OZ_LOAD;
-         k++) {
+    for (int k = oz_work_block_begin(w, region) * OZ_LOAD;
+         k < oz_work_block_end(w, region) * OZ_LOAD; k++) {
         words[k] = REAL(0.0);
     }
 }

@@ -42,7 +42,7 @@ OzStatus oz_arrays_create(OzArrays *arrays, const OzDevice *device, const OzMode
     memcpy(arrays->switches, switches, model->switches_bytes);
     memcpy(arrays->sizes, sizes, model->sizes_bytes);
     for (int f = 0; f < model->field_count; f++) {
-        OZ_TRY(oz_buffers_make(&arrays->buffer[f], device, model->field_names[f],
+        OZ_TRY(oz_buffers_make(&arrays->buffer[f], device, model->fields[f].name,
                                all_bytes(arrays, f, sizes)));
     }
 done:
@@ -88,7 +88,7 @@ static OzStatus resize_field(OzArrays *arrays, int field, const void *sizes)
     if (old_bytes == new_bytes) {
         return OZ_OK;
     }
-    OZ_TRY(oz_buffers_make(&grown, arrays->device, model->field_names[field], new_bytes));
+    OZ_TRY(oz_buffers_make(&grown, arrays->device, model->fields[field].name, new_bytes));
     if (model->keeps_rows && model->keeps_rows(field)) {
         OZ_TRY(copy_rows(arrays, arrays->buffer[field], old_bytes, grown, new_bytes));
     }
@@ -130,7 +130,7 @@ OzStatus oz_arrays_read(const OzArrays *arrays, int field, int member, void *dat
 OzStatus oz_arrays_download(const OzArrays *arrays, int field, int member, void *data)
 {
     size_t bytes = oz_arrays_bytes(arrays, field);
-    OzStatus status = oz_memory_new(data, bytes, 1, arrays->model->field_names[field]);
+    OzStatus status = oz_memory_new(data, bytes, 1, arrays->model->fields[field].name);
     return status == OZ_OK ? oz_arrays_read(arrays, field, member, *(void **)data, bytes) : status;
 }
 
@@ -185,7 +185,7 @@ void oz_arrays_print(const OzModel *model, const void *switches, const void *siz
         size_t bytes = model->field_bytes(f, switches, sizes);
         sum += bytes;
         fprintf(file, bytes ? "  %-18s %12zu bytes\n" : "  %-18s            - not needed\n",
-                model->field_names[f], bytes);
+                model->fields[f].name, bytes);
     }
     fprintf(file, "  %-18s %12zu bytes at start, %.0f a %s\n", "all", sum,
             bodies ? (double)sum / (double)bodies : 0.0, model->body);

@@ -29,6 +29,22 @@ typedef struct __attribute__((may_alias)) OzSwitchesHead {
     int lanes, group, ledger;
 } OzSwitchesHead;
 
+/* What a field's words are to the next step. STATE: it depends on them; SPRING: it does too, they
+ * are the tangential memory of contacts, where it outlives the neighbour lists; LIST: part of the
+ * lists, or springs on their way in them, made anew from the others; SCRATCH: written before they
+ * are read, by the host for each launch or by the kernels in each step. */
+typedef enum OzFieldClass {
+    OZ_FIELD_STATE,
+    OZ_FIELD_SPRING,
+    OZ_FIELD_LIST,
+    OZ_FIELD_SCRATCH
+} OzFieldClass;
+
+typedef struct OzField {
+    const char *name;
+    OzFieldClass class;
+} OzField;
+
 /* A guard's bit and what it says. */
 typedef struct OzStop {
     int bit;
@@ -38,10 +54,10 @@ typedef struct OzStop {
 typedef struct OzModel {
     const char *name;
 
-    /* The device's arrays: names in the order of the kernels' arguments; bytes of one member's
-     * stretch, 0 where the scene does not need it; whether the rows of a list outlive a growth. */
+    /* The device's arrays in the order of the kernels' arguments; bytes of one member's stretch, 0
+     * where the scene does not need it; whether the rows of a list outlive a growth. */
     int field_count, control_field;
-    const char *const *field_names;
+    const OzField *fields;
     size_t (*field_bytes)(int field, const void *switches, const void *sizes);
     bool (*keeps_rows)(int field); /* NULL: none does */
 

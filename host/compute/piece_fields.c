@@ -28,7 +28,7 @@ size_t oz_piece_fields_bytes(int field, const void *switches, const void *sizes)
     const OzPieceSwitches *s = switches;
     const OzPieceSizes z = *(const OzPieceSizes *)sizes;
     switch (field) {
-#define CASE(kind, name, count)                                                                    \
+#define CASE(kind, name, count, class)                                                             \
     case OZ_PIECE_FIELD_##name:                                                                    \
         return (size_t)(count) * (BYTES_##kind);
         OZ_PIECE_FIELDS(CASE)
@@ -38,10 +38,10 @@ size_t oz_piece_fields_bytes(int field, const void *switches, const void *sizes)
     }
 }
 
-const char *const oz_piece_fields_names[] = {
-#define NAME(kind, name, count) #name,
-    OZ_PIECE_FIELDS(NAME)
-#undef NAME
+const OzField oz_piece_fields_rows[] = {
+#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class},
+    OZ_PIECE_FIELDS(ROW)
+#undef ROW
 };
 
 int oz_piece_fields_slot(const OzPieceSizes *sizes, const OzPieces *pieces, int64_t piece)

@@ -8,14 +8,14 @@
 #include "kernels/piece_layout.h"
 
 typedef enum OzPieceFieldId {
-#define OZ_PIECE_FIELDS_ID(kind, name, count) OZ_PIECE_FIELD_##name,
+#define OZ_PIECE_FIELDS_ID(kind, name, count, class) OZ_PIECE_FIELD_##name,
     OZ_PIECE_FIELDS(OZ_PIECE_FIELDS_ID)
 #undef OZ_PIECE_FIELDS_ID
         OZ_PIECE_FIELD_COUNT
 } OzPieceFieldId;
 
-/* For the model's row (compute/model.h): names, bytes of a member's stretch. */
-extern const char *const oz_piece_fields_names[];
+/* For the model's row (compute/model.h): rows, bytes of a member's stretch. */
+extern const OzField oz_piece_fields_rows[];
 size_t oz_piece_fields_bytes(int field, const void *switches, const void *sizes);
 
 /* The slot of a piece. */

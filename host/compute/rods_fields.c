@@ -28,7 +28,7 @@ size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes)
     const OzSwitches *s = switches;
     const OzSizes z = *(const OzSizes *)sizes;
     switch (field) {
-#define CASE(kind, name, count)                                                                    \
+#define CASE(kind, name, count, class)                                                             \
     case OZ_FIELD_##name:                                                                          \
         return (size_t)(count) * (BYTES_##kind);
         OZ_FIELDS(CASE)
@@ -38,10 +38,10 @@ size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes)
     }
 }
 
-const char *const oz_rods_fields_names[] = {
-#define NAME(kind, name, count) #name,
-    OZ_FIELDS(NAME)
-#undef NAME
+const OzField oz_rods_fields_rows[] = {
+#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class},
+    OZ_FIELDS(ROW)
+#undef ROW
 };
 
 /* Lists whose contents outlive a growth: where tangential springs are kept during a rebuild. */

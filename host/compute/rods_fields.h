@@ -7,15 +7,15 @@
 #include "kernels/fields.h"
 
 typedef enum OzFieldId {
-#define OZ_RODS_FIELDS_ID(kind, name, count) OZ_FIELD_##name,
+#define OZ_RODS_FIELDS_ID(kind, name, count, class) OZ_FIELD_##name,
     OZ_FIELDS(OZ_RODS_FIELDS_ID)
 #undef OZ_RODS_FIELDS_ID
         OZ_FIELD_COUNT
 } OzFieldId;
 
-/* For the model's row (compute/model.h): names, bytes of a member's stretch, what outlives a growth
+/* For the model's row (compute/model.h): rows, bytes of a member's stretch, what outlives a growth
  * (where tangential springs are kept during a rebuild). */
-extern const char *const oz_rods_fields_names[];
+extern const OzField oz_rods_fields_rows[];
 size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes);
 bool oz_rods_fields_keeps(int field);
 
