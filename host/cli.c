@@ -37,7 +37,8 @@ static const struct {
     const char *name, *value, *help;
 } option_rows[] = {
     {'o', "-o", "DIR",
-     "folder to write (default runs/<scene name>; of draw DIR/draw, of bench and report their names)"},
+     "folder to write (default runs/<scene name>; of draw DIR/draw, of bench and report their "
+     "names)"},
     {'O', "--overwrite", NULL, "replace the run that is there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
     {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all"},
@@ -335,7 +336,6 @@ static OzStatus check_count(const OzOptions *options, int command)
 
 OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
 {
-    OzStatus status = OZ_OK;
     memset(options, 0, sizeof *options);
     options->until = -1;
     if (argc < 2) {
@@ -348,9 +348,7 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
         return wrong(argv[1], "run, check, draw, keys, bench, report or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
-        OZ_TRY(take_argument(options, command, argc, argv, &i));
+        OZ_PASS(take_argument(options, command, argc, argv, &i));
     }
-    OZ_TRY(options->help ? OZ_OK : check_count(options, command));
-done:
-    return status;
+    return options->help ? OZ_OK : check_count(options, command);
 }

@@ -50,17 +50,15 @@ static void lose(OzOutputs *member, OzStatus why, const char *text)
 /* Ends the outputs of members that a guard has stopped; a plain run says why at its end. */
 static OzStatus drop_stopped(OzCourse *course)
 {
-    OzStatus status = OZ_OK;
     for (int64_t m = 0; course->is_ensemble && m < course->member_count; m++) {
         OzOutputs *member = course->members[m];
         const char *why = oz_sim_stopped(course->sim, (int)m);
         if (why && member->is_open) {
             lose(member, OZ_ERR_BLOWUP, why);
-            OZ_TRY(oz_outputs_close(member));
+            OZ_PASS(oz_outputs_close(member));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static bool must_end(const OzCourse *course)
@@ -100,18 +98,16 @@ static OzStatus settle(OzCourse *course)
 /* What is doubtful about contacts at this step, for one member of those alike. */
 static OzStatus tell_contacts(const OzCourse *course)
 {
-    OzStatus status = OZ_OK;
     OzStiffness stiffness;
     OzOutputs *first = course->members[0];
     if (!course->leads || !first->is_open || !oz_stiffness_applies(&first->scene)) {
         return OZ_OK;
     }
     oz_calibrate_say(&first->scene);
-    OZ_TRY(oz_capture_snapshot(course->sim, 0, &first->now, false));
-    OZ_TRY(oz_stiffness_measure(&stiffness, &first->now));
+    OZ_PASS(oz_capture_snapshot(course->sim, 0, &first->now, false));
+    OZ_PASS(oz_stiffness_measure(&stiffness, &first->now));
     oz_stiffness_say(&stiffness, &first->scene);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus look_at(OzCourse *course, int64_t m, int due)
@@ -131,16 +127,14 @@ done:
 /* What is due at this step of every member that goes on; *open receives how many do. */
 static OzStatus look(OzCourse *course, int due, int64_t *open)
 {
-    OzStatus status = OZ_OK;
     *open = 0;
     for (int64_t m = 0; m < course->member_count; m++) {
         if (course->members[m]->is_open) {
-            OZ_TRY(look_at(course, m, due));
+            OZ_PASS(look_at(course, m, due));
         }
         *open += course->members[m]->is_open;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void show_progress(const OzCourse *course)

@@ -98,10 +98,9 @@ static void write_headers(const OzEnsemble *e)
  * nowhere. */
 static OzStatus take_header(OzEnsemble *e, char *line, int place[COLUMNS_MAX])
 {
-    OzStatus status = OZ_OK;
     char *names[COLUMNS_MAX];
     if (!e->header) {
-        OZ_TRY(oz_memory_text(&e->header, line));
+        OZ_PASS(oz_memory_text(&e->header, line));
         e->column_count = cut(e->header, e->columns);
         write_headers(e);
     }
@@ -112,27 +111,24 @@ static OzStatus take_header(OzEnsemble *e, char *line, int place[COLUMNS_MAX])
             place[i] = strcmp(names[i], e->columns[c]) == 0 ? c : place[i];
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus find_row(OzEnsemble *e, int64_t i, Row **row)
 {
-    OzStatus status = OZ_OK;
     if (i >= e->row_capacity) {
         int64_t wanted = 2 * i + 64;
-        OZ_TRY(oz_memory_grow((void **)&e->rows, (size_t)e->row_capacity, (size_t)wanted,
-                              sizeof *e->rows, "rows"));
+        OZ_PASS(oz_memory_grow((void **)&e->rows, (size_t)e->row_capacity, (size_t)wanted,
+                               sizeof *e->rows, "rows"));
         e->row_capacity = wanted;
     }
     if (!e->rows[i]) {
-        OZ_TRY(oz_memory_new((void **)&e->rows[i], 1,
-                             sizeof(Row) + (size_t)e->column_count * sizeof(Cell), "row"));
+        OZ_PASS(oz_memory_new((void **)&e->rows[i], 1,
+                              sizeof(Row) + (size_t)e->column_count * sizeof(Cell), "row"));
         e->row_count = i + 1;
     }
     *row = e->rows[i];
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void add_value(Cell *cell, double value)
@@ -146,9 +142,8 @@ static void add_value(Cell *cell, double value)
 /* Adds a row's cells; one that is empty or no number is left out of its column. */
 static OzStatus add_row(OzEnsemble *e, int64_t i, char *const cells[COLUMNS_MAX])
 {
-    OzStatus status = OZ_OK;
     Row *row = NULL;
-    OZ_TRY(find_row(e, i, &row));
+    OZ_PASS(find_row(e, i, &row));
     row->members++;
     if (!row->moment && asprintf(&row->moment, "%s,%s,%s", cells[0] ? cells[0] : "",
                                  cells[1] ? cells[1] : "", cells[2] ? cells[2] : "") < 0) {
@@ -162,8 +157,7 @@ static OzStatus add_row(OzEnsemble *e, int64_t i, char *const cells[COLUMNS_MAX]
             add_value(&row->cells[c], value);
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Cells of a line in the order of the ensemble's columns; NULL where the series has none. */
@@ -247,18 +241,16 @@ static void write_row(const OzEnsemble *e, const Row *row)
 /* A drum's speed and the mean inclination of its members' last row. */
 static OzStatus note_inclination(OzEnsemble *e)
 {
-    OzStatus status = OZ_OK;
     if (e->row_count == 0 || !oz_inclination_fit_applies(e->key)) {
         return OZ_OK;
     }
     for (int c = 0; c < e->column_count; c++) {
         const Cell *cell = &e->rows[e->row_count - 1]->cells[c];
         if (strcmp(e->columns[c], "inclination_mean") == 0 && cell->count > 0) {
-            OZ_TRY(oz_inclination_fit_add(&e->inclination, strtod(e->value, NULL), cell->mean));
+            OZ_PASS(oz_inclination_fit_add(&e->inclination, strtod(e->value, NULL), cell->mean));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Writes the rows in hand: the members of a value are all in. */

@@ -30,18 +30,16 @@ done:
 
 OzStatus oz_inputs_add_scene(OzInputs *inputs, const OzScene *scene)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_inputs_add(inputs, scene->path));
+    OZ_PASS(oz_inputs_add(inputs, scene->path));
     if (scene->base) {
-        OZ_TRY(oz_inputs_add(inputs, scene->base));
+        OZ_PASS(oz_inputs_add(inputs, scene->base));
     }
     for (int i = 0; i < scene->population_count; i++) {
         if (scene->populations[i].path) {
-            OZ_TRY(oz_inputs_add(inputs, scene->populations[i].path));
+            OZ_PASS(oz_inputs_add(inputs, scene->populations[i].path));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Whether a run in the folder has to do with this name in it. */

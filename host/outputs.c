@@ -46,14 +46,12 @@ OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const
 /* The path of a file that is about to be made there; part: under another name first. */
 static OzStatus claim(char **path, const OzOutputs *outputs, const char *name, const char *part)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_file_join(path, outputs->folder, name));
-    OZ_TRY(oz_folder_note(outputs->folder, name));
+    OZ_PASS(oz_file_join(path, outputs->folder, name));
+    OZ_PASS(oz_folder_note(outputs->folder, name));
     if (part) {
-        OZ_TRY(oz_folder_note(outputs->folder, part));
+        OZ_PASS(oz_folder_note(outputs->folder, part));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus write_scene(const OzOutputs *outputs)
@@ -126,22 +124,20 @@ static int purpose_of(int due)
 
 OzStatus oz_outputs_look(OzOutputs *outputs, int due)
 {
-    OzStatus status = OZ_OK;
     int purpose = purpose_of(due);
     if (due & OZ_DUE_SAMPLE) {
         oz_series_sample(outputs->series, &outputs->now);
     }
     if (due & OZ_DUE_ROW) {
-        OZ_TRY(oz_series_write(outputs->series, &outputs->now));
+        OZ_PASS(oz_series_write(outputs->series, &outputs->now));
     }
     if (purpose && outputs->frames) {
-        OZ_TRY(oz_frames_add(outputs->frames, &outputs->now, purpose));
+        OZ_PASS(oz_frames_add(outputs->frames, &outputs->now, purpose));
     }
     if (purpose && outputs->gallery) {
-        OZ_TRY(oz_studio_add(outputs->studio, outputs->gallery, &outputs->now, purpose));
+        OZ_PASS(oz_studio_add(outputs->studio, outputs->gallery, &outputs->now, purpose));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_outputs_write_final(OzOutputs *outputs)

@@ -122,33 +122,25 @@ static OzStatus check_contacts(const OzScene *scene, const OzGrains *grains, boo
 
 OzStatus oz_plan_judge(const OzScene *scene, const OzGrains *grains, bool force)
 {
-    OzStatus status = OZ_OK;
     bool flat = scene->model == OZ_MODEL_TRIGRAINS;
-    OZ_TRY(flat ? check_pieces(scene, grains, force) : check_contacts(scene, grains, force));
-    OZ_TRY(oz_start_judge(scene, grains, force));
-done:
-    return status;
+    OZ_PASS(flat ? check_pieces(scene, grains, force) : check_contacts(scene, grains, force));
+    return oz_start_judge(scene, grains, force);
 }
 
 OzStatus oz_plan_place(OzGrains *grains, const OzScene *scene)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_place_grains(grains, scene));
+    OZ_PASS(oz_place_grains(grains, scene));
     if (scene->settle.present && scene->settle.overlaps == OZ_OVERLAPS_REMOVE) {
-        OZ_TRY(oz_part_grains(grains, scene));
+        OZ_PASS(oz_part_grains(grains, scene));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_plan_load(const OzPlan *plan, int64_t i, OzScene *scene, OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(load_scene(plan, i, scene));
-    OZ_TRY(oz_plan_place(grains, scene));
-    OZ_TRY(oz_plan_judge(scene, grains, plan->options->force));
-done:
-    return status;
+    OZ_PASS(load_scene(plan, i, scene));
+    OZ_PASS(oz_plan_place(grains, scene));
+    return oz_plan_judge(scene, grains, plan->options->force);
 }
 
 /* "friction" of contact.friction, "velocity.0" of grains.1.velocity.0. */
@@ -315,7 +307,6 @@ static OzStatus try_values(OzPlan *plan)
 
 static OzStatus check_values(OzPlan *plan)
 {
-    OzStatus status = OZ_OK;
     const OzSweep *sweep = &plan->scene.sweep;
     if (plan->count > OZ_PLAN_MEMBERS_MAX) {
         return oz_status_fail(OZ_ERR_INPUT, "%s: %lld members; expected at most %d",
@@ -325,27 +316,22 @@ static OzStatus check_values(OzPlan *plan)
         return oz_status_fail(OZ_ERR_INPUT, "%s: sweeps the seed; expected that or --seeds",
                               plan->scene.path);
     }
-    OZ_TRY(check_names(plan));
-    OZ_TRY(try_values(plan));
-done:
-    return status;
+    OZ_PASS(check_names(plan));
+    return try_values(plan);
 }
 
 OzStatus oz_plan_create(OzPlan *plan, const OzOptions *options)
 {
-    OzStatus status = OZ_OK;
     *plan = (OzPlan){.options = options, .seed_count = 1};
-    OZ_TRY(
+    OZ_PASS(
         oz_scene_load(&plan->scene, options->paths[0], options->settings, options->setting_count));
     if (options->has_seeds) {
         plan->seed_count = (int64_t)(options->seed_last - options->seed_first) + 1;
     }
     plan->is_ensemble = options->has_seeds || plan->scene.sweep.count > 0;
     plan->count = plan->seed_count * (plan->scene.sweep.count ? plan->scene.sweep.count : 1);
-    OZ_TRY(oz_inputs_add_scene(&plan->inputs, &plan->scene));
-    OZ_TRY(check_values(plan));
-done:
-    return status;
+    OZ_PASS(oz_inputs_add_scene(&plan->inputs, &plan->scene));
+    return check_values(plan);
 }
 
 void oz_plan_free(OzPlan *plan)

@@ -99,18 +99,15 @@ done:
 /* How many members like the first are run at a time. */
 static OzStatus choose_most(Run *run)
 {
-    OzStatus status = OZ_OK;
     OzMember first = {&run->loaded->scene, &run->loaded->grains};
     double bytes = 0;
-    OZ_TRY(oz_room_most(run->options, &run->device, &first, &run->most, &bytes));
+    OZ_PASS(oz_room_most(run->options, &run->device, &first, &run->most, &bytes));
     if (run->plan.is_ensemble) {
         oz_log_line("%lld members of about %.3g MB; up to %lld at a time",
                     (long long)run->plan.count, bytes / 1e6, (long long)run->most);
     }
     run->most = run->most < run->plan.count ? run->most : run->plan.count;
-    OZ_TRY(OZ_NEW(&run->members, run->most));
-done:
-    return status;
+    return OZ_NEW(&run->members, run->most);
 }
 
 /* Members' folders that are there already, before anything is touched. */
@@ -135,38 +132,31 @@ done:
 /* Chooses the folder and takes it. */
 static OzStatus open_folder(Run *run)
 {
-    OzStatus status = OZ_OK;
     OzFolderUse use = oz_outputs_use(run->options->overwrite);
-    OZ_TRY(oz_outputs_choose_folder(&run->folder, run->options, run->plan.scene.name));
-    OZ_TRY(oz_inputs_check(&run->plan.inputs, run->folder, &use));
-    OZ_TRY(oz_folder_check(run->folder, &use));
-    OZ_TRY(check_member_folders(run, &use));
-    OZ_TRY(oz_folder_open(&run->owned, run->folder, &use));
-done:
-    return status;
+    OZ_PASS(oz_outputs_choose_folder(&run->folder, run->options, run->plan.scene.name));
+    OZ_PASS(oz_inputs_check(&run->plan.inputs, run->folder, &use));
+    OZ_PASS(oz_folder_check(run->folder, &use));
+    OZ_PASS(check_member_folders(run, &use));
+    return oz_folder_open(&run->owned, run->folder, &use);
 }
 
 static OzStatus open_run(Run *run)
 {
-    OzStatus status = OZ_OK;
     const OzOptions *options = run->options;
-    OZ_TRY(oz_plan_create(&run->plan, options));
-    OZ_TRY(OZ_NEW(&run->outcomes, run->plan.count));
-    OZ_TRY(load_next(run, &run->loaded));
+    OZ_PASS(oz_plan_create(&run->plan, options));
+    OZ_PASS(OZ_NEW(&run->outcomes, run->plan.count));
+    OZ_PASS(load_next(run, &run->loaded));
     if (!run->loaded) {
-        status = oz_status_fail(run->loss, "%s: no member can be run", run->plan.scene.path);
-        goto done;
+        return oz_status_fail(run->loss, "%s: no member can be run", run->plan.scene.path);
     }
-    OZ_TRY(open_folder(run));
-    OZ_TRY(open_log(run));
+    OZ_PASS(open_folder(run));
+    OZ_PASS(open_log(run));
     oz_log_line("orzo %s: %s, %lld grains", ORZO_VERSION, run->plan.scene.path,
                 (long long)run->loaded->grains.count);
-    OZ_TRY(oz_studio_create(&run->studio));
-    OZ_TRY(oz_device_open(&run->device, options->device, options->threads));
+    OZ_PASS(oz_studio_create(&run->studio));
+    OZ_PASS(oz_device_open(&run->device, options->device, options->threads));
     oz_log_line("device: %s", run->device.name);
-    OZ_TRY(choose_most(run));
-done:
-    return status;
+    return choose_most(run);
 }
 
 /* Whether a loaded member can go side by side with the group's first. */
@@ -182,19 +172,17 @@ static bool joins(const Run *run, const OzOutputs *member)
  */
 static OzStatus gather_group(Run *run)
 {
-    OzStatus status = OZ_OK;
     run->members[0] = run->loaded;
     run->member_count = 1;
     run->loaded = NULL;
     run->schedule = oz_schedule_create(&run->members[0]->scene, run->options->until);
-    OZ_TRY(load_next(run, &run->loaded));
+    OZ_PASS(load_next(run, &run->loaded));
     while (run->loaded && run->member_count < run->most && joins(run, run->loaded)) {
         run->members[run->member_count++] = run->loaded;
         run->loaded = NULL;
-        OZ_TRY(load_next(run, &run->loaded));
+        OZ_PASS(load_next(run, &run->loaded));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* One a thread of a CPU; a GPU takes all members at once. */
@@ -206,10 +194,9 @@ static int choose_course_count(const Run *run)
 
 static OzStatus open_courses(Run *run)
 {
-    OzStatus status = OZ_OK;
     int count = choose_course_count(run);
     int64_t first = 0;
-    OZ_TRY(OZ_NEW(&run->courses, count));
+    OZ_PASS(OZ_NEW(&run->courses, count));
     for (int k = 0; k < count; k++) {
         OzCourse *course = &run->courses[run->course_count++];
         int64_t next = run->member_count * (k + 1) / count;
@@ -220,11 +207,10 @@ static OzStatus open_courses(Run *run)
                              .leads = k == 0,
                              .started = run->started,
                              .ended = &run->ended};
-        OZ_TRY(oz_course_open(course, &run->device, run->options->source_dir));
+        OZ_PASS(oz_course_open(course, &run->device, run->options->source_dir));
         first = next;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus check_interrupt(void)
@@ -255,16 +241,15 @@ done:
 
 static OzStatus open_group(Run *run)
 {
-    OzStatus status = OZ_OK;
     char missed[512];
-    OZ_TRY(open_courses(run));
+    OZ_PASS(open_courses(run));
     oz_interrupt_hold();
     for (int64_t m = 0; m < run->member_count; m++) {
         OzOutputs *member = run->members[m];
-        OZ_TRY(check_interrupt());
-        OZ_TRY(oz_plan_name(&run->plan, member->number, &member->name));
-        OZ_TRY(choose_member_folder(run, member));
-        OZ_TRY(oz_outputs_open(member, run->options, run->device.name, run->studio));
+        OZ_PASS(check_interrupt());
+        OZ_PASS(oz_plan_name(&run->plan, member->number, &member->name));
+        OZ_PASS(choose_member_folder(run, member));
+        OZ_PASS(oz_outputs_open(member, run->options, run->device.name, run->studio));
     }
     if (oz_schedule_missed(&run->schedule, missed, sizeof missed)) {
         oz_log_line("warning: %s", missed);
@@ -274,8 +259,7 @@ static OzStatus open_group(Run *run)
                     run->members[run->member_count - 1]->name, (long long)run->member_count,
                     run->course_count);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Of all courses together: counts of a mean member, the longest time. */

@@ -71,18 +71,16 @@ done:
 /* Patterns are of files in the folder, or in folders of one name in it. */
 static OzStatus check_foreign(const char *folder, const OzFolderUse *use, const OzMarker *marker)
 {
-    OzStatus status = OZ_OK;
     char below[OZ_MARKER_NAME];
-    OZ_TRY(check_entries(folder, "", use, marker));
+    OZ_PASS(check_entries(folder, "", use, marker));
     for (const char *const *pattern = use->writes; pattern && *pattern; pattern++) {
         size_t length = strcspn(*pattern, "/");
         if ((*pattern)[length] == '/' && length + 2 < sizeof below) {
             snprintf(below, sizeof below, "%.*s/", (int)length, *pattern);
-            OZ_TRY(check_entries(folder, below, use, marker));
+            OZ_PASS(check_entries(folder, below, use, marker));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static bool holds(const char *folder, const char *name)
@@ -217,12 +215,9 @@ done:
 /* Everything but the folder's own lock. */
 static OzStatus check_contents(const char *path, const OzFolderUse *use, const OzMarker *marker)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(check_parent(path));
-    OZ_TRY(check_foreign(path, use, marker));
-    OZ_TRY(check_results(path, use, marker));
-done:
-    return status;
+    OZ_PASS(check_parent(path));
+    OZ_PASS(check_foreign(path, use, marker));
+    return check_results(path, use, marker);
 }
 
 OzStatus oz_folder_check(const char *path, const OzFolderUse *use)

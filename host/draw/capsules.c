@@ -30,20 +30,17 @@ static void describe_records(const OzGl *gl)
 
 OzStatus oz_capsules_create(OzCapsules *capsules, const OzGl *gl, const char *source_dir)
 {
-    OzStatus status = OZ_OK;
     memset(capsules, 0, sizeof *capsules);
     capsules->gl = gl;
-    OZ_TRY(oz_gl_program(gl, &capsules->whole, source_dir, "rods", ""));
-    OZ_TRY(oz_gl_program(gl, &capsules->sliced, source_dir, "rods", "#define OZ_SLICED\n"));
-    OZ_TRY(oz_gl_program(gl, &capsules->outlined, source_dir, "rods", "#define OZ_OUTLINED\n"));
+    OZ_PASS(oz_gl_program(gl, &capsules->whole, source_dir, "rods", ""));
+    OZ_PASS(oz_gl_program(gl, &capsules->sliced, source_dir, "rods", "#define OZ_SLICED\n"));
+    OZ_PASS(oz_gl_program(gl, &capsules->outlined, source_dir, "rods", "#define OZ_OUTLINED\n"));
     gl->GenVertexArrays(1, &capsules->vertices);
     gl->BindVertexArray(capsules->vertices);
     gl->GenBuffers(1, &capsules->buffer);
     gl->BindBuffer(GL_ARRAY_BUFFER, capsules->buffer);
     describe_records(gl);
-    OZ_TRY(oz_gl_check(gl, "preparing the buffer of grains"));
-done:
-    return status;
+    return oz_gl_check(gl, "preparing the buffer of grains");
 }
 
 void oz_capsules_free(OzCapsules *capsules)
@@ -105,10 +102,7 @@ OzStatus oz_capsules_upload(OzCapsules *capsules, const OzSnapshot *snapshot, co
     const OzGl *gl = capsules->gl;
     Record *records = NULL;
     int64_t counts[SIDE_COUNT] = {0};
-    OzStatus status = OZ_NEW(&records, snapshot->count);
-    if (status != OZ_OK) {
-        return status;
-    }
+    OZ_PASS(OZ_NEW(&records, snapshot->count));
     for (int64_t i = 0; i < snapshot->count; i++) {
         counts[side_of(snapshot, look, i)]++;
     }

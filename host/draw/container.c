@@ -38,11 +38,10 @@ typedef struct Polygon {
 
 OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char *source_dir)
 {
-    OzStatus status = OZ_OK;
     const void *colour = (const void *)(uintptr_t)offsetof(OzCorner, rgba);
     memset(container, 0, sizeof *container);
     container->gl = gl;
-    OZ_TRY(oz_gl_program(gl, &container->program, source_dir, "mesh", ""));
+    OZ_PASS(oz_gl_program(gl, &container->program, source_dir, "mesh", ""));
     gl->GenVertexArrays(1, &container->vertices);
     gl->BindVertexArray(container->vertices);
     gl->GenBuffers(1, &container->buffer);
@@ -51,9 +50,7 @@ OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char 
     gl->EnableVertexAttribArray(1);
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OzCorner), NULL);
     gl->VertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(OzCorner), colour);
-    OZ_TRY(oz_gl_check(gl, "preparing the container's buffer"));
-done:
-    return status;
+    return oz_gl_check(gl, "preparing the container's buffer");
 }
 
 void oz_container_free(OzContainer *container)

@@ -72,32 +72,26 @@ static OzStatus find_symbol(void *slot, void *library, const char *name)
 
 static OzStatus open_egl(void)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(open_library(&egl.library, (const char *const[]){"libEGL.so.1", "libEGL.so", NULL}));
-    OZ_TRY(find_symbol(&egl.get_proc_address, egl.library, "eglGetProcAddress"));
-    OZ_TRY(find_symbol(&egl.initialize, egl.library, "eglInitialize"));
-    OZ_TRY(find_symbol(&egl.bind_api, egl.library, "eglBindAPI"));
-    OZ_TRY(find_symbol(&egl.query_string, egl.library, "eglQueryString"));
-    OZ_TRY(find_symbol(&egl.choose_config, egl.library, "eglChooseConfig"));
-    OZ_TRY(find_symbol(&egl.create_context, egl.library, "eglCreateContext"));
-    OZ_TRY(find_symbol(&egl.make_current, egl.library, "eglMakeCurrent"));
-    OZ_TRY(find_symbol(&egl.destroy_context, egl.library, "eglDestroyContext"));
-    OZ_TRY(find_symbol(&egl.get_error, egl.library, "eglGetError"));
-done:
-    return status;
+    OZ_PASS(open_library(&egl.library, (const char *const[]){"libEGL.so.1", "libEGL.so", NULL}));
+    OZ_PASS(find_symbol(&egl.get_proc_address, egl.library, "eglGetProcAddress"));
+    OZ_PASS(find_symbol(&egl.initialize, egl.library, "eglInitialize"));
+    OZ_PASS(find_symbol(&egl.bind_api, egl.library, "eglBindAPI"));
+    OZ_PASS(find_symbol(&egl.query_string, egl.library, "eglQueryString"));
+    OZ_PASS(find_symbol(&egl.choose_config, egl.library, "eglChooseConfig"));
+    OZ_PASS(find_symbol(&egl.create_context, egl.library, "eglCreateContext"));
+    OZ_PASS(find_symbol(&egl.make_current, egl.library, "eglMakeCurrent"));
+    OZ_PASS(find_symbol(&egl.destroy_context, egl.library, "eglDestroyContext"));
+    return find_symbol(&egl.get_error, egl.library, "eglGetError");
 }
 
 static OzStatus open_osmesa(void)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(open_library(&osmesa.library,
-                        (const char *const[]){"libOSMesa.so.8", "libOSMesa.so.6", NULL}));
-    OZ_TRY(find_symbol(&osmesa.create_context, osmesa.library, "OSMesaCreateContextAttribs"));
-    OZ_TRY(find_symbol(&osmesa.make_current, osmesa.library, "OSMesaMakeCurrent"));
-    OZ_TRY(find_symbol(&osmesa.destroy_context, osmesa.library, "OSMesaDestroyContext"));
-    OZ_TRY(find_symbol(&osmesa.get_proc_address, osmesa.library, "OSMesaGetProcAddress"));
-done:
-    return status;
+    OZ_PASS(open_library(&osmesa.library,
+                         (const char *const[]){"libOSMesa.so.8", "libOSMesa.so.6", NULL}));
+    OZ_PASS(find_symbol(&osmesa.create_context, osmesa.library, "OSMesaCreateContextAttribs"));
+    OZ_PASS(find_symbol(&osmesa.make_current, osmesa.library, "OSMesaMakeCurrent"));
+    OZ_PASS(find_symbol(&osmesa.destroy_context, osmesa.library, "OSMesaDestroyContext"));
+    return find_symbol(&osmesa.get_proc_address, osmesa.library, "OSMesaGetProcAddress");
 }
 
 static const char *egl_error_name(EGLint code)
@@ -204,7 +198,6 @@ done:
 
 static OzStatus create_osmesa(OzContext *context)
 {
-    OzStatus status = OZ_OK;
     const int wanted[] = {OSMESA_FORMAT,
                           GL_RGBA,
                           OSMESA_PROFILE,
@@ -214,7 +207,7 @@ static OzStatus create_osmesa(OzContext *context)
                           OSMESA_CONTEXT_MINOR_VERSION,
                           3,
                           0};
-    OZ_TRY(open_osmesa());
+    OZ_PASS(open_osmesa());
     context->pixels = calloc(OSMESA_SIDE, 4 * OSMESA_SIDE);
     if (!context->pixels) {
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for an OSMesa surface");
@@ -223,11 +216,10 @@ static OzStatus create_osmesa(OzContext *context)
     if (!context->handle) {
         return oz_status_fail(OZ_ERR_GRAPHICS, "no OpenGL 3.3 core context to be had");
     }
-    OZ_TRY(oz_context_use(context));
-    OZ_TRY(oz_gl_load(&context->gl, osmesa.get_proc_address));
+    OZ_PASS(oz_context_use(context));
+    OZ_PASS(oz_gl_load(&context->gl, osmesa.get_proc_address));
     snprintf(context->name, sizeof context->name, "OSMesa");
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_context_use(const OzContext *context)

@@ -50,19 +50,17 @@ OzStatus oz_gallery_create(OzGallery **gallery, const OzGallerySettings *setting
 /* A renderer of its own, or the shared one, made if this is the first to need it. */
 static OzStatus open_renderer(OzGallery *gallery)
 {
-    OzStatus status = OZ_OK;
     OzRenderer **shared = gallery->settings->renderer;
     gallery->renderer = shared ? *shared : NULL;
     if (!gallery->renderer) {
-        OZ_TRY(oz_renderer_create(&gallery->renderer, gallery->settings->backend,
-                                  gallery->settings->source_dir));
+        OZ_PASS(oz_renderer_create(&gallery->renderer, gallery->settings->backend,
+                                   gallery->settings->source_dir));
         oz_log_line("drawing with %s", oz_renderer_name(gallery->renderer));
     }
     if (shared) {
         *shared = gallery->renderer;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_gallery_frame(OzGallery *gallery, const OzSnapshot *snapshot)
@@ -126,14 +124,12 @@ done:
 /* Notes snapshots/<name>, and the name under which it is written first. */
 static OzStatus note_image(const OzGallery *gallery, const char *name)
 {
-    OzStatus status = OZ_OK;
     char noted[128];
     for (int part = 0; part < 2; part++) {
         snprintf(noted, sizeof noted, "snapshots/%s%s", name, part ? ".part" : "");
-        OZ_TRY(oz_folder_note(gallery->settings->folder, noted));
+        OZ_PASS(oz_folder_note(gallery->settings->folder, noted));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* As snapshots/<name>. */
@@ -154,20 +150,18 @@ done:
 
 static OzStatus keep_state(OzGallery *gallery, const OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
     if (gallery->state_count == OZ_GALLERY_STATES) {
         return OZ_OK;
     }
     if (!gallery->states) {
-        OZ_TRY(OZ_NEW(&gallery->states, OZ_GALLERY_STATES));
+        OZ_PASS(OZ_NEW(&gallery->states, OZ_GALLERY_STATES));
     }
-    OZ_TRY(oz_snapshot_copy(&gallery->states[gallery->state_count], snapshot));
+    OZ_PASS(oz_snapshot_copy(&gallery->states[gallery->state_count], snapshot));
     if (++gallery->state_count == OZ_GALLERY_STATES) {
         oz_log_line("strobe.png shows the first %d states, to %.6g s", OZ_GALLERY_STATES,
                     snapshot->time);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* States over each other (one is a plain picture) into an image, made at its first use. */
@@ -187,31 +181,26 @@ done:
 
 static OzStatus draw_strobe(OzGallery *gallery)
 {
-    OzStatus status = OZ_OK;
     OzLook look = gallery->still;
     look.strobe = gallery->scene->snapshots.strobe;
     if (gallery->state_count > 0) {
-        OZ_TRY(draw(gallery, gallery->states, gallery->state_count, &look, &gallery->still_image));
-        OZ_TRY(write_image(gallery, &gallery->still_image, "strobe.png"));
+        OZ_PASS(draw(gallery, gallery->states, gallery->state_count, &look, &gallery->still_image));
+        OZ_PASS(write_image(gallery, &gallery->still_image, "strobe.png"));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus add_picture(OzGallery *gallery, const OzSnapshot *snapshot, bool in_movie)
 {
-    OzStatus status = OZ_OK;
     OzImage *image = &gallery->still_image;
     char name[512];
     if (in_movie && looks_are_one(gallery)) {
         image = &gallery->image; /* it is drawn already */
     } else {
-        OZ_TRY(draw(gallery, snapshot, 1, &gallery->still, image));
+        OZ_PASS(draw(gallery, snapshot, 1, &gallery->still, image));
     }
     oz_picture_name_make(gallery->scene, snapshot->time, gallery->decimals, name, sizeof name);
-    OZ_TRY(write_image(gallery, image, name));
-done:
-    return status;
+    return write_image(gallery, image, name);
 }
 
 /* The first picture, and as much of a movie as an encoder takes to have all its memory, or all
@@ -222,19 +211,17 @@ static OzStatus draw_on_trial(void *argument)
     const double longest = 5; /* s */
     const Trial *trial = argument;
     OzGallery *gallery = trial->gallery;
-    OzStatus status = OZ_OK;
-    OZ_TRY(open_renderer(gallery));
+    OZ_PASS(open_renderer(gallery));
     oz_gallery_frame(gallery, trial->snapshot);
     if (gallery->scene->snapshots.count > 0 && !looks_are_one(gallery)) {
-        OZ_TRY(draw(gallery, trial->snapshot, 1, &gallery->still, &gallery->still_image));
+        OZ_PASS(draw(gallery, trial->snapshot, 1, &gallery->still, &gallery->still_image));
     }
-    OZ_TRY(draw(gallery, trial->snapshot, 1, &gallery->look, &gallery->image));
+    OZ_PASS(draw(gallery, trial->snapshot, 1, &gallery->look, &gallery->image));
     double start = oz_clock_now();
     for (int i = 0; gallery->scene->movie.present && i < FRAMES; i++) {
-        OZ_TRY(oz_clock_now() - start < longest ? add_to_movie(gallery) : OZ_OK);
+        OZ_PASS(oz_clock_now() - start < longest ? add_to_movie(gallery) : OZ_OK);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Before GL and the encoder are in this process, whether they would do. */
@@ -258,28 +245,26 @@ static OzStatus try_drawing(OzGallery *gallery, const OzSnapshot *snapshot)
 
 OzStatus oz_gallery_add(OzGallery *gallery, const OzSnapshot *snapshot, int purpose)
 {
-    OzStatus status = OZ_OK;
     double start = oz_clock_now();
     if (!gallery->renderer) {
-        OZ_TRY(try_drawing(gallery, snapshot));
-        OZ_TRY(open_renderer(gallery));
+        OZ_PASS(try_drawing(gallery, snapshot));
+        OZ_PASS(open_renderer(gallery));
         gallery->drawing += oz_clock_now() - start;
     }
     if (!gallery->is_framed) {
         oz_gallery_frame(gallery, snapshot);
     }
     if (purpose & OZ_FRAME_MOVIE) {
-        OZ_TRY(draw(gallery, snapshot, 1, &gallery->look, &gallery->image));
-        OZ_TRY(add_to_movie(gallery));
+        OZ_PASS(draw(gallery, snapshot, 1, &gallery->look, &gallery->image));
+        OZ_PASS(add_to_movie(gallery));
     }
     if (purpose & OZ_FRAME_SNAPSHOT) {
-        OZ_TRY(add_picture(gallery, snapshot, purpose & OZ_FRAME_MOVIE));
+        OZ_PASS(add_picture(gallery, snapshot, purpose & OZ_FRAME_MOVIE));
     }
     if (purpose & OZ_FRAME_STROBE) {
-        OZ_TRY(keep_state(gallery, snapshot));
+        OZ_PASS(keep_state(gallery, snapshot));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_gallery_repeat(OzGallery *gallery)

@@ -21,12 +21,10 @@ static OzStatus fetch(void *slot, OzGlFinder find, const char *name)
 
 OzStatus oz_gl_load(OzGl *gl, OzGlFinder find)
 {
-    OzStatus status = OZ_OK;
-#define FETCH(TYPE, name) OZ_TRY(fetch(&gl->name, find, "gl" #name));
+#define FETCH(TYPE, name) OZ_PASS(fetch(&gl->name, find, "gl" #name));
     OZ_GL_FUNCTIONS(FETCH)
 #undef FETCH
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus compile(const OzGl *gl, GLuint *shader, GLenum stage, const char *const sources[5],

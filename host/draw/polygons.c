@@ -46,18 +46,15 @@ static void describe_corners(const OzGl *gl)
 
 OzStatus oz_polygons_create(OzPolygons *polygons, const OzGl *gl, const char *source_dir)
 {
-    OzStatus status = OZ_OK;
     memset(polygons, 0, sizeof *polygons);
     polygons->gl = gl;
-    OZ_TRY(oz_gl_program(gl, &polygons->program, source_dir, "polygons", ""));
+    OZ_PASS(oz_gl_program(gl, &polygons->program, source_dir, "polygons", ""));
     gl->GenVertexArrays(1, &polygons->vertices);
     gl->BindVertexArray(polygons->vertices);
     gl->GenBuffers(1, &polygons->buffer);
     gl->BindBuffer(GL_ARRAY_BUFFER, polygons->buffer);
     describe_corners(gl);
-    OZ_TRY(oz_gl_check(gl, "preparing the buffer of flat grains"));
-done:
-    return status;
+    return oz_gl_check(gl, "preparing the buffer of flat grains");
 }
 
 void oz_polygons_free(OzPolygons *polygons)

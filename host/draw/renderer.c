@@ -166,22 +166,20 @@ static OzStatus check_target(const OzRenderer *renderer)
 static OzStatus attach_targets(OzRenderer *renderer)
 {
     const OzGl *gl = &renderer->context.gl;
-    OzStatus status = OZ_OK;
     gl->GenFramebuffers(1, &renderer->result_target);
     gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->result_target);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, renderer->result,
                              0);
-    OZ_TRY(check_target(renderer));
+    OZ_PASS(check_target(renderer));
     gl->GenFramebuffers(1, &renderer->sample_target);
     gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->sample_target);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
                              renderer->colours, 0);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE,
                              renderer->depths, 0);
-    OZ_TRY(check_target(renderer));
+    OZ_PASS(check_target(renderer));
     oz_capsules_find_samples(&renderer->capsules, renderer->sample_count);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus fit_targets(OzRenderer *renderer, const OzLook *look)
@@ -223,20 +221,18 @@ static void open_panel(const OzGl *gl, const OzPanel *panel, int height, double 
 static OzStatus draw_view(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
                           const OzCamera *camera, int view)
 {
-    OzStatus status = OZ_OK;
     double size[2];
     open_panel(&renderer->context.gl, &camera->panels[view], look->height, size);
     if (!look->bare) {
-        OZ_TRY(oz_container_build(&renderer->container, snapshot, look, camera, look->views[view]));
+        OZ_PASS(
+            oz_container_build(&renderer->container, snapshot, look, camera, look->views[view]));
         oz_container_draw_behind(&renderer->container, camera, size[0], size[1]);
     }
     oz_capsules_draw(&renderer->capsules, look->views[view], look, camera, size[0], size[1]);
     if (!look->bare) {
         oz_container_draw_before(&renderer->container, camera, size[0], size[1]);
     }
-    OZ_TRY(oz_gl_check(&renderer->context.gl, "drawing a view"));
-done:
-    return status;
+    return oz_gl_check(&renderer->context.gl, "drawing a view");
 }
 
 static void clear_target(const OzGl *gl, GLuint target, const OzLook *look)
@@ -253,15 +249,13 @@ static OzStatus draw_samples(OzRenderer *renderer, const OzSnapshot *snapshot, c
                              const OzCamera *camera)
 {
     const OzGl *gl = &renderer->context.gl;
-    OzStatus status = OZ_OK;
     clear_target(gl, renderer->sample_target, look);
     gl->Enable(GL_DEPTH_TEST);
     gl->Enable(GL_SCISSOR_TEST);
     for (int view = 0; view < look->view_count; view++) {
-        OZ_TRY(draw_view(renderer, snapshot, look, camera, view));
+        OZ_PASS(draw_view(renderer, snapshot, look, camera, view));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* States of flat grains over each other; the first of several is faint, the last is opaque. */
@@ -403,19 +397,17 @@ static OzStatus draw_standing_samples(OzRenderer *renderer, const OzSnapshot *sn
 static OzStatus draw(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
                      const OzLook *look, OzImage *image)
 {
-    OzStatus status = OZ_OK;
     OzCamera camera = oz_camera_make(look);
     const OzSnapshot *last = &snapshots[count - 1];
-    OZ_TRY(oz_context_use(&renderer->context));
-    OZ_TRY(check_look(renderer, look, image));
-    OZ_TRY(fit_targets(renderer, look));
-    OZ_TRY(look->flat ? draw_flat_samples(renderer, snapshots, count, look, &camera)
-                      : draw_standing_samples(renderer, last, look, &camera));
-    OZ_TRY(compose(renderer, last, look, &camera));
-    OZ_TRY(read_back(renderer, image));
+    OZ_PASS(oz_context_use(&renderer->context));
+    OZ_PASS(check_look(renderer, look, image));
+    OZ_PASS(fit_targets(renderer, look));
+    OZ_PASS(look->flat ? draw_flat_samples(renderer, snapshots, count, look, &camera)
+                       : draw_standing_samples(renderer, last, look, &camera));
+    OZ_PASS(compose(renderer, last, look, &camera));
+    OZ_PASS(read_back(renderer, image));
     oz_overlay_draw(&renderer->font, image, last, look, &camera);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_renderer_draw(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,

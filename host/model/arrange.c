@@ -99,13 +99,12 @@ static void put_as_told(OzGrains *grains, int64_t i, const OzPopulation *populat
 
 static OzStatus make_grains(Arrangement *arrangement)
 {
-    OzStatus status = OZ_OK;
     const OzScene *scene = arrangement->scene;
     for (int p = 0; p < scene->population_count; p++) {
         const OzPopulation *population = &scene->populations[p];
         for (int64_t i = arrangement->first[p]; i < arrangement->first[p + 1]; i++) {
             arrangement->grains->population[i] = p;
-            OZ_TRY(make_shape(arrangement, i, population));
+            OZ_PASS(make_shape(arrangement, i, population));
             if (population->kind == OZ_GRAINS_RANDOM) {
                 arrangement->waiting[arrangement->waiting_count++] =
                     (Waiting){arrangement->patches[i].reach, i};
@@ -114,22 +113,19 @@ static OzStatus make_grains(Arrangement *arrangement)
             }
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus make_walls(Arrangement *arrangement)
 {
-    OzStatus status = OZ_OK;
     double size = 0;
     for (int64_t i = 0; i < arrangement->grains->count; i++) {
         size = fmax(size, arrangement->grains->diameter[i]);
     }
     for (int w = 0; w < arrangement->scene->wall_count; w++) {
-        OZ_TRY(oz_piece_walls_make(&arrangement->walls[w], &arrangement->scene->walls[w], size));
+        OZ_PASS(oz_piece_walls_make(&arrangement->walls[w], &arrangement->scene->walls[w], size));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzCapsule circle_of(const Arrangement *arrangement, int64_t i)
@@ -205,7 +201,6 @@ static OzStatus place_grain(Arrangement *arrangement, int64_t i, int64_t placed)
 
 static OzStatus place_waiting(Arrangement *arrangement)
 {
-    OzStatus status = OZ_OK;
     const OzGrains *grains = arrangement->grains;
     double area = 0;
     if (!arrangement->waiting_count) {
@@ -220,9 +215,9 @@ static OzStatus place_waiting(Arrangement *arrangement)
     }
     arrangement->basin =
         oz_basin_make(arrangement->scene, arrangement->walls, area, arrangement->waiting[0].reach);
-    OZ_TRY(add_told_grains(arrangement));
+    OZ_PASS(add_told_grains(arrangement));
     for (int64_t w = 0; w < arrangement->waiting_count; w++) {
-        OZ_TRY(place_grain(arrangement, arrangement->waiting[w].id, w));
+        OZ_PASS(place_grain(arrangement, arrangement->waiting[w].id, w));
     }
     if (arrangement->raise_count) {
         oz_log_line(
@@ -230,8 +225,7 @@ static OzStatus place_waiting(Arrangement *arrangement)
             "asks for",
             arrangement->scene->path, pow(1.1, (double)arrangement->raise_count));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void count_patch(const OzPatch *patch, int64_t *pieces, int64_t *outlines)
@@ -337,48 +331,43 @@ static void finish_grain(OzGrains *grains, int64_t i, double angle)
 
 static OzStatus make_pieces(Arrangement *arrangement)
 {
-    OzStatus status = OZ_OK;
     OzGrains *grains = arrangement->grains;
     const OzScene *scene = arrangement->scene;
     const double origin[2] = {0, 0};
-    OZ_TRY(create_pieces(arrangement));
+    OZ_PASS(create_pieces(arrangement));
     Cursor cursor = {.pieces = grains->pieces};
     for (int64_t i = 0; i < grains->count; i++) {
         const OzPatch *patch = &arrangement->patches[i];
-        OZ_TRY(put_body(&cursor, patch, grains->position + 3 * i, arrangement->angle[i],
-                        scene->populations[grains->population[i]].density));
+        OZ_PASS(put_body(&cursor, patch, grains->position + 3 * i, arrangement->angle[i],
+                         scene->populations[grains->population[i]].density));
         put_beams(&cursor, patch);
         put_outline(&cursor, patch);
         end_body(&cursor, patch);
         finish_grain(grains, i, arrangement->angle[i]);
     }
     for (int w = 0; w < scene->wall_count; w++) {
-        OZ_TRY(put_body(&cursor, &arrangement->walls[w], origin, 0, 0));
+        OZ_PASS(put_body(&cursor, &arrangement->walls[w], origin, 0, 0));
         put_outline(&cursor, &arrangement->walls[w]);
         end_body(&cursor, &arrangement->walls[w]);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus arrange(Arrangement *arrangement)
 {
-    OzStatus status = OZ_OK;
     const OzScene *scene = arrangement->scene;
-    OZ_TRY(OZ_NEW(&arrangement->first, scene->population_count + 1));
-    OZ_TRY(count_grains(arrangement));
+    OZ_PASS(OZ_NEW(&arrangement->first, scene->population_count + 1));
+    OZ_PASS(count_grains(arrangement));
     int64_t total = arrangement->first[scene->population_count];
-    OZ_TRY(oz_grains_create(arrangement->grains, total));
-    OZ_TRY(OZ_NEW(&arrangement->patches, total));
-    OZ_TRY(OZ_NEW(&arrangement->angle, total));
-    OZ_TRY(OZ_NEW(&arrangement->waiting, total));
-    OZ_TRY(OZ_NEW(&arrangement->walls, scene->wall_count));
-    OZ_TRY(make_grains(arrangement));
-    OZ_TRY(make_walls(arrangement));
-    OZ_TRY(place_waiting(arrangement));
-    OZ_TRY(make_pieces(arrangement));
-done:
-    return status;
+    OZ_PASS(oz_grains_create(arrangement->grains, total));
+    OZ_PASS(OZ_NEW(&arrangement->patches, total));
+    OZ_PASS(OZ_NEW(&arrangement->angle, total));
+    OZ_PASS(OZ_NEW(&arrangement->waiting, total));
+    OZ_PASS(OZ_NEW(&arrangement->walls, scene->wall_count));
+    OZ_PASS(make_grains(arrangement));
+    OZ_PASS(make_walls(arrangement));
+    OZ_PASS(place_waiting(arrangement));
+    return make_pieces(arrangement);
 }
 
 OzStatus oz_arrange_grains(OzGrains *grains, const OzScene *scene)

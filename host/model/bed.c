@@ -207,7 +207,6 @@ static OzStatus take_column(Reader *reader, const char *name, bool found[OZ_BED_
 static OzStatus read_header(Reader *reader)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
-    OzStatus status = OZ_OK;
     char name[CELL_SIZE];
     bool found[OZ_BED_COLUMNS] = {false};
     int count = 0;
@@ -217,32 +216,29 @@ static OzStatus read_header(Reader *reader)
     const char *line = next_line(reader), *at = line ? line : "";
     reader->line = 1;
     while (next_cell(&at, name)) {
-        OZ_TRY(take_column(reader, name, found, &count));
+        OZ_PASS(take_column(reader, name, found, &count));
     }
     at = OZ_BED_HEADER;
     for (int i = 0; i < OZ_BED_COLUMNS; i++) {
         next_cell(&at, name);
-        OZ_TRY(found[i] ? OZ_OK : complain_of_column(reader, "without the column", name));
+        OZ_PASS(found[i] ? OZ_OK : complain_of_column(reader, "without the column", name));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus read_rows(Reader *reader, OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
     double row[OZ_BED_COLUMNS];
     for (char *line = next_line(reader); line; line = next_line(reader)) {
         if (!*line) {
             continue;
         }
-        OZ_TRY(parse_row(reader, line, row));
-        OZ_TRY(check_id(reader, row[OZ_BED_ID], grains->count));
-        OZ_TRY(check_shape(reader, row));
-        OZ_TRY(store(reader, grains, row));
+        OZ_PASS(parse_row(reader, line, row));
+        OZ_PASS(check_id(reader, row[OZ_BED_ID], grains->count));
+        OZ_PASS(check_shape(reader, row));
+        OZ_PASS(store(reader, grains, row));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_bed_read(OzGrains *grains, const char *path)

@@ -144,10 +144,7 @@ static OzStatus grow_heads(OzCrowd *crowd)
 {
     int64_t head_count = crowd->head_count ? 2 * crowd->head_count : 1024;
     int64_t *heads;
-    OzStatus status = OZ_NEW(&heads, head_count);
-    if (status != OZ_OK) {
-        return status;
-    }
+    OZ_PASS(OZ_NEW(&heads, head_count));
     free(crowd->heads);
     crowd->heads = heads;
     crowd->head_count = head_count;
@@ -176,18 +173,16 @@ static OzStatus grow(void *array, int64_t count, int64_t *capacity, size_t size)
 
 static OzStatus add_entry(OzCrowd *crowd, uint64_t hash)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(
+    OZ_PASS(
         grow(&crowd->entries, crowd->entry_count, &crowd->entry_capacity, sizeof *crowd->entries));
     if (crowd->entry_count >= crowd->head_count) {
-        OZ_TRY(grow_heads(crowd));
+        OZ_PASS(grow_heads(crowd));
     }
     int64_t *head = &crowd->heads[hash & (uint64_t)(crowd->head_count - 1)];
     crowd->entries[crowd->entry_count] =
         (OzCrowdEntry){.hash = hash, .member = crowd->count, .next = *head};
     *head = crowd->entry_count++;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What decides the size class: the diameter, or for needles a part of the length, so that none is
@@ -200,25 +195,23 @@ static double girth(const OzCapsule *capsule)
 
 OzStatus oz_crowd_add(OzCrowd *crowd, const OzCapsule *capsule)
 {
-    OzStatus status = OZ_OK;
     int level = level_of(girth(capsule));
     double cell = level_cell(level), point[3];
     Samples samples = sample_shaft(capsule, cell);
     uint64_t last = 0;
-    OZ_TRY(grow(&crowd->members, crowd->count, &crowd->capacity, sizeof *crowd->members));
+    OZ_PASS(grow(&crowd->members, crowd->count, &crowd->capacity, sizeof *crowd->members));
     for (int64_t i = 0; i < samples.count; i++) {
         sample_point(point, &samples, i);
         uint64_t hash = hash_of(level, cell_of(point[0], cell), cell_of(point[1], cell),
                                 cell_of(point[2], cell));
         if (i == 0 || hash != last) {
-            OZ_TRY(add_entry(crowd, hash));
+            OZ_PASS(add_entry(crowd, hash));
         }
         last = hash;
     }
     crowd->members[crowd->count++] = *capsule;
     crowd->levels |= (uint64_t)1 << level;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static bool cell_touches(const OzCrowd *crowd, uint64_t hash, const OzCapsule *capsule)

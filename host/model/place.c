@@ -67,27 +67,24 @@ static OzStatus read_bed(OzGrains *bed, const OzScene *scene, const OzPopulation
 /* Reads the files, finds each population's ids and the number of grains. */
 static OzStatus count_grains(Placement *place, int64_t *total)
 {
-    OzStatus status = OZ_OK;
     const OzScene *scene = place->scene;
     *total = 0;
     for (int p = 0; p < scene->population_count; p++) {
         const OzPopulation *population = &scene->populations[p];
         int64_t count = population->count;
         if (population->kind == OZ_GRAINS_FILE) {
-            OZ_TRY(read_bed(&place->beds[p], scene, population));
+            OZ_PASS(read_bed(&place->beds[p], scene, population));
             count = place->beds[p].count;
         }
         if (count < 0 || count > INT32_MAX - *total) {
-            status =
-                oz_status_fail(OZ_ERR_INPUT, "%s:%d: too many grains; expected at most %d in all",
-                               scene->path, population->line, INT32_MAX);
-            goto done;
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "%s:%d: too many grains; expected at most %d in all", scene->path,
+                                  population->line, INT32_MAX);
         }
         place->first[p] = *total;
         *total += count;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzRandom grain_stream(const Placement *place, int64_t i)
@@ -281,17 +278,16 @@ static OzStatus place_grain(Placement *place, int64_t i, int64_t placed)
 
 static OzStatus place_waiting(Placement *place)
 {
-    OzStatus status = OZ_OK;
     int64_t count = place->waiting_count;
     if (!count) {
         return OZ_OK;
     }
-    OZ_TRY(add_told_grains(place));
+    OZ_PASS(add_told_grains(place));
     qsort(place->waiting, (size_t)count, sizeof *place->waiting, compare_waiting);
     make_column(place);
     place->tries_left = 1000000 + 300 * count;
     for (int64_t w = 0; w < count; w++) {
-        OZ_TRY(place_grain(place, place->waiting[w].id, w));
+        OZ_PASS(place_grain(place, place->waiting[w].id, w));
         if (w % SAY_EVERY == 0) {
             oz_stage_say(place->stage, "placing grains: %lld of %lld", (long long)w,
                          (long long)count);
@@ -302,28 +298,24 @@ static OzStatus place_waiting(Placement *place)
                     "`fill` asks for",
                     place->scene->path, pow(1.1, (double)place->raise_count));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus make_grains(Placement *place)
 {
-    OzStatus status = OZ_OK;
     const OzScene *scene = place->scene;
     int64_t total = 0;
-    OZ_TRY(OZ_NEW(&place->beds, scene->population_count));
-    OZ_TRY(OZ_NEW(&place->first, scene->population_count));
-    OZ_TRY(count_grains(place, &total));
-    OZ_TRY(oz_grains_check_memory(scene->path, total));
-    OZ_TRY(oz_grains_create(place->grains, total));
-    OZ_TRY(OZ_NEW(&place->waiting, total));
+    OZ_PASS(OZ_NEW(&place->beds, scene->population_count));
+    OZ_PASS(OZ_NEW(&place->first, scene->population_count));
+    OZ_PASS(count_grains(place, &total));
+    OZ_PASS(oz_grains_check_memory(scene->path, total));
+    OZ_PASS(oz_grains_create(place->grains, total));
+    OZ_PASS(OZ_NEW(&place->waiting, total));
     for (int p = 0; p < scene->population_count; p++) {
         bool last = p + 1 == scene->population_count;
         make_population(place, p, (last ? total : place->first[p + 1]) - place->first[p]);
     }
-    OZ_TRY(place_waiting(place));
-done:
-    return status;
+    return place_waiting(place);
 }
 
 static OzStatus place_rods(OzGrains *grains, const OzScene *scene, OzStage *stage)

@@ -295,10 +295,7 @@ static void set_masses(OzPrediction *row, const OzGrains *grains)
 OzStatus oz_predict_scene(OzPrediction **rows, int *count, const OzScene *scene,
                           const OzGrains *grains)
 {
-    OzStatus status = OZ_NEW(rows, scene->wall_count + 1);
-    if (status != OZ_OK) {
-        return status;
-    }
+    OZ_PASS(OZ_NEW(rows, scene->wall_count + 1));
     *count = scene->wall_count + 1;
     for (int i = 0; i < *count; i++) {
         const OzContactValues *values = i ? &scene->walls[i - 1].contact : &scene->contact;

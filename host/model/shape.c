@@ -120,7 +120,6 @@ static bool is_within(const Least *least, const OzBeamValues *limits)
 static OzStatus cut_about_centre(OzPatch *patch, const OzPatch *cut, const OzBeamValues *limits,
                                  bool *made)
 {
-    OzStatus status = OZ_OK;
     int n = cut->vertex_count;
     *made = true;
     for (int i = 0; i < n; i++) {
@@ -130,13 +129,12 @@ static OzStatus cut_about_centre(OzPatch *patch, const OzPatch *cut, const OzBea
     if (!*made) {
         return OZ_OK;
     }
-    OZ_TRY(oz_patch_create(patch, n + 1, n));
+    OZ_PASS(oz_patch_create(patch, n + 1, n));
     memcpy(patch->vertex, cut->vertex, (size_t)(2 * n) * sizeof *cut->vertex);
-    OZ_TRY(fan(patch));
+    OZ_PASS(fan(patch));
     Least least = least_of(patch);
     *made = is_within(&least, limits);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Into as few triangles as there can be, or where those are less symmetric than the outline about

@@ -138,7 +138,6 @@ static int sort_unique(double *numbers, int count)
 static OzStatus derive_snapshots(Checker *checker)
 {
     OzSnapshotSettings *snapshots = &checker->scene->snapshots;
-    OzStatus status = OZ_OK;
     snapshots->tap_count = sort_unique(snapshots->taps, snapshots->tap_count);
     snapshots->count = sort_unique(snapshots->times, snapshots->count);
     if (!check_taps(checker, "snapshots.taps") || snapshots->tap_count == 0) {
@@ -147,13 +146,12 @@ static OzStatus derive_snapshots(Checker *checker)
     free(snapshots->times);
     snapshots->times = NULL;
     snapshots->count = 0;
-    OZ_TRY(OZ_NEW(&snapshots->times, snapshots->tap_count));
+    OZ_PASS(OZ_NEW(&snapshots->times, snapshots->tap_count));
     snapshots->count = snapshots->tap_count;
     for (int i = 0; i < snapshots->count; i++) {
         snapshots->times[i] = snapshots->taps[i] * checker->scene->period;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void derive_populations(Checker *checker)

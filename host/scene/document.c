@@ -84,10 +84,7 @@ static OzStatus build_scalar(Builder *builder, OzNode **node)
     const yaml_event_t *event = &builder->event;
     const char *text = (const char *)event->data.scalar.value;
     int line = line_of(event->start_mark);
-    OzStatus status = oz_tree_create(node, OZ_NODE_SCALAR, builder->source, line, NULL, text);
-    if (status != OZ_OK) {
-        return status;
-    }
+    OZ_PASS(oz_tree_create(node, OZ_NODE_SCALAR, builder->source, line, NULL, text));
     (*node)->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     (*node)->refused =
         refuse_ornaments(builder, line, event->data.scalar.anchor, event->data.scalar.tag);
@@ -114,20 +111,18 @@ static OzStatus build_alias(Builder *builder, OzNode **node)
 
 static OzStatus build_list(Builder *builder, OzNode **list, int depth)
 {
-    OzStatus status = OZ_OK;
     int line = line_of(builder->event.start_mark);
-    OZ_TRY(oz_tree_create(list, OZ_NODE_LIST, builder->source, line, NULL, NULL));
+    OZ_PASS(oz_tree_create(list, OZ_NODE_LIST, builder->source, line, NULL, NULL));
     (*list)->refused = refuse_ornaments(builder, line, builder->event.data.sequence_start.anchor,
                                         builder->event.data.sequence_start.tag);
-    OZ_TRY(advance(builder));
+    OZ_PASS(advance(builder));
     while (builder->event.type != YAML_SEQUENCE_END_EVENT) {
         OzNode *item = NULL;
-        OZ_TRY(build(builder, &item, depth + 1));
-        OZ_TRY(oz_tree_add(*list, item));
-        OZ_TRY(advance(builder));
+        OZ_PASS(build(builder, &item, depth + 1));
+        OZ_PASS(oz_tree_add(*list, item));
+        OZ_PASS(advance(builder));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Reads a key; *key stays NULL when it is none, with a fault added. */
@@ -193,18 +188,16 @@ done:
 
 static OzStatus build_map(Builder *builder, OzNode **map, int depth)
 {
-    OzStatus status = OZ_OK;
     int line = line_of(builder->event.start_mark);
-    OZ_TRY(oz_tree_create(map, OZ_NODE_MAP, builder->source, line, NULL, NULL));
+    OZ_PASS(oz_tree_create(map, OZ_NODE_MAP, builder->source, line, NULL, NULL));
     (*map)->refused = refuse_ornaments(builder, line, builder->event.data.mapping_start.anchor,
                                        builder->event.data.mapping_start.tag);
-    OZ_TRY(advance(builder));
+    OZ_PASS(advance(builder));
     while (builder->event.type != YAML_MAPPING_END_EVENT) {
-        OZ_TRY(build_entry(builder, *map, depth));
-        OZ_TRY(advance(builder));
+        OZ_PASS(build_entry(builder, *map, depth));
+        OZ_PASS(advance(builder));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Builds the value that begins with the current event and ends on its last one. On failure *node is

@@ -100,16 +100,13 @@ static void put_item(OzNode *list, const char *name, OzNode *value, OzFaults *fa
 static OzStatus make_entry(OzNode **entry, OzNode *map, const char *name, const OzSource *source,
                            OzFaults *faults)
 {
-    OzStatus status = OZ_OK;
     const OzKey *key = key_of(map, name);
     if (key && key->fallback && key->fallback[0] == '[') {
-        OZ_TRY(oz_document_parse(entry, key->fallback, strlen(key->fallback), source, faults));
+        OZ_PASS(oz_document_parse(entry, key->fallback, strlen(key->fallback), source, faults));
     } else {
-        OZ_TRY(oz_tree_create(entry, OZ_NODE_MAP, source, 1, NULL, NULL));
+        OZ_PASS(oz_tree_create(entry, OZ_NODE_MAP, source, 1, NULL, NULL));
     }
-    OZ_TRY(put_entry(map, name, *entry));
-done:
-    return status;
+    return put_entry(map, name, *entry);
 }
 
 /* The group or list in which the path's next name is looked up: the entry `name` of node, made if
@@ -117,12 +114,11 @@ done:
 static OzStatus enter(OzNode *node, const char *name, const OzSource *source, OzNode **next,
                       OzFaults *faults)
 {
-    OzStatus status = OZ_OK;
     OzNode *child = oz_tree_at(node, name);
     bool scalar = child && child->kind == OZ_NODE_SCALAR;
     *next = NULL;
     if (node->kind == OZ_NODE_MAP && (!child || scalar)) {
-        OZ_TRY(make_entry(&child, node, name, source, faults));
+        OZ_PASS(make_entry(&child, node, name, source, faults));
     }
     if (!child || child->kind == OZ_NODE_SCALAR) {
         char path[256];
@@ -133,8 +129,7 @@ static OzStatus enter(OzNode *node, const char *name, const OzSource *source, Oz
         child = NULL;
     }
     *next = child;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_layers_set(OzNode *root, const char *path, OzNode *value, OzFaults *faults)

@@ -71,14 +71,12 @@ done:
 /* Fills base with the constant defaults. */
 static OzStatus read_defaults(const Reader *reader, const char *prefix, void *base)
 {
-    OzStatus status = OZ_OK;
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         if (key->fallback && belongs(reader, key, prefix)) {
-            OZ_TRY(read_default(key, base));
+            OZ_PASS(read_default(key, base));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static bool is_known(const char *path)
@@ -213,7 +211,6 @@ static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, c
  * come last. */
 static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, bool lists)
 {
-    OzStatus status = OZ_OK;
     for (int i = 0; i < map->count; i++) {
         const OzNode *node = map->items[i];
         char path[LONGEST_PATH];
@@ -223,17 +220,16 @@ static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, 
             continue;
         }
         if (key) {
-            OZ_TRY(read_key(reader, key, node, place));
+            OZ_PASS(read_key(reader, key, node, place));
         } else if (oz_keys_find(path)) {
             report_foreign_model(reader, oz_keys_find(path), node);
         } else if (!oz_keys_is_group(path)) {
             oz_refuse_unknown(reader->faults, node, reader->model, place->kind, place->shape);
         } else if (is_group(reader, node, true)) {
-            OZ_TRY(read_map(reader, node, place, false));
+            OZ_PASS(read_map(reader, node, place, false));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* False when a group on the way to the row is an optional one that is absent, or is no group. */
@@ -316,7 +312,6 @@ static OzStatus read_item(Reader *reader, const OzKey *list, const char *prefix,
 
 static OzStatus read_items(Reader *reader, const OzKey *list, const OzNode *node)
 {
-    OzStatus status = OZ_OK;
     char prefix[LONGEST_PATH], is[128], expected[128];
     if (node->kind != OZ_NODE_LIST || node->count > MOST_ITEMS) {
         oz_describe_node(node, is, sizeof is);
@@ -326,23 +321,22 @@ static OzStatus read_items(Reader *reader, const OzKey *list, const OzNode *node
         return OZ_OK;
     }
     char *items = NULL;
-    OZ_TRY(oz_memory_new((void **)&items, (size_t)node->count, list->item_size, list->path));
+    OZ_PASS(oz_memory_new((void **)&items, (size_t)node->count, list->item_size, list->path));
     *(void **)oz_value_at(list, reader->scene) = items;
     *oz_value_count(list, reader->scene) = node->count;
     snprintf(prefix, sizeof prefix, "%s[].", list->path);
     for (int i = 0; i < node->count; i++) {
         if (i == 0) {
-            OZ_TRY(read_defaults(reader, prefix, items));
+            OZ_PASS(read_defaults(reader, prefix, items));
         } else {
             memcpy(items + (size_t)i * list->item_size, items, list->item_size);
         }
     }
     for (int i = 0; i < node->count; i++) {
-        OZ_TRY(
+        OZ_PASS(
             read_item(reader, list, prefix, node->items[i], items + (size_t)i * list->item_size));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What is known of the scene before its values are read. */

@@ -53,18 +53,15 @@ static OzStatus name_of(char **name, const char *path)
 
 static OzStatus loader_create(Loader *loader, const char *path, int setting_count)
 {
-    OzStatus status = OZ_OK;
     loader->source_count = setting_count + 2;
-    OZ_TRY(OZ_NEW(&loader->sources, loader->source_count));
-    OZ_TRY(OZ_NEW(&loader->labels, loader->source_count));
+    OZ_PASS(OZ_NEW(&loader->sources, loader->source_count));
+    OZ_PASS(OZ_NEW(&loader->labels, loader->source_count));
     for (int i = 0; i < loader->source_count; i++) {
         loader->sources[i].rank = i;
         loader->sources[i].setting = i >= 2;
     }
     loader->sources[0].name = path;
-    OZ_TRY(folder_of(&loader->sources[0].folder, path));
-done:
-    return status;
+    return folder_of(&loader->sources[0].folder, path);
 }
 
 static void loader_free(Loader *loader)
@@ -88,10 +85,7 @@ static OzStatus parse_file(Loader *loader, OzNode **map, const char *text, size_
                            const OzSource *source)
 {
     OzNode *node = NULL;
-    OzStatus status = oz_document_parse(&node, text, length, source, &loader->faults);
-    if (status != OZ_OK) {
-        return status;
-    }
+    OZ_PASS(oz_document_parse(&node, text, length, source, &loader->faults));
     if (!node || oz_tree_is_empty(node)) {
         oz_faults_add(&loader->faults, source, 1,
                       "the file is empty; expected the keys of a scene");
@@ -207,19 +201,16 @@ done:
 static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_t length,
                          char *const *settings, int setting_count)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(parse_file(loader, &loader->root, text, length, &loader->sources[0]));
+    OZ_PASS(parse_file(loader, &loader->root, text, length, &loader->sources[0]));
     if (!loader->root) {
-        goto done;
+        return OZ_OK;
     }
-    OZ_TRY(extend(loader));
+    OZ_PASS(extend(loader));
     for (int i = 0; i < setting_count; i++) {
-        OZ_TRY(parse_setting(loader, settings[i], i));
+        OZ_PASS(parse_setting(loader, settings[i], i));
     }
-    OZ_TRY(oz_read_scene(scene, loader->root, &loader->faults));
-    OZ_TRY(oz_check_scene(scene, loader->root, &loader->faults));
-done:
-    return status;
+    OZ_PASS(oz_read_scene(scene, loader->root, &loader->faults));
+    return oz_check_scene(scene, loader->root, &loader->faults);
 }
 
 static OzStatus load_text(OzScene *scene, const char *path, const char *text, size_t length,

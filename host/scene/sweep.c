@@ -68,8 +68,7 @@ static bool comes_again(const OzSweepKey *key, const char *text)
 
 static OzStatus read_values(OzSweepKey *key, const OzNode *list, bool zip, OzFaults *faults)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(OZ_NEW(&key->values, list->count));
+    OZ_PASS(OZ_NEW(&key->values, list->count));
     for (int i = 0; i < list->count; i++) {
         const OzNode *node = list->items[i];
         if (!is_value(node)) {
@@ -79,18 +78,16 @@ static OzStatus read_values(OzSweepKey *key, const OzNode *list, bool zip, OzFau
             oz_faults_add(faults, node->source, node->line,
                           "%.40s comes twice in the sweep; expected different values", node->text);
         } else {
-            OZ_TRY(oz_memory_text(&key->values[key->count], node->text));
+            OZ_PASS(oz_memory_text(&key->values[key->count], node->text));
             key->count++;
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus read_key(OzSweepKey *key, const OzNode *entry, int model, bool zip,
                          OzFaults *faults)
 {
-    OzStatus status = OZ_OK;
     if (entry->kind != OZ_NODE_LIST || entry->count < 1 ||
         entry->count > OZ_SWEEP_COMBINATIONS_MAX) {
         char is[128];
@@ -103,14 +100,12 @@ static OzStatus read_key(OzSweepKey *key, const OzNode *entry, int model, bool z
         return OZ_OK;
     }
     check_key(entry, model, faults);
-    OZ_TRY(oz_memory_text(&key->path, entry->key));
+    OZ_PASS(oz_memory_text(&key->path, entry->key));
     if (asprintf(&key->place, "%s:%d", entry->source->name, entry->line) < 0) {
         key->place = NULL;
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a sweep");
     }
-    OZ_TRY(read_values(key, entry, zip, faults));
-done:
-    return status;
+    return read_values(key, entry, zip, faults);
 }
 
 static bool is_zip(const OzNode *entry)
@@ -171,17 +166,15 @@ static OzStatus join(char **joined, const OzSweep *sweep, int i)
 
 static OzStatus combine(OzSweep *sweep, int count)
 {
-    OzStatus status = OZ_OK;
     if (count == 0) {
         return OZ_OK;
     }
-    OZ_TRY(join(&sweep->key, sweep, -1));
-    OZ_TRY(OZ_NEW(&sweep->values, count));
+    OZ_PASS(join(&sweep->key, sweep, -1));
+    OZ_PASS(OZ_NEW(&sweep->values, count));
     for (; sweep->count < count; sweep->count++) {
-        OZ_TRY(join(&sweep->values[sweep->count], sweep, sweep->count));
+        OZ_PASS(join(&sweep->values[sweep->count], sweep, sweep->count));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static bool is_sweep(const OzNode *node, OzFaults *faults)
@@ -205,24 +198,22 @@ static bool is_sweep(const OzNode *node, OzFaults *faults)
 
 OzStatus oz_sweep_read(OzSweep *sweep, const OzNode *node, int model, OzFaults *faults)
 {
-    OzStatus status = OZ_OK;
     int before = faults->count;
     if (oz_tree_is_empty(node) || !is_sweep(node, faults)) {
         return OZ_OK;
     }
     sweep->zip = read_zip(node, faults);
-    OZ_TRY(OZ_NEW(&sweep->keys, node->count));
+    OZ_PASS(OZ_NEW(&sweep->keys, node->count));
     for (int i = 0; i < node->count; i++) {
         if (!is_zip(node->items[i])) {
-            OZ_TRY(read_key(&sweep->keys[sweep->key_count++], node->items[i], model, sweep->zip,
-                            faults));
+            OZ_PASS(read_key(&sweep->keys[sweep->key_count++], node->items[i], model, sweep->zip,
+                             faults));
         }
     }
     if (faults->count == before && !node->refused) {
-        OZ_TRY(combine(sweep, count_combinations(sweep, node, faults)));
+        OZ_PASS(combine(sweep, count_combinations(sweep, node, faults)));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 const char *oz_sweep_value(const OzSweep *sweep, int64_t i, int k)

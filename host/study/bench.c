@@ -133,20 +133,19 @@ static void warn_of_others(void)
 
 static OzStatus open_bench(Bench *bench)
 {
-    OzStatus status = OZ_OK;
     const OzFolderUse use = {.keep = true};
-    OZ_TRY(read_sizes(bench));
-    OZ_TRY(oz_file_join(&bench->folder, NULL, bench->options->out ? bench->options->out : "bench"));
-    OZ_TRY(oz_folder_open(&bench->owned, bench->folder, &use));
-    OZ_TRY(oz_folder_create_file(&bench->csv, bench->folder, "bench.csv"));
+    OZ_PASS(read_sizes(bench));
+    OZ_PASS(
+        oz_file_join(&bench->folder, NULL, bench->options->out ? bench->options->out : "bench"));
+    OZ_PASS(oz_folder_open(&bench->owned, bench->folder, &use));
+    OZ_PASS(oz_folder_create_file(&bench->csv, bench->folder, "bench.csv"));
     warn_of_others();
-    OZ_TRY(oz_bench_limits_device(&bench->device, bench->options));
-    OZ_TRY(oz_bench_limits_print(&bench->device, bench->options, stdout));
+    OZ_PASS(oz_bench_limits_device(&bench->device, bench->options));
+    OZ_PASS(oz_bench_limits_print(&bench->device, bench->options, stdout));
     choose_settings(bench);
     share_budget(bench);
     oz_bench_table_begin(stdout, bench->csv);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Bytes that are free on the host now; INFINITY when that is not told. */
@@ -216,7 +215,6 @@ static void keep_row(Bench *bench, const OzBenchRow *row)
 /* observed: a scene, looked at as in a run; else a bed of the ladder. */
 static OzStatus run_bed(Bench *bench, OzBenchBed *bed, const char *name, bool observed)
 {
-    OzStatus status = OZ_OK;
     double grains = (double)bed->grains.count;
     double seconds = bench->seconds * weight_of(grains, observed);
     for (int s = 0; s < bench->setting_count; s++) {
@@ -233,11 +231,10 @@ static OzStatus run_bed(Bench *bench, OzBenchBed *bed, const char *name, bool ob
         if (!affordable(bench, setting, grains, seconds)) {
             continue;
         }
-        OZ_TRY(oz_bench_row_measure(&row, &job));
+        OZ_PASS(oz_bench_row_measure(&row, &job));
         keep_row(bench, &row);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What seeds side by side gain over the same ones one after the other on one thread. */
@@ -301,34 +298,28 @@ done:
 /* The yardstick steps an6's bed. */
 static OzStatus run_yardstick(Bench *bench)
 {
-    OzStatus status = OZ_OK;
     OzBenchRow row;
     bool found = false;
-    OZ_TRY(oz_bench_yardstick_measure(&row, &found, &bench->first, bench->options, bench->folder));
+    OZ_PASS(oz_bench_yardstick_measure(&row, &found, &bench->first, bench->options, bench->folder));
     if (found) {
         keep_row(bench, &row);
         oz_bench_yardstick_compare(&row, bench->rows, bench->row_count, stdout);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Small beds settle by themselves, larger ones are paved. */
 static OzStatus make_bed(Bench *bench, OzBenchBed *bed, int64_t count)
 {
-    OzStatus status = OZ_OK;
     double side = 0;
     if (count <= bench->first.grains.count) {
-        OZ_TRY(oz_bench_bed_box(bed, &side, bench->options, count));
-        OZ_TRY(oz_bench_bed_settle(bed, bench->options, OZ_BENCH_BED_TAPS));
-        goto done;
+        OZ_PASS(oz_bench_bed_box(bed, &side, bench->options, count));
+        return oz_bench_bed_settle(bed, bench->options, OZ_BENCH_BED_TAPS);
     }
     if (!bench->tile.states) {
-        OZ_TRY(oz_bench_bed_tile(&bench->tile, bench->options, bench->first.grains.count));
+        OZ_PASS(oz_bench_bed_tile(&bench->tile, bench->options, bench->first.grains.count));
     }
-    OZ_TRY(oz_bench_bed_pave(bed, &bench->tile, bench->options, count));
-done:
-    return status;
+    return oz_bench_bed_pave(bed, &bench->tile, bench->options, count);
 }
 
 static OzStatus run_ladder(Bench *bench)
@@ -394,25 +385,22 @@ done:
 
 static OzStatus run_all(Bench *bench)
 {
-    OzStatus status = OZ_OK;
     const OzOptions *options = bench->options;
-    OZ_TRY(open_bench(bench));
+    OZ_PASS(open_bench(bench));
     for (int p = 0; p < options->path_count; p++) {
-        OZ_TRY(run_scene(bench, options->paths[p]));
+        OZ_PASS(run_scene(bench, options->paths[p]));
     }
     if (options->path_count == 0) {
-        OZ_TRY(run_scene(bench, NULL));
-        OZ_TRY(run_yardstick(bench));
-        OZ_TRY(run_ladder(bench));
+        OZ_PASS(run_scene(bench, NULL));
+        OZ_PASS(run_yardstick(bench));
+        OZ_PASS(run_ladder(bench));
     }
     if (!bench->first.scene.path) {
-        goto done; /* no rods */
+        return OZ_OK; /* no rods */
     }
     oz_bench_table_explain(stdout);
-    OZ_TRY(take_apart(bench));
-    OZ_TRY(draw_plot(bench));
-done:
-    return status;
+    OZ_PASS(take_apart(bench));
+    return draw_plot(bench);
 }
 
 static OzStatus close_bench(Bench *bench, OzStatus status)

@@ -90,18 +90,16 @@ static OzStatus wall_in(OzScene *scene, double width, double depth)
 static OzStatus load_box(OzScene *scene, const OzOptions *options, double *width, double *depth,
                          int64_t count, double shape)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(load_scene(scene, options, NULL));
+    OZ_PASS(load_scene(scene, options, NULL));
     const OzWall *cylinder = find_cylinder(scene);
     double diameter = cylinder ? cylinder->diameter : 0;
     double share = (double)count / (double)scene->populations[0].count;
     double area = 0.25 * 3.14159265358979323846 * diameter * diameter * share;
     *width = sqrt(area * shape);
     *depth = area / *width;
-    OZ_TRY(wall_in(scene, *width, *depth));
+    OZ_PASS(wall_in(scene, *width, *depth));
     scene->populations[0].count = count;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_bench_bed_box(OzBenchBed *bed, double *side, const OzOptions *options, int64_t count)
@@ -173,17 +171,15 @@ done:
 static OzStatus shake_bed(OzBenchBed *bed, const OzOptions *options, int first_tap, int takes,
                           double **states)
 {
-    OzStatus status = OZ_OK;
     size_t words = (size_t)bed->grains.count * OZ_BENCH_BED_WORDS;
-    OZ_TRY(OZ_NEW(states, words * (size_t)takes));
+    OZ_PASS(OZ_NEW(states, words * (size_t)takes));
     Shake s = {bed, options, first_tap, takes, *states};
-    OZ_TRY(oz_apart_run(shake, &s, *states, words * (size_t)takes * sizeof(double)));
+    OZ_PASS(oz_apart_run(shake, &s, *states, words * (size_t)takes * sizeof(double)));
     for (int64_t i = 0; i < bed->grains.count; i++) {
         take_state(&bed->grains, i, *states + (size_t)i * OZ_BENCH_BED_WORDS);
     }
     bed->scene.settle.present = false;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_bench_bed_settle(OzBenchBed *bed, const OzOptions *options, int taps)

@@ -207,19 +207,16 @@ done:
 static OzStatus make_changed(OzBenchBed *changed, const OzBenchBed *bed, const OzOptions *options,
                              int feature)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_bench_bed_load(changed, options, NULL));
+    OZ_PASS(oz_bench_bed_load(changed, options, NULL));
     if (features[feature].own_bed) {
         features[feature].change(changed);
         oz_grains_free(&changed->grains);
-        OZ_TRY(oz_place_grains(&changed->grains, &changed->scene));
-        OZ_TRY(oz_bench_bed_settle(changed, options, OZ_BENCH_BED_TAPS));
-        goto done;
+        OZ_PASS(oz_place_grains(&changed->grains, &changed->scene));
+        return oz_bench_bed_settle(changed, options, OZ_BENCH_BED_TAPS);
     }
     oz_bench_bed_take(changed, bed);
     features[feature].change(changed);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static int compare(const void *a, const void *b)

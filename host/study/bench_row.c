@@ -86,25 +86,23 @@ static int steps_of_tap(const OzScene *scene)
 
 static OzStatus open_course(Course *course, const Bench *bench)
 {
-    OzStatus status = OZ_OK;
     const OzBenchJob *job = bench->job;
     const OzBenchBed *bed = job->bed;
     course->job = job;
     course->member_count = job->members / bench->count;
-    OZ_TRY(oz_device_branch(&course->device, &bench->device));
-    OZ_TRY(OZ_NEW(&course->members, course->member_count));
+    OZ_PASS(oz_device_branch(&course->device, &bench->device));
+    OZ_PASS(OZ_NEW(&course->members, course->member_count));
     for (int m = 0; m < course->member_count; m++) {
         course->members[m] = (OzMember){&bed->scene, &bed->grains};
     }
-    OZ_TRY(oz_sim_create(&course->sim, &course->device, course->members, course->member_count,
-                         job->options->source_dir));
-    OZ_TRY(oz_sim_launch(course->sim, steps_of_tap(&bed->scene)));
+    OZ_PASS(oz_sim_create(&course->sim, &course->device, course->members, course->member_count,
+                          job->options->source_dir));
+    OZ_PASS(oz_sim_launch(course->sim, steps_of_tap(&bed->scene)));
     if (job->observed) {
-        OZ_TRY(oz_snapshot_create(&course->now, &bed->scene, &bed->grains));
-        OZ_TRY(oz_series_create(&course->series, "/dev/null", &bed->scene, &bed->grains));
+        OZ_PASS(oz_snapshot_create(&course->now, &bed->scene, &bed->grains));
+        OZ_PASS(oz_series_create(&course->series, "/dev/null", &bed->scene, &bed->grains));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void close_course(Course *course)
@@ -118,20 +116,18 @@ static void close_course(Course *course)
 
 static OzStatus open_bench(Bench *bench)
 {
-    OzStatus status = OZ_OK;
     const OzBenchJob *job = bench->job;
     job->bed->scene.precision = job->is_double ? OZ_PRECISION_DOUBLE : OZ_PRECISION_FLOAT;
     double start = oz_clock_now();
-    OZ_TRY(oz_device_open(&bench->device, job->options->device, job->threads));
+    OZ_PASS(oz_device_open(&bench->device, job->options->device, job->threads));
     int count = bench->device.is_cpu ? job->members : 1;
-    OZ_TRY(OZ_NEW(&bench->courses, count));
+    OZ_PASS(OZ_NEW(&bench->courses, count));
     bench->count = count;
     for (int k = 0; k < count; k++) {
-        OZ_TRY(open_course(&bench->courses[k], bench));
+        OZ_PASS(open_course(&bench->courses[k], bench));
     }
     bench->row->value[OZ_BENCH_START] = oz_clock_now() - start;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void close_bench(Bench *bench)
@@ -146,60 +142,53 @@ static void close_bench(Bench *bench)
 /* A sample for the tap means; at the piece's end a row. */
 static OzStatus observe(Course *course, bool last)
 {
-    OzStatus status = OZ_OK;
     double start = oz_clock_now();
     for (int m = 0; m < course->member_count; m++) {
-        OZ_TRY(oz_capture_snapshot(course->sim, m, &course->now, last));
+        OZ_PASS(oz_capture_snapshot(course->sim, m, &course->now, last));
         oz_series_sample(course->series, &course->now);
         if (last) {
-            OZ_TRY(oz_series_write(course->series, &course->now));
+            OZ_PASS(oz_series_write(course->series, &course->now));
         }
     }
     course->observing += oz_clock_now() - start;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* So many steps, observed as a run would when the job says so. */
 static OzStatus make_piece(Course *course, int steps)
 {
-    OzStatus status = OZ_OK;
     const OzBenchJob *job = course->job;
     int64_t first = oz_sim_step(course->sim);
     int samples = job->observed ? (int)job->bed->scene.observe.samples_per_tap : 1;
     for (int k = 1; k <= samples; k++) {
-        OZ_TRY(oz_sim_advance(course->sim, first + (int64_t)steps * k / samples));
+        OZ_PASS(oz_sim_advance(course->sim, first + (int64_t)steps * k / samples));
         if (job->observed) {
-            OZ_TRY(observe(course, k == samples));
+            OZ_PASS(observe(course, k == samples));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Seconds of a step, while caches, lists and launch sizes find their state. */
 static OzStatus warm_up(Course *course, double *step_seconds)
 {
-    OzStatus status = OZ_OK;
     int most = steps_of_tap(&course->job->bed->scene), steps = STEPS_WARM;
     double start = oz_clock_now(), end = start + 0.1 * course->job->seconds, now = start;
     *step_seconds = 0;
     for (int made = 0; made < most && (made == 0 || now < end); made += steps) {
         double before = oz_clock_now();
-        OZ_TRY(oz_sim_advance(course->sim, oz_sim_step(course->sim) + steps));
+        OZ_PASS(oz_sim_advance(course->sim, oz_sim_step(course->sim) + steps));
         now = oz_clock_now();
         *step_seconds = (now - before) / steps;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus time_pieces(Course *course)
 {
-    OzStatus status = OZ_OK;
     int tap = steps_of_tap(&course->job->bed->scene);
     double step_seconds = 0;
-    OZ_TRY(warm_up(course, &step_seconds));
+    OZ_PASS(warm_up(course, &step_seconds));
     double wanted = course->job->seconds / PIECES_LEAST / step_seconds;
     course->piece_steps = wanted >= tap ? tap : (int)fmax(STEPS_LEAST, wanted);
     course->before = oz_sim_counts(course->sim);
@@ -207,14 +196,13 @@ static OzStatus time_pieces(Course *course)
     double end = oz_clock_now() + course->job->seconds;
     for (int k = 0; k < PIECES_MOST && (k < PIECES_LEAST || oz_clock_now() < end); k++) {
         double wall = oz_clock_now(), cpu = oz_clock_processor();
-        OZ_TRY(make_piece(course, course->piece_steps));
+        OZ_PASS(make_piece(course, course->piece_steps));
         course->pieces[k] = oz_clock_now() - wall;
         course->wall += course->pieces[k];
         course->cpu += oz_clock_processor() - cpu;
         course->piece_count = k + 1;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void *time_thread(void *context)
@@ -300,36 +288,33 @@ static void note_times(Bench *bench)
 /* The mean of several moments of one more piece of the first course. */
 static OzStatus probe_piece(Bench *bench, OzProbe *mean)
 {
-    OzStatus status = OZ_OK;
     Course *course = &bench->courses[0];
     int64_t pairs = 0, touching = 0, first = oz_sim_step(course->sim);
     for (int k = 1; k <= PROBES; k++) {
-        OZ_TRY(oz_sim_advance(course->sim, first + course->piece_steps * k / PROBES));
-        OZ_TRY(oz_probe_read(mean, course->sim));
+        OZ_PASS(oz_sim_advance(course->sim, first + course->piece_steps * k / PROBES));
+        OZ_PASS(oz_probe_read(mean, course->sim));
         pairs += mean->pairs;
         touching += mean->touching;
     }
     mean->pairs = pairs / PROBES;
     mean->touching = touching / PROBES;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What the simulations hold, and how far a step is from what the device could do. */
 static OzStatus note_work(Bench *bench)
 {
-    OzStatus status = OZ_OK;
     double *value = bench->row->value, copy = 0, multiply_add = 0;
     const OzBenchJob *job = bench->job;
     OzProbe probe;
-    OZ_TRY(probe_piece(bench, &probe));
+    OZ_PASS(probe_piece(bench, &probe));
     OzBenchCost cost = oz_bench_cost_step(&probe);
     cost.bytes *= bench->count;
     cost.operations *= bench->count;
-    OZ_TRY(oz_limits_copy(&copy, &bench->device, job->options->source_dir, (size_t)cost.bytes,
-                          job->is_double));
-    OZ_TRY(oz_limits_multiply_add(&multiply_add, &bench->device, job->options->source_dir,
-                                  job->is_double));
+    OZ_PASS(oz_limits_copy(&copy, &bench->device, job->options->source_dir, (size_t)cost.bytes,
+                           job->is_double));
+    OZ_PASS(oz_limits_multiply_add(&multiply_add, &bench->device, job->options->source_dir,
+                                   job->is_double));
     double seconds = 1e-6 * value[OZ_BENCH_US_STEP], grains = (double)probe.grains;
     value[OZ_BENCH_NS_GRAIN] = 1e9 * seconds / (grains * bench->count);
     value[OZ_BENCH_PAIRS] = (double)probe.pairs / grains;
@@ -340,8 +325,7 @@ static OzStatus note_work(Bench *bench)
     value[OZ_BENCH_COPY] = 1e-9 * copy;
     value[OZ_BENCH_MULTIPLY_ADD] = 1e-9 * multiply_add;
     value[OZ_BENCH_SHARE] = 100 * fmax(cost.bytes / copy, cost.operations / multiply_add) / seconds;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void note_setting(Bench *bench)

@@ -82,16 +82,13 @@ typedef struct Shares {
 
 static OzStatus open_shares(Shares *s)
 {
-    OzStatus status = OZ_OK;
     OzMember member = {&s->bed->scene, &s->bed->grains};
     s->bed->scene.precision = OZ_PRECISION_FLOAT;
-    OZ_TRY(oz_device_open(&s->device, s->options->device,
-                          s->options->threads ? s->options->threads : 1));
-    OZ_TRY(oz_sim_create(&s->sim, &s->device, &member, 1, s->options->source_dir));
-    OZ_TRY(oz_snapshot_create(&s->now, &s->bed->scene, &s->bed->grains));
-    OZ_TRY(oz_series_create(&s->series, "/dev/null", &s->bed->scene, &s->bed->grains));
-done:
-    return status;
+    OZ_PASS(oz_device_open(&s->device, s->options->device,
+                           s->options->threads ? s->options->threads : 1));
+    OZ_PASS(oz_sim_create(&s->sim, &s->device, &member, 1, s->options->source_dir));
+    OZ_PASS(oz_snapshot_create(&s->now, &s->bed->scene, &s->bed->grains));
+    return oz_series_create(&s->series, "/dev/null", &s->bed->scene, &s->bed->grains);
 }
 
 static int compare(const void *a, const void *b)
@@ -114,16 +111,14 @@ static double clock_of(const OzDevice *device)
 /* Steps of a piece: a tap if that is quick enough. */
 static OzStatus choose_piece(Shares *s)
 {
-    OzStatus status = OZ_OK;
     const OzScene *scene = &s->bed->scene;
     double tap = scene->period > 0 ? scene->period / scene->step : 1000;
-    OZ_TRY(oz_sim_advance(s->sim, WARM / 2));
+    OZ_PASS(oz_sim_advance(s->sim, WARM / 2));
     double start = clock_of(&s->device);
-    OZ_TRY(oz_sim_advance(s->sim, WARM));
+    OZ_PASS(oz_sim_advance(s->sim, WARM));
     double each = (clock_of(&s->device) - start) / (WARM - WARM / 2);
     s->piece = llround(fmin(tap, fmax(LEAST, piece_seconds / each)));
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Lists are not rebuilt in every short piece, so their mean is taken. */
@@ -150,32 +145,29 @@ static void note_rates(Shares *s, OzSimCounts before, OzSimCounts after)
 
 static OzStatus time_steps(Shares *s)
 {
-    OzStatus status = OZ_OK;
     double times[PIECES];
-    OZ_TRY(choose_piece(s));
+    OZ_PASS(choose_piece(s));
     OzSimCounts before = oz_sim_counts(s->sim);
     for (int k = 0; k < PIECES; k++) {
         double start = clock_of(&s->device);
-        OZ_TRY(oz_sim_advance(s->sim, oz_sim_step(s->sim) + s->piece));
+        OZ_PASS(oz_sim_advance(s->sim, oz_sim_step(s->sim) + s->piece));
         times[k] = clock_of(&s->device) - start;
     }
     note_rates(s, before, oz_sim_counts(s->sim));
     const OzScene *scene = &s->bed->scene;
     bool whole = scene->period <= 0 || (double)s->piece >= floor(scene->period / scene->step);
     s->part[PART_STEP] = (Share){piece_time(times, whole) / (double)s->piece, 1};
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus time_phases(Shares *s)
 {
-    OzStatus status = OZ_OK;
     int64_t first = oz_sim_step(s->sim);
     int moments = s->options->quick ? 1 : MOMENTS;
     for (int k = 1; k <= moments; k++) {
         OzPhases now;
-        OZ_TRY(oz_sim_advance(s->sim, first + s->piece * k / moments));
-        OZ_TRY(oz_phases_measure(&now, s->sim, s->options->source_dir));
+        OZ_PASS(oz_sim_advance(s->sim, first + s->piece * k / moments));
+        OZ_PASS(oz_phases_measure(&now, s->sim, s->options->source_dir));
         s->part[PART_PAIRS].seconds += now.pairs / moments;
         s->part[PART_GRAINS].seconds += now.grains / moments;
         s->part[PART_WALLS].seconds += now.walls / moments;
@@ -187,8 +179,7 @@ static OzStatus time_phases(Shares *s)
         rest -= s->part[p].seconds * s->part[p].calls_per_step;
     }
     s->part[PART_REST].seconds = rest;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static double rate(double interval, double step)
@@ -198,43 +189,38 @@ static double rate(double interval, double step)
 
 static OzStatus time_observing(Shares *s, const OzSchedule *schedule)
 {
-    OzStatus status = OZ_OK;
     double start = clock_of(&s->device);
     for (int k = 0; k < SAMPLES; k++) {
-        OZ_TRY(oz_capture_snapshot(s->sim, 0, &s->now, false));
+        OZ_PASS(oz_capture_snapshot(s->sim, 0, &s->now, false));
         oz_series_sample(s->series, &s->now);
     }
     double middle = clock_of(&s->device);
     for (int k = 0; k < ROWS; k++) {
-        OZ_TRY(oz_capture_snapshot(s->sim, 0, &s->now, true));
-        OZ_TRY(oz_series_write(s->series, &s->now));
+        OZ_PASS(oz_capture_snapshot(s->sim, 0, &s->now, true));
+        OZ_PASS(oz_series_write(s->series, &s->now));
     }
     double step = s->bed->scene.step;
     s->part[PART_SAMPLE] = (Share){(middle - start) / SAMPLES, rate(schedule->sample, step)};
     s->part[PART_ROW] = (Share){(clock_of(&s->device) - middle) / ROWS, rate(schedule->row, step)};
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Frames after the first, which opens GL and the encoder. */
 static OzStatus draw_frames(Shares *s, double frames_per_step)
 {
-    OzStatus status = OZ_OK;
     double drawing[2] = {0}, encoding[2] = {0};
     for (int k = 0; k <= FRAMES; k++) {
-        OZ_TRY(oz_gallery_add(s->gallery, &s->now, OZ_FRAME_MOVIE));
+        OZ_PASS(oz_gallery_add(s->gallery, &s->now, OZ_FRAME_MOVIE));
         oz_gallery_times(s->gallery, &drawing[k > 0], &encoding[k > 0]);
     }
     s->part[PART_DRAW] = (Share){(drawing[1] - drawing[0]) / FRAMES, frames_per_step};
     s->part[PART_ENCODE] = (Share){(encoding[1] - encoding[0]) / FRAMES, frames_per_step};
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* A machine without GL or an encoder still has the other shares. */
 static OzStatus time_pictures(Shares *s, const OzSchedule *schedule)
 {
-    OzStatus status = OZ_OK;
     OzGallerySettings settings = {.folder = s->folder,
                                   .source_dir = s->options->source_dir,
                                   .backend = s->options->gl,
@@ -242,13 +228,12 @@ static OzStatus time_pictures(Shares *s, const OzSchedule *schedule)
     if (!s->bed->scene.movie.present) {
         return OZ_OK;
     }
-    OZ_TRY(oz_file_make_folder(s->folder));
-    OZ_TRY(oz_gallery_create(&s->gallery, &settings, &s->bed->scene));
+    OZ_PASS(oz_file_make_folder(s->folder));
+    OZ_PASS(oz_gallery_create(&s->gallery, &settings, &s->bed->scene));
     if (draw_frames(s, rate(schedule->frame, s->bed->scene.step)) != OZ_OK) {
         oz_log_line("drawing and encoding not measured: %s", oz_status_text());
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus measure(void *context)

@@ -114,18 +114,15 @@ static void print_steps(FILE *file, const OzScene *scene)
 /* What the verdict rests on. */
 static OzStatus print_details(FILE *file, const OzVerdict *v)
 {
-    OzStatus status = OZ_OK;
     print_steps(file, v->scene);
     if (v->scene->model == OZ_MODEL_TRIGRAINS) {
-        OZ_TRY(oz_inspect_pieces_print(file, v->scene, v->grains));
-        goto done;
+        return oz_inspect_pieces_print(file, v->scene, v->grains);
     }
     print_grains(file, v->grains);
     print_motion(file, v->scene);
-    OZ_TRY(oz_inspect_contacts_print(file, v->scene, v->grains));
+    OZ_PASS(oz_inspect_contacts_print(file, v->scene, v->grains));
     oz_report_bed_print(file, v->scene, v->rehearsal);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What becomes of the scene on the device. */
@@ -140,14 +137,12 @@ static OzStatus print_kernels(FILE *file, const OzVerdict *v)
 
 static OzStatus print_all(FILE *file, const OzVerdict *v)
 {
-    OzStatus status = OZ_OK;
     print_heading(file, v->scene);
-    OZ_TRY(oz_inspect_verdict_print(file, v));
-    OZ_TRY(print_details(file, v));
-    OZ_TRY(v->options->verbose ? print_kernels(file, v) : OZ_OK);
+    OZ_PASS(oz_inspect_verdict_print(file, v));
+    OZ_PASS(print_details(file, v));
+    OZ_PASS(v->options->verbose ? print_kernels(file, v) : OZ_OK);
     fflush(file);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Everything that was opened for an inspection. Zeroed is valid. */
@@ -188,8 +183,7 @@ OzStatus oz_inspect_scene(const OzOptions *options, FILE *file)
     OzStatus status = OZ_OK;
     Inspection in = {0};
     OZ_TRY(open_all(&in, options));
-    const OzVerdict verdict = {options,    &in.scene,     &in.grains,
-                               &in.device, &in.rehearsal, in.burst};
+    const OzVerdict verdict = {options, &in.scene, &in.grains, &in.device, &in.rehearsal, in.burst};
     OZ_TRY(print_all(file, &verdict));
     OZ_TRY(judge(options, &in.scene, &in.grains));
     if (in.burst[0]) {

@@ -82,9 +82,8 @@ static void print_walls(FILE *file, const OzScene *scene)
 /* What hits and the pile's weight do to beams; the weight at rest by the force of the hit. */
 static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
     OzTrial trial;
-    OZ_TRY(oz_trial_worst(&trial, scene, grains));
+    OZ_PASS(oz_trial_worst(&trial, scene, grains));
     if (trial.grain >= 0 && trial.speed > 0) {
         fprintf(
             file,
@@ -97,22 +96,19 @@ static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains 
         }
         fprintf(file, "\n");
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_inspect_pieces_warn(FILE *file, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
     OzTrial trial;
     char advice[256];
-    OZ_TRY(oz_trial_worst(&trial, scene, grains));
+    OZ_PASS(oz_trial_worst(&trial, scene, grains));
     if (trial.grain >= 0 && trial.speed > 0) {
         oz_trial_advise(advice, sizeof advice, &trial, scene);
         fprintf(file, advice[0] ? "  warning          %s\n" : "%s", advice);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrains *grains)

@@ -124,23 +124,21 @@ done:
 
 static OzStatus print_beams(FILE *file, const OzVerdict *v)
 {
-    OzStatus status = OZ_OK;
     OzBeamLimit limit;
     char of[WORDS];
-    OZ_TRY(oz_beam_limits_find(&limit, v->scene, v->grains));
+    OZ_PASS(oz_beam_limits_find(&limit, v->scene, v->grains));
     if (!isinf(limit.largest_step)) {
         snprintf(of, sizeof of, "%s of grain %lld", limit.beam < 0 ? "a contact" : "a beam",
                  (long long)limit.grain);
         print_stable(file, v->scene, limit.largest_step, of);
     }
-    OZ_TRY(oz_inspect_pieces_warn(file, v->scene, v->grains));
+    OZ_PASS(oz_inspect_pieces_warn(file, v->scene, v->grains));
     if (v->scene->precision == OZ_PRECISION_FLOAT) {
         fputs("  resolution       float rounds away what a small step moves: energies and rest are "
               "not to be trusted\n",
               file);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* s of computing that a member's run takes; steps and settling are printed as its parts. */
@@ -253,21 +251,19 @@ static void print_missed(FILE *file, const OzScene *scene)
 
 OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
 {
-    OzStatus status = OZ_OK;
     bool flat = verdict->scene->model == OZ_MODEL_TRIGRAINS;
     fputs("verdict\n", file);
     if (verdict->burst[0]) {
         fprintf(file, "  runs             NO: %s\n", verdict->burst);
     }
     if (verdict->grains->count > 0) {
-        OZ_TRY(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
+        OZ_PASS(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
     }
-    OZ_TRY(print_cost(file, verdict));
+    OZ_PASS(print_cost(file, verdict));
     if (verdict->grains->count > 0) {
         fputs("  empty columns    ", file);
         oz_inspect_columns_print(file, verdict->scene, verdict->grains);
     }
     print_missed(file, verdict->scene);
-done:
-    return status;
+    return OZ_OK;
 }

@@ -34,14 +34,11 @@ typedef struct Redraw {
 static OzStatus own_folder(Redraw *r)
 {
     static const char *const writes[] = {"movie.mp4", "movie.mp4.part", "snapshots/*.png*", NULL};
-    OzStatus status = OZ_OK;
     OzFolderUse use = {.writes = writes};
-    OZ_TRY(oz_inputs_add(&r->inputs, r->frames_path));
-    OZ_TRY(oz_inputs_add_scene(&r->inputs, &r->scene));
-    OZ_TRY(oz_inputs_check(&r->inputs, r->out, &use));
-    OZ_TRY(oz_folder_open(&r->owned, r->out, &use));
-done:
-    return status;
+    OZ_PASS(oz_inputs_add(&r->inputs, r->frames_path));
+    OZ_PASS(oz_inputs_add_scene(&r->inputs, &r->scene));
+    OZ_PASS(oz_inputs_check(&r->inputs, r->out, &use));
+    return oz_folder_open(&r->owned, r->out, &use);
 }
 
 /* The keys that pictures depend on and the simulation does not, with all below them. */
@@ -94,7 +91,6 @@ static OzStatus take_name(OzScene *scene, const char *folder)
  * looks, which is how single pictures look too. */
 static OzStatus load_scenes(Redraw *r, const OzOptions *options)
 {
-    OzStatus status = OZ_OK;
     char *settings[OZ_CLI_SETTINGS_MAX];
     int count = 0;
     for (int i = 0; i < options->setting_count; i++) {
@@ -102,13 +98,11 @@ static OzStatus load_scenes(Redraw *r, const OzOptions *options)
             settings[count++] = options->settings[i];
         }
     }
-    OZ_TRY(oz_scene_load(&r->run, r->scene_path, NULL, 0));
-    OZ_TRY(oz_scene_load(&r->scene, r->scene_path, settings, count));
-    OZ_TRY(refuse_physics(options));
+    OZ_PASS(oz_scene_load(&r->run, r->scene_path, NULL, 0));
+    OZ_PASS(oz_scene_load(&r->scene, r->scene_path, settings, count));
+    OZ_PASS(refuse_physics(options));
     r->scene.movie.present &= count == options->setting_count;
-    OZ_TRY(take_name(&r->scene, options->paths[0]));
-done:
-    return status;
+    return take_name(&r->scene, options->paths[0]);
 }
 
 /* From the first frame on. */
@@ -124,41 +118,35 @@ static OzStatus open_frames(Redraw *r)
 
 static OzStatus make_plan(Redraw *r)
 {
-    OzStatus status = OZ_OK;
     int purpose = 0;
     bool more = true;
-    OZ_TRY(open_frames(r));
+    OZ_PASS(open_frames(r));
     for (;;) {
-        OZ_TRY(oz_frames_next(r->frames, &r->snapshot, &purpose, &more));
+        OZ_PASS(oz_frames_next(r->frames, &r->snapshot, &purpose, &more));
         if (!more) {
             break;
         }
-        OZ_TRY(oz_redraw_plan_note(&r->plan, r->snapshot.time, purpose));
+        OZ_PASS(oz_redraw_plan_note(&r->plan, r->snapshot.time, purpose));
     }
-    OZ_TRY(oz_redraw_plan_choose(&r->plan, &r->run, &r->scene));
-    OZ_TRY(open_frames(r));
-done:
-    return status;
+    OZ_PASS(oz_redraw_plan_choose(&r->plan, &r->run, &r->scene));
+    return open_frames(r);
 }
 
 static OzStatus open_all(Redraw *r, const OzOptions *options)
 {
-    OzStatus status = OZ_OK;
     const char *folder = options->paths[0];
-    OZ_TRY(oz_file_join(&r->scene_path, folder, "scene.yaml"));
-    OZ_TRY(oz_file_join(&r->frames_path, folder, "frames.bin"));
-    OZ_TRY(options->out ? oz_file_join(&r->out, NULL, options->out)
-                        : oz_file_join(&r->out, folder, "draw"));
-    OZ_TRY(load_scenes(r, options));
-    OZ_TRY(make_plan(r));
-    OZ_TRY(own_folder(r));
+    OZ_PASS(oz_file_join(&r->scene_path, folder, "scene.yaml"));
+    OZ_PASS(oz_file_join(&r->frames_path, folder, "frames.bin"));
+    OZ_PASS(options->out ? oz_file_join(&r->out, NULL, options->out)
+                         : oz_file_join(&r->out, folder, "draw"));
+    OZ_PASS(load_scenes(r, options));
+    OZ_PASS(make_plan(r));
+    OZ_PASS(own_folder(r));
     r->settings = (OzGallerySettings){.folder = r->out,
                                       .source_dir = options->source_dir,
                                       .backend = options->gl,
                                       .device = "drawn from frames.bin"};
-    OZ_TRY(oz_gallery_create(&r->gallery, &r->settings, &r->scene));
-done:
-    return status;
+    return oz_gallery_create(&r->gallery, &r->settings, &r->scene);
 }
 
 static void show_progress(const Redraw *r, int64_t count, int64_t total)
@@ -178,7 +166,6 @@ static OzStatus draw_frame(Redraw *r, const OzRedrawFrame *frame)
 
 static OzStatus draw_all(Redraw *r)
 {
-    OzStatus status = OZ_OK;
     int64_t total = 0, count = 0;
     bool more = true;
     for (size_t i = 0; i < r->plan.count; i++) {
@@ -187,7 +174,7 @@ static OzStatus draw_all(Redraw *r)
     r->started = oz_clock_now();
     for (size_t i = 0; i < r->plan.count && count < total; i++) {
         int stored = 0;
-        OZ_TRY(oz_frames_next(r->frames, &r->snapshot, &stored, &more));
+        OZ_PASS(oz_frames_next(r->frames, &r->snapshot, &stored, &more));
         if (!more) {
             break; /* the file became shorter meanwhile */
         }
@@ -195,14 +182,13 @@ static OzStatus draw_all(Redraw *r)
             oz_gallery_frame(r->gallery, &r->snapshot); /* as the run did */
         }
         if (r->plan.frames[i].purpose) {
-            OZ_TRY(draw_frame(r, &r->plan.frames[i]));
+            OZ_PASS(draw_frame(r, &r->plan.frames[i]));
             show_progress(r, ++count, total);
         }
     }
     oz_log_progress(" ");
     oz_log_line("%lld frames drawn into %s", (long long)count, r->out);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_redraw_folder(const OzOptions *options)

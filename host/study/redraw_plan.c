@@ -13,16 +13,14 @@ enum { SNAPSHOTS_NAMED = 8 }; /* in the log, of those that are off */
 
 OzStatus oz_redraw_plan_note(OzRedrawPlan *plan, double time, int stored)
 {
-    OzStatus status = OZ_OK;
     if (plan->count == plan->capacity) {
         size_t wanted = plan->capacity ? 2 * plan->capacity : 256;
-        OZ_TRY(oz_memory_grow((void **)&plan->frames, plan->capacity, wanted, sizeof *plan->frames,
-                              "stored frames"));
+        OZ_PASS(oz_memory_grow((void **)&plan->frames, plan->capacity, wanted, sizeof *plan->frames,
+                               "stored frames"));
         plan->capacity = wanted;
     }
     plan->frames[plan->count++] = (OzRedrawFrame){.time = time, .stored = stored};
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_redraw_plan_free(OzRedrawPlan *plan)

@@ -44,7 +44,6 @@ static OzStatus settle(OzRehearsal *r, OzSim *sim, const OzScene *scene, double 
  * which may take longer than the whole stretch. */
 static OzStatus make_steps(OzRehearsal *r, OzSim *sim, const OzScene *scene, double stretch)
 {
-    OzStatus status = OZ_OK;
     int64_t first = oz_sim_step(sim), last = first + llround(scene->duration / scene->step);
     double start = oz_clock_now();
     for (int launches = 0; oz_sim_step(sim) < last && (launches < 2 || r->spent < stretch);
@@ -53,12 +52,11 @@ static OzStatus make_steps(OzRehearsal *r, OzSim *sim, const OzScene *scene, dou
             first = oz_sim_step(sim);
             start = oz_clock_now();
         }
-        OZ_TRY(oz_sim_launch(sim, last));
+        OZ_PASS(oz_sim_launch(sim, last));
         r->steps = oz_sim_step(sim) - first;
         r->spent = oz_clock_now() - start;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void take_start(OzSnapshot *now)
@@ -98,17 +96,15 @@ OzStatus oz_rehearsal_run(OzRehearsal *rehearsal, const OzScene *scene, const Oz
                           const OzDevice *device, const char *source_dir, double patience,
                           double stretch)
 {
-    OzStatus status = OZ_OK;
     *rehearsal = (OzRehearsal){0};
-    OZ_TRY(oz_snapshot_create(&rehearsal->now, scene, grains));
+    OZ_PASS(oz_snapshot_create(&rehearsal->now, scene, grains));
     if (scene->settle.present || stretch > 0) {
-        OZ_TRY(rehearse(rehearsal, scene, device, source_dir, patience, stretch));
+        OZ_PASS(rehearse(rehearsal, scene, device, source_dir, patience, stretch));
     } else {
         take_start(&rehearsal->now);
-        OZ_TRY(measure_stiffness(rehearsal, scene));
+        OZ_PASS(measure_stiffness(rehearsal, scene));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_rehearsal_free(OzRehearsal *rehearsal)

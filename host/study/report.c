@@ -102,7 +102,6 @@ done:
 /* Those of trigrains: on the host once, and on every device. */
 static OzStatus study_pieces(Report *report, OzReportJob *job, const OzReportPoint *like)
 {
-    OzStatus status = OZ_OK;
     int count;
     const OzReportMethod *methods = oz_report_piece_methods(&count);
     for (int i = 0; i < count; i++) {
@@ -118,17 +117,15 @@ static OzStatus study_pieces(Report *report, OzReportJob *job, const OzReportPoi
                 point.label = report->labels[d];
             }
             if (point.host || point.precision == OZ_PRECISION_FLOAT || point.device->has_double) {
-                OZ_TRY(study_method(report, job, &point));
+                OZ_PASS(study_method(report, job, &point));
             }
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus study_device(Report *report, OzReportJob *job, OzReportPoint *like, int d)
 {
-    OzStatus status = OZ_OK;
     job->device = like->device = &report->devices[d];
     like->label = report->device_count > 1 ? report->labels[d] : "";
     for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
@@ -136,18 +133,16 @@ static OzStatus study_device(Report *report, OzReportJob *job, OzReportPoint *li
             like->integrator = (OzIntegrator)i;
             like->precision = p == 0 ? OZ_PRECISION_FLOAT : OZ_PRECISION_DOUBLE;
             if (like->precision == OZ_PRECISION_FLOAT || like->device->has_double) {
-                OZ_TRY(study_method(report, job, like));
+                OZ_PASS(study_method(report, job, like));
             }
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus study_scene(Report *report, const char *path, const OzReportCase *row,
                             const OzReportPieceCase *pieces)
 {
-    OzStatus status = OZ_OK;
     const OzOptions *options = report->options;
     double tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE;
     int first = report->count;
@@ -160,47 +155,42 @@ static OzStatus study_scene(Report *report, const char *path, const OzReportCase
     OzReportPoint like = {.cycle = pieces ? "period" : "contact",
                           .floor = pieces ? pieces->floor : 0};
     if (pieces) {
-        OZ_TRY(oz_report_piece_truth(&job));
-        OZ_TRY(study_pieces(report, &job, &like));
+        OZ_PASS(oz_report_piece_truth(&job));
+        OZ_PASS(study_pieces(report, &job, &like));
     } else {
-        OZ_TRY(oz_report_point_truth(&like.truth, &job));
+        OZ_PASS(oz_report_point_truth(&like.truth, &job));
     }
     for (int d = 0; d < report->device_count && !pieces; d++) {
-        OZ_TRY(study_device(report, &job, &like, d));
+        OZ_PASS(study_device(report, &job, &like, d));
     }
     oz_report_table_front(report->points + first, report->count - first);
     oz_report_table_say(stdout, report->points + first, report->count - first, tolerance,
                         options->tolerance > 0);
     fflush(stdout);
-    OZ_TRY(oz_report_plot_draw(report->folder, report->device_names, report->points + first,
-                               report->count - first));
-done:
-    return status;
+    return oz_report_plot_draw(report->folder, report->device_names, report->points + first,
+                               report->count - first);
 }
 
 /* Those of --device cpu,gpu, or the one that a run would take. */
 static OzStatus open_devices(Report *report)
 {
-    OzStatus status = OZ_OK;
     const OzOptions *options = report->options;
-    OZ_TRY(oz_memory_text(&report->device_list, options->device ? options->device : "auto"));
+    OZ_PASS(oz_memory_text(&report->device_list, options->device ? options->device : "auto"));
     for (char *rest = report->device_list; rest;) {
         int d = report->device_count;
         if (d == DEVICES_MOST) {
-            status = oz_status_fail(OZ_ERR_INPUT, "--device %s: at most %d devices",
-                                    options->device, DEVICES_MOST);
-            goto done;
+            return oz_status_fail(OZ_ERR_INPUT, "--device %s: at most %d devices", options->device,
+                                  DEVICES_MOST);
         }
         report->labels[d] = strsep(&rest, ",");
-        OZ_TRY(oz_device_open(&report->devices[d], report->labels[d], d ? 0 : options->threads));
+        OZ_PASS(oz_device_open(&report->devices[d], report->labels[d], d ? 0 : options->threads));
         report->device_count++;
         printf("device: %s\n", report->devices[d].name);
         size_t length = strlen(report->device_names);
         snprintf(report->device_names + length, sizeof report->device_names - length, "%s%.150s",
                  d ? " | " : "", report->devices[d].name);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus study_scenes(Report *report)

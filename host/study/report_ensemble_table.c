@@ -204,10 +204,9 @@ static OzStatus draw(const char *folder, const char *title, const OzEnsemblePoin
 OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,
                                         const OzEnsemblePoint *points, int count)
 {
-    OzStatus status = OZ_OK;
     FILE *file = NULL;
-    OZ_TRY(oz_folder_create_file(&file, folder, "ensemble.csv"));
-    OZ_TRY(oz_folder_note(folder, "ensemble.png"));
+    OZ_PASS(oz_folder_create_file(&file, folder, "ensemble.csv"));
+    OZ_PASS(oz_folder_note(folder, "ensemble.png"));
     Shown shown = choose_shown(points, count);
     write_header(file, shown);
     for (int i = 0; i < count; i++) {
@@ -215,11 +214,8 @@ OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,
     }
     bool whole = !ferror(file);
     if (fclose(file) != 0 || !whole) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s/ensemble.csv: %s", folder,
-                                strerror(errno));
-        goto done;
+        return oz_status_fail(OZ_ERR_FILE, "cannot write %s/ensemble.csv: %s", folder,
+                              strerror(errno));
     }
-    OZ_TRY(draw(folder, title, points, count));
-done:
-    return status;
+    return draw(folder, title, points, count);
 }

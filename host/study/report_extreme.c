@@ -127,19 +127,17 @@ static void print_row(const OzExtremeCase *row, OzPrecision precision,
 static OzStatus run_rows(const OzExtremeCase *rows, const OzOptions *options,
                          const OzDevice *device, OzPrecision precision, int *bad)
 {
-    OzStatus status = OZ_OK;
     OzExtremeOutcome outcome;
     for (const OzExtremeCase *row = rows; row->name; row++) {
         if (!oz_report_extreme_serves(row, precision)) {
             continue;
         }
-        OZ_TRY(oz_report_extreme_try(&outcome, row, device, precision, options->quick,
-                                     options->source_dir));
+        OZ_PASS(oz_report_extreme_try(&outcome, row, device, precision, options->quick,
+                                      options->source_dir));
         print_row(row, precision, &outcome);
         *bad += outcome.verdict == OZ_VERDICT_WRONG || outcome.verdict == OZ_VERDICT_STOPPED;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_report_extreme_run(const OzOptions *options)

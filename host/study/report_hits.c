@@ -63,18 +63,16 @@ static double edge_of(const OzPieces *pieces, int64_t grain)
 static OzStatus walk(OzReportHits *meeting, OzPieceReference *reference, OzSnapshot *now,
                      int64_t stride)
 {
-    OzStatus status = OZ_OK;
     int64_t last = llround(now->scene->duration / now->scene->step);
     for (int64_t step = 0;; step = step + stride < last ? step + stride : last) {
-        OZ_TRY(oz_piece_reference_advance(reference, step));
-        OZ_TRY(oz_piece_reference_snapshot(reference, now));
+        OZ_PASS(oz_piece_reference_advance(reference, step));
+        OZ_PASS(oz_piece_reference_snapshot(reference, now));
         oz_hits_look(&meeting->hits, now);
         if (step == last) {
             break;
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_report_hits_follow(OzReportHits *meeting, const OzScene *scene, const OzGrains *grains)

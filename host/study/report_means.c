@@ -160,7 +160,6 @@ static OzStatus choose(Order *order, const OzReportMeans *means, int s, const Oz
 /* A member that a guard stopped leaves no final.csv: only those that reached the end count. */
 static OzStatus read_members(OzReportMean *setting, const Order *order)
 {
-    OzStatus status = OZ_OK;
     const OzOptions *o = &order->options;
     for (uint64_t seed = o->seed_first; seed <= o->seed_last; seed++) {
         char path[PATH_SIZE + 64];
@@ -171,13 +170,12 @@ static OzStatus read_members(OzReportMean *setting, const Order *order)
         }
         snprintf(path + length - strlen("final.csv"), 16, "series.csv");
         for (int q = 0; q < OZ_REPORT_MEANS_QUANTITIES; q++) {
-            OZ_TRY(
+            OZ_PASS(
                 oz_report_member_mean(&setting->value[q][setting->members], path, quantities[q]));
         }
         setting->members++;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus run_setting(OzReportMeans *means, int s, const OzReportStart *start,
@@ -241,22 +239,20 @@ static OzStatus choose_seeds(OzReportMeans *means, const OzScene *scene, const O
 OzStatus oz_report_means_study(OzReportMeans *means, const OzReportStart *start, const char *path,
                                const char *folder, const OzOptions *options)
 {
-    OzStatus status = OZ_OK;
     OzOptions alone = *options;
     alone.paths[0] = path;
     alone.path_count = 1;
-    OZ_TRY(choose_seeds(means, &start->scene, options));
+    OZ_PASS(choose_seeds(means, &start->scene, options));
     if (means->seeds > 0) {
         choose_time(means, start, options);
     }
     for (int s = 0; s < (means->seeds > 0 ? means->count : 0); s++) {
-        OZ_TRY(run_setting(means, s, start, folder, &alone));
+        OZ_PASS(run_setting(means, s, start, folder, &alone));
     }
     if (means->seeds > 0) {
         compare(means);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static bool has(const OzReportMeans *means, int quantity)

@@ -36,33 +36,29 @@ static const char *const loop_scene =
 static OzStatus press(OzPieceForces *forces, const OzPieces *pieces, const double place[2],
                       double load[2], double *stored)
 {
-    OzStatus status = OZ_OK;
     double position[4] = {pieces->position[0], pieces->position[1], pieces->position[2], place[0]};
     double angle[2] = {0, place[1]}, velocity[4] = {0}, spin[2] = {0};
     OzPieceState state = {.position = position, .angle = angle, .velocity = velocity, .spin = spin};
-    OZ_TRY(oz_piece_forces_evaluate(forces, &state));
+    OZ_PASS(oz_piece_forces_evaluate(forces, &state));
     load[0] = forces->force[3];
     load[1] = forces->torque[1];
     *stored = fmax(*stored, forces->sums.contact_energy);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* By Simpson's rule along one leg. */
 static OzStatus walk_leg(OzPieceForces *forces, const OzPieces *pieces, int leg, double *work,
                          double *stored)
 {
-    OzStatus status = OZ_OK;
     const double *from = path_of_loop[leg], *to = path_of_loop[leg + 1];
     for (int i = 0; i <= 2 * LEG_STEPS; i++) {
         double s = (double)i / (2 * LEG_STEPS), load[2];
         double place[2] = {from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])};
         double weight = (i == 0 || i == 2 * LEG_STEPS ? 1 : i % 2 ? 4 : 2) / (6.0 * LEG_STEPS);
-        OZ_TRY(press(forces, pieces, place, load, stored));
+        OZ_PASS(press(forces, pieces, place, load, stored));
         *work += weight * (load[0] * (to[0] - from[0]) + load[1] * (to[1] - from[1]));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_report_midpoint_loop(double *share, OzForcePoint point)

@@ -156,21 +156,19 @@ static OzStatus choose_advice(OzReportPath *advised, const OzReportPaths *paths,
 static OzStatus study(OzReportStart *start, OzReportMeans *means, const char *path,
                       const char *folder, const OzOptions *options, const OzDevice *device)
 {
-    OzStatus status = OZ_OK;
     OzReportPaths paths;
     OzReportPath advised;
     double tolerance = options->tolerance > 0 ? options->tolerance : tolerance_default;
-    OZ_TRY(oz_report_path_study(&paths, start, options, device));
-    OZ_TRY(oz_report_path_write(folder, &paths));
-    OZ_TRY(oz_report_start_say(stdout, start));
+    OZ_PASS(oz_report_path_study(&paths, start, options, device));
+    OZ_PASS(oz_report_path_write(folder, &paths));
+    OZ_PASS(oz_report_start_say(stdout, start));
     oz_report_path_print(stdout, &paths, start);
-    OZ_TRY(choose_advice(&advised, &paths, start, tolerance));
-    OZ_TRY(list_means(means, &paths, &advised, start));
-    OZ_TRY(oz_report_means_study(means, start, path, folder, options));
+    OZ_PASS(choose_advice(&advised, &paths, start, tolerance));
+    OZ_PASS(list_means(means, &paths, &advised, start));
+    OZ_PASS(oz_report_means_study(means, start, path, folder, options));
     oz_report_means_print(stdout, means);
     print_advice(&paths, means, start, &advised, tolerance);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* A folder of the scene's own in the report's, which says so. */

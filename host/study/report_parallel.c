@@ -77,15 +77,13 @@ done:
 static OzStatus load(OzScene *scene, const char *path, OzParallel parallel, int steps,
                      const OzOptions *options)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_scene_load(scene, path, options->settings, options->setting_count));
+    OZ_PASS(oz_scene_load(scene, path, options->settings, options->setting_count));
     scene->step = scene->contact.contact_time / steps;
     scene->contact.parallel = parallel;
     for (int w = 0; w < scene->wall_count; w++) {
         scene->walls[w].contact.parallel = parallel;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_report_parallel_measure(OzParallelNoise *noise, const char *path, OzParallel parallel,
@@ -119,7 +117,6 @@ done:
 
 static OzStatus write_rows(FILE *csv, const char *path, const OzOptions *options)
 {
-    OzStatus status = OZ_OK;
     printf("%s: 40 contact times of aligned rods without loss\n", path);
     printf("  %-7s %6s %22s %30s\n", "contact", "steps", "energy gained, share",
            "torque's jump in a step, share");
@@ -128,13 +125,12 @@ static OzStatus write_rows(FILE *csv, const char *path, const OzOptions *options
         for (int r = 0; r < (options->quick ? RUNGS_QUICK : RUNGS); r++) {
             OzParallelNoise noise;
             const char *name = oz_keys_choice_name("contact.parallel", kind);
-            OZ_TRY(oz_report_parallel_measure(&noise, path, (OzParallel)kind, ladder[r], options));
+            OZ_PASS(oz_report_parallel_measure(&noise, path, (OzParallel)kind, ladder[r], options));
             printf("  %-7s %6d %22.3g %30.3g\n", name, ladder[r], noise.energy, noise.jump);
             fprintf(csv, "%s,%d,%.9g,%.9g\n", name, ladder[r], noise.energy, noise.jump);
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus draw(const char *folder)

@@ -135,15 +135,13 @@ static OzStatus open_course(Course *course, const OzReportStart *start, const Oz
 
 static OzStatus look(Course *course, OzSim *sim, OzSnapshot *now, int k)
 {
-    OzStatus status = OZ_OK;
     size_t words = 3 * (size_t)now->count;
-    OZ_TRY(oz_capture_snapshot(sim, 0, now, true));
+    OZ_PASS(oz_capture_snapshot(sim, 0, now, true));
     memcpy(course->place + (size_t)k * words, now->position, words * sizeof(double));
     course->touched |= now->contacts.pair_count + now->contacts.wall_count +
                            now->pieces.grain_pairs + now->pieces.wall_touches >
                        0;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus follow(Course *course, int looks, const OzOptions *options, const OzDevice *device)
@@ -247,7 +245,6 @@ done:
 static OzStatus measure_all(OzReportPaths *paths, const Course *truth, int look_of_truth,
                             const OzOptions *options, const OzDevice *device)
 {
-    OzStatus status = OZ_OK;
     for (int i = 0; i < paths->count; i++) {
         OzReportPath *path = &paths->path[i];
         char name[64];
@@ -256,10 +253,9 @@ static OzStatus measure_all(OzReportPaths *paths, const Course *truth, int look_
             path->substeps != path[-1].substeps) {
             oz_log_line("paths: %s%s", name, i == 0 ? ", as written" : "");
         }
-        OZ_TRY(measure(path, paths, truth, look_of_truth, options, device));
+        OZ_PASS(measure(path, paths, truth, look_of_truth, options, device));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* The two small-step paths. */
@@ -267,7 +263,6 @@ static OzStatus follow_truths(OzReportPaths *paths, Course *coarse, Course *fine
                               const OzReportStart *start, const OzOptions *options,
                               const OzDevice *device)
 {
-    OzStatus status = OZ_OK;
     OzPrecision precision = device->has_double ? OZ_PRECISION_DOUBLE : OZ_PRECISION_FLOAT;
     for (int k = 0; k < 2; k++) {
         double steps = paths->truth_steps / (k == 0 ? 2 : 1);
@@ -279,22 +274,19 @@ static OzStatus follow_truths(OzReportPaths *paths, Course *coarse, Course *fine
         oz_log_line("paths: small steps, %.0f per %s, for %.3g s", steps, start->cycle_name,
                     paths->longest);
         Course *course = k == 0 ? coarse : fine;
-        OZ_TRY(open_course(course, start, &path, precision, paths->longest / LOOKS, LOOKS));
-        OZ_TRY(follow(course, LOOKS, options, device));
+        OZ_PASS(open_course(course, start, &path, precision, paths->longest / LOOKS, LOOKS));
+        OZ_PASS(follow(course, LOOKS, options, device));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus find_limits(OzReportPaths *paths, const OzReportStart *start)
 {
-    OzStatus status = OZ_OK;
     for (int i = 0; i < paths->count; i++) {
         OzReportPath *path = &paths->path[i];
-        OZ_TRY(oz_report_start_limit(&path->largest, start, path->integrator, path->substeps));
+        OZ_PASS(oz_report_start_limit(&path->largest, start, path->integrator, path->substeps));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Other programs only lengthen times: the least of an integrator's is nearest to its own. */
@@ -390,10 +382,7 @@ void oz_report_path_print(FILE *file, const OzReportPaths *paths, const OzReport
 OzStatus oz_report_path_write(const char *folder, const OzReportPaths *paths)
 {
     FILE *csv = NULL;
-    OzStatus status = oz_folder_create_file(&csv, folder, "paths.csv");
-    if (status != OZ_OK) {
-        return status;
-    }
+    OZ_PASS(oz_folder_create_file(&csv, folder, "paths.csv"));
     fprintf(csv, "integrator,substeps,steps_per_cycle,step,largest_stable_step,horizon,"
                  "error_diameters,wall_per_second,reason\n");
     for (int i = 0; i < paths->count; i++) {

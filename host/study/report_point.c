@@ -118,15 +118,13 @@ static void take_times(OzReportPoint *point, double *seconds, int count, const O
 
 static OzStatus run_all(OzReportPoint *point, const OzReportJob *job, const OzReportRuns *runs)
 {
-    OzStatus status = OZ_OK;
     double seconds[REPEATS_MOST];
     int repeats = job->repeats < REPEATS_MOST ? job->repeats : REPEATS_MOST;
     for (int k = 0; k < repeats; k++) {
-        OZ_TRY(run_once(&seconds[k], point, job, runs, k == 0));
+        OZ_PASS(run_once(&seconds[k], point, job, runs, k == 0));
     }
     take_times(point, seconds, repeats, runs);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus run_on_host(OzReportPoint *point, const OzReportJob *job, const OzReportRuns *runs)

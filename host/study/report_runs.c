@@ -92,11 +92,10 @@ static int copies_of(const OzReportJob *job)
 
 static OzStatus place(OzReportRuns *runs, const OzReportJob *job)
 {
-    OzStatus status = OZ_OK;
     OzRandom random = oz_random_stream(PHASE_SEED, 0);
     int copies = copies_of(job);
     for (int i = 0; i < copies; i++) {
-        OZ_TRY(oz_place_grains(&runs->starts[i], &runs->scene));
+        OZ_PASS(oz_place_grains(&runs->starts[i], &runs->scene));
         runs->count = i + 1;
         runs->members[i] = (OzMember){&runs->scene, &runs->starts[i]};
         if (job->row->phases) {
@@ -107,8 +106,7 @@ static OzStatus place(OzReportRuns *runs, const OzReportJob *job)
             job->pieces->start(&runs->scene, &runs->starts[i], i);
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_report_runs_open(OzReportRuns **out, const OzReportJob *job, const OzReportPoint *point)

@@ -77,17 +77,14 @@ done:
 
 static OzStatus load(OzReportStart *start, const char *path, const OzOptions *options)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_scene_load(&start->scene, path, options->settings, options->setting_count));
+    OZ_PASS(oz_scene_load(&start->scene, path, options->settings, options->setting_count));
     if (start->scene.sweep.key) {
-        OZ_TRY(oz_status_fail(OZ_ERR_INPUT, "%s: a sweep over %s; expected a scene without one",
-                              path, start->scene.sweep.key));
+        return oz_status_fail(OZ_ERR_INPUT, "%s: a sweep over %s; expected a scene without one",
+                              path, start->scene.sweep.key);
     }
     start->is_flat = start->scene.model == OZ_MODEL_TRIGRAINS;
-    OZ_TRY(oz_place_grains(&start->grains, &start->scene));
-    OZ_TRY(find_cycle(start));
-done:
-    return status;
+    OZ_PASS(oz_place_grains(&start->grains, &start->scene));
+    return find_cycle(start);
 }
 
 static void copy(double *to, const double *from, int64_t count)
@@ -137,7 +134,6 @@ static bool has_movable_clock(const OzScene *scene)
 /* Runs the scene until grains touch. */
 static OzStatus warm(OzReportStart *start, OzSim *sim, OzSnapshot *now, double deadline)
 {
-    OzStatus status = OZ_OK;
     const OzScene *scene = &start->scene;
     double piece = scene->duration / 2 / WARM_PIECES, time = 0;
     if (scene->period > 0) {
@@ -147,14 +143,13 @@ static OzStatus warm(OzReportStart *start, OzSim *sim, OzSnapshot *now, double d
     while (touches_of(start, now) * 2 < now->count && time + piece <= scene->duration / 2 &&
            oz_clock_now() < deadline) {
         time += piece;
-        OZ_TRY(oz_sim_advance(sim, llround(time / scene->step)));
-        OZ_TRY(oz_capture_snapshot(sim, 0, now, true));
+        OZ_PASS(oz_sim_advance(sim, llround(time / scene->step)));
+        OZ_PASS(oz_capture_snapshot(sim, 0, now, true));
     }
     if (time > 0) {
         snprintf(start->how, sizeof start->how, "the bed as it is after %.3g s", time);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus settle(OzReportStart *start, OzSim *sim, OzSnapshot *now, double deadline)
@@ -179,17 +174,15 @@ done:
 /* Wall time of a step, in launches. */
 static OzStatus time_steps(OzReportStart *start, OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     int64_t made = 0;
-    OZ_TRY(oz_sim_advance(sim, oz_sim_step(sim) + 1)); /* the driver makes itself ready */
+    OZ_PASS(oz_sim_advance(sim, oz_sim_step(sim) + 1)); /* the driver makes itself ready */
     double begin = oz_clock_now();
     while (made == 0 || oz_clock_now() - begin < timing) {
-        OZ_TRY(oz_sim_advance(sim, oz_sim_step(sim) + TIMED_STEPS));
+        OZ_PASS(oz_sim_advance(sim, oz_sim_step(sim) + TIMED_STEPS));
         made += TIMED_STEPS;
     }
     start->step_seconds = (oz_clock_now() - begin) / (double)made;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Lets the bed come to its start. A guard that stops the scene as written ends this as
@@ -219,13 +212,11 @@ done:
 
 static OzStatus measure_stiffness(OzReportStart *start, const OzSnapshot *now)
 {
-    OzStatus status = OZ_OK;
     if (oz_stiffness_applies(&start->scene) && start->touches) {
-        OZ_TRY(oz_stiffness_measure(&start->stiffness, now));
+        OZ_PASS(oz_stiffness_measure(&start->stiffness, now));
         start->has_stiffness = start->stiffness.contacts > 0;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_report_start_find(OzReportStart *start, const char *path, const OzOptions *options,
@@ -275,34 +266,29 @@ static OzStatus limit_pairs(double *largest, const OzScene *scene, const OzGrain
 OzStatus oz_report_start_limit(double *largest, const OzReportStart *start, OzIntegrator integrator,
                                int64_t substeps)
 {
-    OzStatus status = OZ_OK;
     OzScene scene = start->scene; /* shallow: never freed */
     OzBeamLimit limit;
     scene.integrator = integrator;
     scene.beams.substeps = substeps;
     *largest = INFINITY;
     if (start->is_flat) {
-        OZ_TRY(oz_beam_limits_find(&limit, &scene, &start->grains));
+        OZ_PASS(oz_beam_limits_find(&limit, &scene, &start->grains));
         *largest = limit.largest_step;
-        goto done;
+        return OZ_OK;
     }
-    OZ_TRY(limit_pairs(largest, &scene, &start->grains));
+    OZ_PASS(limit_pairs(largest, &scene, &start->grains));
     if (start->has_stiffness) {
         *largest = fmin(*largest, oz_predict_largest_step(integrator, start->stiffness.stiffness,
                                                           start->stiffness.damping));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_report_start_say(FILE *file, const OzReportStart *start)
 {
     double largest;
-    OzStatus status = oz_report_start_limit(&largest, start, start->scene.integrator,
-                                            start->scene.beams.substeps);
-    if (status != OZ_OK) {
-        return status;
-    }
+    OZ_PASS(oz_report_start_limit(&largest, start, start->scene.integrator,
+                                  start->scene.beams.substeps));
     fprintf(file, "stability: as written, the largest stable step is %.4g s, %.3g times the step; ",
             largest, largest / start->scene.step);
     if (start->has_stiffness) {
