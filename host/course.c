@@ -144,8 +144,7 @@ static void show_progress(const OzCourse *course)
     char left[48];
     oz_clock_words(rate > 0 ? (last - step) / rate : 0, left, sizeof left);
     oz_log_progress("%.1f %%: %.4g s simulated, %.0f steps/s, %s left",
-                    last > 0 ? 100 * step / last : 100, step * course->schedule.scene->step, rate,
-                    left);
+                    last > 0 ? 100 * step / last : 100, oz_sim_time(course->sim), rate, left);
 }
 
 static OzStatus launch(OzCourse *course, int64_t step, double *shown)
@@ -158,8 +157,7 @@ static OzStatus launch(OzCourse *course, int64_t step, double *shown)
     }
     if (status == OZ_OK && must_end(course)) {
         status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at step %lld, time %.9g s",
-                                (long long)oz_sim_step(course->sim),
-                                (double)oz_sim_step(course->sim) * course->schedule.scene->step);
+                                (long long)oz_sim_step(course->sim), oz_sim_time(course->sim));
     }
     return status;
 }

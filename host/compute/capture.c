@@ -7,7 +7,7 @@ OzStatus oz_capture_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool 
 {
     OzStatus status = OZ_OK;
     snapshot->step = sim->crew.reached[member];
-    snapshot->time = (double)snapshot->step * sim->crew.members[member].scene->step;
+    snapshot->time = oz_crew_time(&sim->crew, member, snapshot->step);
     snapshot->deep_count = sim->crew.deep_count[member];
     snapshot->has_contacts = false;
     snapshot->has_ledger = false;

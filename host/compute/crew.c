@@ -12,17 +12,26 @@ static const double launch_seconds = 0.04;
 
 enum { FIRST_LAUNCH = 16 };
 
+static void begin_clocks(OzCrew *crew)
+{
+    for (int m = 0; m < crew->member_count; m++) {
+        crew->clock[m] = oz_step_clock_begin(crew->members[m].scene->step);
+    }
+}
+
 OzStatus oz_crew_create(OzCrew *crew, const OzMember *members, int member_count)
 {
     OzStatus status = OZ_OK;
     *crew = (OzCrew){.member_count = member_count, .launch_steps = FIRST_LAUNCH};
     OZ_TRY(OZ_NEW(&crew->members, member_count));
     OZ_TRY(OZ_NEW(&crew->reached, member_count));
+    OZ_TRY(OZ_NEW(&crew->clock, member_count));
     OZ_TRY(OZ_NEW(&crew->waits, member_count));
     OZ_TRY(OZ_NEW(&crew->stopped, member_count));
     OZ_TRY(OZ_NEW(&crew->deep_count, member_count));
     OZ_TRY(OZ_NEW(&crew->deep_told, member_count));
     memcpy(crew->members, members, (size_t)member_count * sizeof *members);
+    begin_clocks(crew);
 done:
     return status;
 }
@@ -34,6 +43,7 @@ void oz_crew_free(OzCrew *crew)
     }
     free(crew->members);
     free(crew->reached);
+    free(crew->clock);
     free(crew->waits);
     free(crew->stopped);
     free(crew->deep_count);
@@ -106,9 +116,15 @@ OzStatus oz_crew_end_launch(OzCrew *crew, int steps, int most)
     return oz_crew_check(crew);
 }
 
+double oz_crew_time(const OzCrew *crew, int member, int64_t step)
+{
+    return oz_step_clock_time(&crew->clock[member], step);
+}
+
 void oz_crew_start_clock(OzCrew *crew)
 {
     crew->step = 0;
+    begin_clocks(crew);
     memset(crew->reached, 0, (size_t)crew->member_count * sizeof *crew->reached);
     memset(crew->deep_count, 0, (size_t)crew->member_count * sizeof *crew->deep_count);
     memset(crew->deep_told, 0, (size_t)crew->member_count * sizeof *crew->deep_told);

@@ -4,6 +4,7 @@
 #define OZ_COMPUTE_CREW_H
 
 #include "compute/sim.h"
+#include "model/step_clock.h"
 
 #include <stdbool.h>
 
@@ -12,6 +13,7 @@ typedef struct OzCrew {
     int member_count;
     int64_t step;        /* made since time 0 (or since settling began) by those that go on */
     int64_t *reached;    /* one a member: steps that it has made itself                     */
+    OzStepClock *clock;  /* one a member: alike in all that go on                           */
     bool *waits;         /* one a member: makes no steps for now (settled before others)    */
     char **stopped;      /* one a member: what a guard said; NULL while it goes on          */
     int64_t *deep_count; /* one a member: deep contacts, each counted once a step        */
@@ -32,8 +34,8 @@ bool oz_crew_goes_on(const OzCrew *crew, int member);
 /* Fails with OZ_ERR_BLOWUP, saying what the last member's guard said, once all are stopped. */
 OzStatus oz_crew_check(const OzCrew *crew);
 
-/* For a launch that has nothing to move: every member's clock goes on to the step, or stays where it is
- * beyond it. */
+/* For a launch that has nothing to move: every member's clock goes on to the step, or stays where
+ * it is beyond it. */
 void oz_crew_skip(OzCrew *crew, int64_t step);
 
 /* oz_crew_launch_steps: how many steps the next launch towards the given step shall make.
@@ -43,8 +45,8 @@ int oz_crew_launch_steps(const OzCrew *crew, int64_t step);
 void oz_crew_note_launch(OzCrew *crew, int made, double seconds, int most_steps);
 
 /* To be called after a launch, for each member that took part in it. oz_crew_count adds the steps
- * that this member made (own); *most becomes own where that is more. oz_crew_stop notes that a guard
- * stopped the member, and keeps a copy of oz_status_text() as what the guard said. */
+ * that this member made (own); *most becomes own where that is more. oz_crew_stop notes that a
+ * guard stopped the member, and keeps a copy of oz_status_text() as what the guard said. */
 void oz_crew_count(OzCrew *crew, int member, int own, int *most);
 OzStatus oz_crew_stop(OzCrew *crew, int member);
 
@@ -52,6 +54,9 @@ OzStatus oz_crew_stop(OzCrew *crew, int member);
  * stopped now, it goes on by `most` instead (what the member that came farthest made), and the call
  * fails as oz_crew_check does. */
 OzStatus oz_crew_end_launch(OzCrew *crew, int steps, int most);
+
+/* Time of a step of a member's present stretch, s. */
+double oz_crew_time(const OzCrew *crew, int member, int64_t step);
 
 /* Time 0: no steps made, nothing counted or said, walls free to move. Members that wait or are
  * stopped stay so. */

@@ -17,8 +17,7 @@ void oz_deep_say(const OzScene *scene, const OzDeepFound *found, bool settling)
                 "time %.9g s: deeper than guards.overlap.warn; such contacts are counted in "
                 "deep_count",
                 scene->path, scene->seed, found->grain, body, found->depth, unit,
-                (long long)found->step, settling ? " of settling" : "",
-                (double)found->step * scene->step);
+                (long long)found->step, settling ? " of settling" : "", found->time);
 }
 
 void oz_deep_note(OzCrew *crew, int member, const OzDeepFound *found)

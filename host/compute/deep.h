@@ -9,6 +9,7 @@
 typedef struct OzDeepFound {
     int64_t count; /* deep contacts, each counted once a step; 0: none, and the rest is unset   */
     int64_t step;  /* that the first one was met in, counted from 1 as a member's steps are     */
+    double time;   /* s, of that step                                                           */
     int grain;     /* the lowest id in that step, a pair's first grain                          */
     double depth;  /* the greatest in that step: over the smaller radius; trigrains: a share    */
     bool at_wall;  /* rods: it was at a wall                                                    */

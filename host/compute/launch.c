@@ -137,6 +137,7 @@ static void note_deep(OzSim *sim, int member)
     OzDeepFound found = {.count = control->deep_count};
     if (found.count > 0) {
         found.step = sim->crew.reached[member] + control->deep_step + 1;
+        found.time = oz_crew_time(&sim->crew, member, found.step);
         found.grain = sim->model->grain_of(sim->crew.members[member].grains, control->deep_index);
         found.depth = control->deep_depth * (at_wall ? 0.5 : 1) / OZ_DEEP_SHARE;
         found.at_wall = at_wall;

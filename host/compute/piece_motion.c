@@ -13,14 +13,14 @@
 static OzWallPose pose_at(const OzSim *sim, int member, int wall, int64_t step)
 {
     const OzScene *scene = sim->crew.members[member].scene;
-    return oz_wall_motion_pose(&scene->walls[wall], (double)step * scene->step,
+    return oz_wall_motion_pose(&scene->walls[wall], oz_crew_time(&sim->crew, member, step),
                                sim->crew.walls_still);
 }
 
 static bool is_there(const OzSim *sim, int member, int wall, int64_t step)
 {
     const OzScene *scene = sim->crew.members[member].scene;
-    return oz_wall_motion_present(&scene->walls[wall], (double)step * scene->step,
+    return oz_wall_motion_present(&scene->walls[wall], oz_crew_time(&sim->crew, member, step),
                                   sim->crew.walls_still);
 }
 

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "compute/piece_forces.h"
 #include "kernels/gear.h"
+#include "model/step_clock.h"
 #include "model/wall_motion.h"
 
 #include <stdlib.h>
@@ -18,6 +19,7 @@ struct OzPieceReference {
     const OzPieces *pieces;
     OzPieceForces forces;
     int64_t step;
+    OzStepClock clock;
     int64_t count;        /* coordinates: 3 x free_count                       */
     bool primed;          /* acceleration, power and gear hold for this step   */
     bool at_rest;         /* walls                                             */
@@ -82,7 +84,7 @@ static void note_power(Reference *r, double dt)
 
 static double time_of(const Reference *r)
 {
-    return (double)r->step * r->scene->step;
+    return oz_step_clock_time(&r->clock, r->step);
 }
 
 /* to = from + s way, coordinate by coordinate. */
@@ -230,7 +232,7 @@ static OzStatus derive(Reference *r, double time, double *second, double *third,
 {
     OzStatus status = OZ_OK;
     int64_t n = r->count;
-    double h = r->scene->step, *a = NULL;
+    double h = r->clock.dt, *a = NULL;
     OZ_TRY(OZ_NEW(&a, 5 * n));
     OZ_TRY(look_around(r, time, h, a));
     for (int64_t k = 0; k < n; k++) {
@@ -253,7 +255,7 @@ static OzStatus prime_gear(Reference *r)
     OZ_TRY(derive(r, time_of(r), derived, derived + n, derived + 2 * n));
     for (int64_t k = 0; k < n; k++) {
         r->gear[k] = oz_gear_start(r->place[k], r->rate[k], derived[k], derived[n + k],
-                                   derived[2 * n + k], r->scene->step);
+                                   derived[2 * n + k], r->clock.dt);
     }
 done:
     free(derived);
@@ -296,7 +298,7 @@ done:
 OzStatus oz_piece_reference_advance(OzPieceReference *reference, int64_t step)
 {
     OzStatus status = OZ_OK;
-    double dt = reference->scene->step;
+    double dt = reference->clock.dt;
     if (!reference->primed && step > 0) {
         OZ_TRY(prime(reference));
     }
@@ -372,6 +374,7 @@ OzStatus oz_piece_reference_create(OzPieceReference **reference, const OzScene *
     OZ_TRY(OZ_NEW(&r, 1));
     r->scene = scene;
     r->grains = grains;
+    r->clock = oz_step_clock_begin(scene->step);
     r->pieces = pieces;
     r->count = 3 * pieces->free_count;
     OZ_TRY(oz_piece_forces_create(&r->forces, scene, grains));

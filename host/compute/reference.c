@@ -81,7 +81,7 @@ done:
 
 static void move_before(OzReference *r, double dt)
 {
-    double force_time = (double)r->step * r->scene->step + (dialect.moves_before ? dt : 0);
+    double force_time = oz_step_clock_time(&r->clock, r->step) + (dialect.moves_before ? dt : 0);
     for (int i = 0; i < r->count; i++) {
         OzBody *body = &r->body[i];
         oz_integrate_before(body, r->shape[i], dt, 1);
@@ -180,7 +180,7 @@ static void note_wall(OzReference *r, int i, int wall, double dt)
 {
     const OzMotion *motion = &r->scene->walls[r->physics.wall_order[wall]].motion;
     double offset, speed;
-    oz_constants_motion(motion, (double)r->step * r->scene->step + dt, &offset, &speed);
+    oz_constants_motion(motion, oz_step_clock_time(&r->clock, r->step) + dt, &offset, &speed);
     for (int end = 0; end < r->physics.ends; end++) {
         const OzWallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
         if (f->contact.touching) {
@@ -248,7 +248,7 @@ static void copy_state(const OzReference *r, OzSnapshot *s)
         oz_dialect_store3(q + 1, oz_vec3(b->turn.x, b->turn.y, b->turn.z));
     }
     s->step = r->step;
-    s->time = (double)r->step * r->scene->step;
+    s->time = oz_step_clock_time(&r->clock, r->step);
     oz_snapshot_move_walls(s);
 }
 
@@ -315,6 +315,7 @@ OzStatus oz_reference_create(OzReference **reference, const OzScene *scene, cons
     dialect = r->physics.switches;
     r->scene = scene;
     r->grains = grains;
+    r->clock = oz_step_clock_begin(scene->step);
     r->count = (int)grains->count;
     r->wall_ends = r->physics.wall_count * r->physics.ends;
     OZ_TRY(create_arrays(r));

@@ -14,7 +14,7 @@ typedef struct DeepContact {
 static OzStatus blowup(const OzReference *r, int grain, const char *what)
 {
     return oz_status_fail(OZ_ERR_BLOWUP, "grain %d %s in step %lld (time %g s)", grain, what,
-                          (long long)r->step, (double)r->step * r->scene->step);
+                          (long long)r->step, oz_step_clock_time(&r->clock, r->step));
 }
 
 /* As kernels/deep.h: counts a deep contact, *what receives what is wrong with one that stops. at:
@@ -23,7 +23,12 @@ static void judge(OzReference *r, DeepContact at, int grain, int other, char wha
 {
     const OzParameters *p = &r->physics.parameters;
     bool far = other < 0 && !(at.overlap <= 2 * at.reach);
-    OzDeepFound found = {1, r->step + 1, grain, at.overlap / r->shape[grain].radius, other < 0};
+    OzDeepFound found = {.count = 1,
+                         .step = r->step + 1,
+                         .time = oz_step_clock_time(&r->clock, r->step + 1),
+                         .grain = grain,
+                         .depth = at.overlap / r->shape[grain].radius,
+                         .at_wall = other < 0};
     char body[32] = "a wall";
     if (other >= 0) {
         snprintf(body, sizeof body, "grain %d", other);

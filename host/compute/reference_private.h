@@ -7,6 +7,7 @@
 #include "compute/ledger.h"
 #include "compute/near.h"
 #include "compute/reference.h"
+#include "model/step_clock.h"
 
 /* What one end of a grain and a wall did in the last step. */
 typedef struct OzWallForce {
@@ -20,6 +21,7 @@ struct OzReference {
     const OzGrains *grains;
     OzPhysics physics;
     int64_t step;
+    OzStepClock clock;
     bool primed; /* the forces of step 0 are known (velocity-verlet) */
     int count;
     int wall_ends; /* of a grain, over all walls */

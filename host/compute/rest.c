@@ -91,14 +91,14 @@ static OzStatus run_for(const OzRest *rest, double time, bool judging, OzSettleW
     const OzScene *scene = crew->members[0].scene;
     double worst = 0;
     int going = crew->member_count;
-    int64_t last = crew->step + (int64_t)ceil(time / scene->step - 1e-9);
+    int64_t last = crew->step + (int64_t)ceil(time / crew->clock[0].dt - 1e-9);
     while (crew->step < last && going > 0) {
         int64_t next = crew->step + rest->judge_steps;
         OZ_TRY(advance(rest, next < last ? next : last));
         if (judging) {
             OZ_TRY(judge(rest, &worst, &going));
         }
-        if (watch && !watch(context, (double)crew->step * scene->step, worst)) {
+        if (watch && !watch(context, oz_crew_time(crew, 0, crew->step), worst)) {
             status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while settling");
             goto done;
         }
@@ -127,7 +127,7 @@ OzStatus oz_rest_run(const OzRest *rest, double *seconds, OzSettleWatch watch, v
     OZ_TRY(rest->set_drag(rest->sim, 0));
     memset(crew->waits, 0, (size_t)crew->member_count * sizeof *crew->waits);
     OZ_TRY(run_for(rest, scene->settle.rest_time, false, watch, context));
-    *seconds = (double)crew->step * scene->step;
+    *seconds = oz_crew_time(crew, 0, crew->step);
     oz_crew_start_clock(crew);
     OZ_TRY(rest->start_ledger(rest->sim));
 done:

@@ -185,7 +185,7 @@ OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
     double *motion = NULL;
     OZ_TRY(OZ_NEW(&motion, count));
     for (int k = 0; k < (sim->crew.walls_still ? 0 : steps + 1); k++) {
-        double time = (double)(p->dt > 0 ? first + k : first) * scene->step;
+        double time = oz_crew_time(&sim->crew, member, p->dt > 0 ? first + k : first);
         for (int w = 0; w < walls; w++) {
             double *words = motion + OZ_MOTION * ((size_t)k * (size_t)walls + (size_t)w);
             put_motion(words, &scene->walls[oz_rods_own(sim)->wall_order[w]].motion, time, p);

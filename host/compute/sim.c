@@ -178,6 +178,21 @@ int64_t oz_sim_step(const OzSim *sim)
     return sim->crew.step;
 }
 
+/* Members that go on have one clock; of the others each has its last. */
+const OzStepClock *oz_sim_clock(const OzSim *sim)
+{
+    int m = 0;
+    while (m < sim->crew.member_count - 1 && sim->crew.stopped[m]) {
+        m++;
+    }
+    return &sim->crew.clock[m];
+}
+
+double oz_sim_time(const OzSim *sim)
+{
+    return oz_step_clock_time(oz_sim_clock(sim), sim->crew.step);
+}
+
 const char *oz_sim_stopped(const OzSim *sim, int member)
 {
     return sim->crew.stopped[member];

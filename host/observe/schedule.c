@@ -33,9 +33,9 @@ static double phase_of(const OzScene *scene)
 
 OzSchedule oz_schedule_create(const OzScene *scene, double until)
 {
-    OzSchedule s = {.scene = scene};
+    OzSchedule s = {.scene = scene, .clock = oz_step_clock_begin(scene->step)};
     double duration = until >= 0 && until < scene->duration ? until : scene->duration;
-    s.last_step = llround(duration / scene->step);
+    s.last_step = oz_step_clock_nearest(&s.clock, duration);
     s.row = scene->observe.interval;
     s.phase = phase_of(scene);
     s.sample = s.phase > 0         ? scene->period
@@ -49,7 +49,8 @@ OzSchedule oz_schedule_create(const OzScene *scene, double until)
 /* Event `index` of a kind, the first at time `from`. */
 static int64_t step_from(const OzSchedule *s, double from, double interval, int64_t index)
 {
-    return interval > 0 ? llround((from + (double)index * interval) / s->scene->step) : INT64_MAX;
+    return interval > 0 ? oz_step_clock_nearest(&s->clock, from + (double)index * interval)
+                        : INT64_MAX;
 }
 
 static int64_t step_of(const OzSchedule *s, double interval, int64_t index)
@@ -88,8 +89,9 @@ static bool pass(const OzSchedule *s, double interval, int64_t *count, int64_t s
 static int64_t snapshot_step(const OzSchedule *s)
 {
     const OzSnapshotSettings *shots = &s->scene->snapshots;
-    return s->snapshots < shots->count ? llround(shots->times[s->snapshots] / s->scene->step)
-                                       : INT64_MAX;
+    return s->snapshots < shots->count
+               ? oz_step_clock_nearest(&s->clock, shots->times[s->snapshots])
+               : INT64_MAX;
 }
 
 /* Counts rows and samples that are due by a step, likewise. */
@@ -140,9 +142,10 @@ bool oz_schedule_missed(const OzSchedule *s, char *text, size_t size)
     enum { NAMED = 8 };
     const OzSnapshotSettings *shots = &s->scene->snapshots;
     bool taps = shots->tap_count > 0;
-    double end = (double)s->last_step * s->scene->step / (taps ? s->scene->period : 1);
+    double end = oz_step_clock_time(&s->clock, s->last_step) / (taps ? s->scene->period : 1);
     int first = 0, named = 0;
-    while (first < shots->count && llround(shots->times[first] / s->scene->step) <= s->last_step) {
+    while (first < shots->count &&
+           oz_step_clock_nearest(&s->clock, shots->times[first]) <= s->last_step) {
         first++;
     }
     int missed = shots->count - first;

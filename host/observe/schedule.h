@@ -1,8 +1,9 @@
-/* When a run is looked at. Events are whole step numbers (event k of a kind lies at step round(k T
- * / dt)), so that a frame rate never changes the physics. */
+/* When a run is looked at. Events are whole step numbers (event k of a kind lies at the step
+ * nearest to k T), so that a frame rate never changes the physics. */
 #ifndef OZ_OBSERVE_SCHEDULE_H
 #define OZ_OBSERVE_SCHEDULE_H
 
+#include "model/step_clock.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -19,6 +20,7 @@ enum {
 
 typedef struct OzSchedule {
     const OzScene *scene; /* borrowed */
+    OzStepClock clock;    /* of the simulation */
     int64_t last_step;
     double row, sample, frame, strobe; /* s between events; 0: there are none */
     double phase; /* s after whole periods: rows and samples at observe.at; 0: at whole ones too */

@@ -156,7 +156,7 @@ static OzStatus shake(void *context)
     OZ_TRY(oz_settle_run(sim, &seconds, NULL, NULL));
     for (int k = 0; k < s->takes; k++) {
         double time = bed->scene.period * (s->first_tap + k);
-        OZ_TRY(oz_sim_advance(sim, (int64_t)llround(time / bed->scene.step)));
+        OZ_TRY(oz_sim_advance(sim, oz_step_clock_nearest(oz_sim_clock(sim), time)));
         OZ_TRY(oz_capture_snapshot(sim, 0, &now, false));
         put_state(s->states + (size_t)k * (size_t)now.count * OZ_BENCH_BED_WORDS, &now);
     }

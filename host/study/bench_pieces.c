@@ -98,8 +98,8 @@ static OzStatus measure(void *context)
     OZ_TRY(oz_device_open(&device, options->device, options->threads ? options->threads : 1));
     OZ_TRY(oz_sim_create(&job->sim, &device, &member, 1, options->source_dir));
     OZ_TRY(oz_settle_run(job->sim, &settled, NULL, NULL));
-    OZ_TRY(
-        advance(job->sim, llround(fmin(warm_time, member.scene->duration) / member.scene->step)));
+    OZ_TRY(advance(job->sim, oz_step_clock_nearest(oz_sim_clock(job->sim),
+                                                   fmin(warm_time, member.scene->duration))));
     OZ_TRY(time_steps(job, &device));
     OZ_TRY(count_touches(job));
     OZ_TRY(oz_piece_phases_measure(job->result->phase, job->sim, options->source_dir));

@@ -188,7 +188,7 @@ static double print_movie(FILE *file, const OzVerdict *v, const OzSchedule *sche
     if (!v->scene->movie.present) {
         return 0;
     }
-    double end = (double)schedule->last_step * v->scene->step;
+    double end = oz_step_clock_time(&schedule->clock, schedule->last_step);
     double count = floor(end / schedule->frame + 1e-9) + 1;
     fprintf(file, "  movie            %.0f pictures of %d x %d", count, v->scene->movie.width,
             v->scene->movie.height);

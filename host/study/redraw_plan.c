@@ -159,7 +159,7 @@ static void choose_snapshots(OzRedrawPlan *plan, const OzScene *run, OzScene *as
     }
     for (int i = 0; i < b->count; i++) {
         double wanted = b->times[i];
-        if (llround(wanted / asked->step) > schedule.last_step) {
+        if (oz_step_clock_nearest(&schedule.clock, wanted) > schedule.last_step) {
             break;
         }
         double off = take_snapshot(plan, asked, i);

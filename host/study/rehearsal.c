@@ -44,7 +44,8 @@ static OzStatus settle(OzRehearsal *r, OzSim *sim, const OzScene *scene, double 
  * which may take longer than the whole stretch. */
 static OzStatus make_steps(OzRehearsal *r, OzSim *sim, const OzScene *scene, double stretch)
 {
-    int64_t first = oz_sim_step(sim), last = first + llround(scene->duration / scene->step);
+    int64_t first = oz_sim_step(sim);
+    int64_t last = first + oz_step_clock_nearest(oz_sim_clock(sim), scene->duration);
     double start = oz_clock_now();
     for (int launches = 0; oz_sim_step(sim) < last && (launches < 2 || r->spent < stretch);
          launches++) {

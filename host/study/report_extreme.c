@@ -52,7 +52,7 @@ static OzStatus run_case(double *value, const OzExtremeCase *row, const OzDevice
     OZ_TRY(oz_place_grains(&grains, scene));
     OZ_TRY(row->forced ? OZ_OK : oz_report_refuse_unstable(scene, &grains));
     OZ_TRY(oz_sim_create(&sim, device, &member, 1, source_dir));
-    OZ_TRY(oz_sim_advance(sim, llround(scene->duration / scene->step)));
+    OZ_TRY(oz_sim_advance(sim, oz_step_clock_nearest(oz_sim_clock(sim), scene->duration)));
     OZ_TRY(oz_snapshot_create(&end, scene, &grains));
     OZ_TRY(oz_capture_snapshot(sim, 0, &end, true));
     *value = row->value ? row->value(&end) : NAN;

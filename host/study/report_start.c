@@ -143,7 +143,7 @@ static OzStatus warm(OzReportStart *start, OzSim *sim, OzSnapshot *now, double d
     while (touches_of(start, now) * 2 < now->count && time + piece <= scene->duration / 2 &&
            oz_clock_now() < deadline) {
         time += piece;
-        OZ_PASS(oz_sim_advance(sim, llround(time / scene->step)));
+        OZ_PASS(oz_sim_advance(sim, oz_step_clock_nearest(oz_sim_clock(sim), time)));
         OZ_PASS(oz_capture_snapshot(sim, 0, now, true));
     }
     if (time > 0) {

@@ -1,0 +1,39 @@
+/* Steps and times of one stretch. */
+#include "model/step_clock.h"
+
+#include <math.h>
+
+OzStepClock oz_step_clock_begin(double dt)
+{
+    return (OzStepClock){.dt = dt};
+}
+
+double oz_step_clock_time(const OzStepClock *clock, int64_t step)
+{
+    return clock->start + (double)(step - clock->first) * clock->dt;
+}
+
+int64_t oz_step_clock_nearest(const OzStepClock *clock, double time)
+{
+    return clock->first + llround((time - clock->start) / clock->dt);
+}
+
+/* The quotient may be rounded across a whole number; times of steps decide. */
+int64_t oz_step_clock_after(const OzStepClock *clock, double time)
+{
+    int64_t step = clock->first + (int64_t)ceil((time - clock->start) / clock->dt);
+    while (oz_step_clock_time(clock, step) < time) {
+        step++;
+    }
+    while (oz_step_clock_time(clock, step - 1) >= time) {
+        step--;
+    }
+    return step;
+}
+
+void oz_step_clock_change(OzStepClock *clock, int64_t step, double dt)
+{
+    if (dt != clock->dt) {
+        *clock = (OzStepClock){step, oz_step_clock_time(clock, step), dt};
+    }
+}
