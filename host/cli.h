@@ -1,6 +1,5 @@
 /* The command line: sub-commands and options as values. */
-#ifndef OZ_CLI_H
-#define OZ_CLI_H
+#pragma once
 
 #include "base/status.h"
 #include "draw/renderer.h"
@@ -39,5 +38,3 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv);
 
 /* The text of --help: of one command, or of all, with the exit statuses, when it is NULL. */
 void oz_cli_help(const char *command);
-
-#endif

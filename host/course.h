@@ -1,8 +1,7 @@
 /* Members of a run that share a simulation, on their way from the start to the last step. A run has
  * several courses at once, each with its own queue of the device and in its own thread, so that one
  * computes while another's state is looked at. */
-#ifndef OZ_COURSE_H
-#define OZ_COURSE_H
+#pragma once
 
 #include "base/stage.h"
 #include "compute/sim.h"
@@ -39,5 +38,3 @@ OzStatus oz_course_run(OzCourse *courses, int count);
 
 /* Frees the simulation. */
 void oz_course_close(OzCourse *course);
-
-#endif

@@ -1,8 +1,7 @@
 /* The tables of an ensemble: members.csv with one row a member, ensemble.csv with mean, spread and
  * 95 % interval of every column of series.csv over the members of each combination of the sweep; of
  * a drum swept over its speed also inclination_fit.csv (observe/inclination_fit.h). */
-#ifndef OZ_ENSEMBLE_H
-#define OZ_ENSEMBLE_H
+#pragma once
 
 #include "base/status.h"
 
@@ -30,5 +29,3 @@ OzStatus oz_ensemble_add(OzEnsemble *ensemble, const OzEnsembleRow *row);
 
 /* Puts members.csv and ensemble.csv in place, says and writes the fit, and frees; NULL is fine. */
 OzStatus oz_ensemble_finish(OzEnsemble *ensemble);
-
-#endif

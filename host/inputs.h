@@ -1,7 +1,6 @@
 /* The files that a command reads: its scene, what that extends, beds from files. A run must neither
  * remove nor overwrite them. */
-#ifndef OZ_INPUTS_H
-#define OZ_INPUTS_H
+#pragma once
 
 #include "base/folder.h"
 #include "scene/scene.h"
@@ -24,5 +23,3 @@ OzStatus oz_inputs_add(OzInputs *inputs, const char *path);
 OzStatus oz_inputs_check(const OzInputs *inputs, const char *folder, const OzFolderUse *use);
 
 void oz_inputs_free(OzInputs *inputs);
-
-#endif

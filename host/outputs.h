@@ -1,7 +1,6 @@
 /* What one member of a run leaves: its folder with scene, series, frames, pictures and last state.
  * Sees snapshots and no simulation. */
-#ifndef OZ_OUTPUTS_H
-#define OZ_OUTPUTS_H
+#pragma once
 
 #include "base/folder.h"
 #include "cli.h"
@@ -63,5 +62,3 @@ OzStatus oz_outputs_close(OzOutputs *outputs);
 
 /* Closes and frees everything; NULL is fine. */
 void oz_outputs_free(OzOutputs *outputs);
-
-#endif

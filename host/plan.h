@@ -1,8 +1,7 @@
 /* Which scenes a command asks for: the one that was written, or a member for each combination of
  * its sweep's values and each seed of --seeds. Combinations come in the order of the sweep, each
  * with all its seeds. */
-#ifndef OZ_PLAN_H
-#define OZ_PLAN_H
+#pragma once
 
 #include "cli.h"
 #include "inputs.h"
@@ -49,5 +48,3 @@ uint64_t oz_plan_seed(const OzPlan *plan, int64_t i);
 /* Its folder's name: every swept key and its value, and the seed, as in friction_0.2_seed_00003;
  * empty for a plain run. The caller frees. */
 OzStatus oz_plan_name(const OzPlan *plan, int64_t i, char **name);
-
-#endif

@@ -1,6 +1,5 @@
 /* How many members of an ensemble there is room for at a time. */
-#ifndef OZ_ROOM_H
-#define OZ_ROOM_H
+#pragma once
 
 #include "cli.h"
 #include "compute/sim.h"
@@ -9,5 +8,3 @@
  * least 1. Asks the system for as many open files as it gives. *bytes receives what one needs. */
 OzStatus oz_room_most(const OzOptions *options, const OzDevice *device, const OzMember *member,
                       int64_t *most, double *bytes);
-
-#endif

@@ -1,6 +1,5 @@
 /* The straight line of a run: scene in; movie, pictures and numbers out. */
-#ifndef OZ_RUN_H
-#define OZ_RUN_H
+#pragma once
 
 #include "base/status.h"
 #include "cli.h"
@@ -9,5 +8,3 @@
  * and members.csv and ensemble.csv say what came out; one that fails is named, and the others go on. On failure
  * or interruption the outputs so far are whole and movies are playable. */
 OzStatus oz_run_scene(const OzOptions *options);
-
-#endif

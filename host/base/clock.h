@@ -1,6 +1,5 @@
 /* Wall time for progress, benchmarks and reports. Never enters a simulation. */
-#ifndef OZ_BASE_CLOCK_H
-#define OZ_BASE_CLOCK_H
+#pragma once
 
 #include <stddef.h>
 
@@ -14,5 +13,3 @@ double oz_clock_processor(void);
 /* A duration as people say it, to two or three digits: "0.045 s", "38 s", "4 min 10 s", "2 h 13
  * min", "5 days 3 h"; cut to size. */
 void oz_clock_words(double seconds, char *text, size_t size);
-
-#endif

@@ -1,7 +1,6 @@
 /* The kernels and shaders that travel inside the program, or their sources on disk while editing
  * (--source-dir). */
-#ifndef OZ_BASE_EMBED_H
-#define OZ_BASE_EMBED_H
+#pragma once
 
 #include "base/status.h"
 
@@ -19,5 +18,3 @@ extern const OzEmbeddedFile oz_embed_files[];
 /* *text receives the file, zero-terminated; the caller frees it. source_dir NULL takes the embedded
  * copy, otherwise source_dir/name is read. Fails with OZ_ERR_FILE. */
 OzStatus oz_embed_read(char **text, const char *source_dir, const char *name);
-
-#endif

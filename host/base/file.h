@@ -1,6 +1,5 @@
 /* Whole files and folders. */
-#ifndef OZ_BASE_FILE_H
-#define OZ_BASE_FILE_H
+#pragma once
 
 #include "base/status.h"
 
@@ -26,5 +25,3 @@ bool oz_file_exists(const char *path);
 /* "folder/name" in a new text that the caller frees; name alone when it is absolute or folder is
  * NULL. */
 OzStatus oz_file_join(char **path, const char *folder, const char *name);
-
-#endif

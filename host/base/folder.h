@@ -5,8 +5,7 @@
  * While a command works in a folder it holds an exclusive lock (flock) on the marker, which the
  * system frees when the process dies. On a file system without locks that is said in the log, and
  * there is none. */
-#ifndef OZ_BASE_FOLDER_H
-#define OZ_BASE_FOLDER_H
+#pragma once
 
 #include "base/status.h"
 
@@ -54,5 +53,3 @@ bool oz_folder_names(const char *path, const char *name);
 
 /* Whether name matches one of the patterns. */
 bool oz_folder_writes(const OzFolderUse *use, const char *name);
-
-#endif

@@ -1,6 +1,5 @@
 /* Ctrl-C and friends as a question that a loop asks. */
-#ifndef OZ_BASE_INTERRUPT_H
-#define OZ_BASE_INTERRUPT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -14,5 +13,3 @@ void oz_interrupt_hold(void);
 
 /* Whether one has come since. */
 bool oz_interrupt_asked(void);
-
-#endif

@@ -2,8 +2,7 @@
  * process, whose lines may come from any thread. A stderr that takes no lines (closed, its reader
  * gone) loses them and nothing else; a log.txt that takes none is said on stderr once and closed.
  */
-#ifndef OZ_BASE_LOG_H
-#define OZ_BASE_LOG_H
+#pragma once
 
 #include "base/status.h"
 
@@ -27,5 +26,3 @@ void oz_log_pace(double seconds);
 /* Lines go to this file too, from now on, and first those that came before any such file; NULL path
  * closes it. */
 OzStatus oz_log_open(const char *path);
-
-#endif

@@ -2,8 +2,7 @@
  * OZ_MARKER_HEAD, its second "pid N" of the process that wrote it last. Every further line names
  * what orzo has written there, relative to the folder; a folder with a marker of its own has a
  * slash at its end. */
-#ifndef OZ_BASE_MARKER_H
-#define OZ_BASE_MARKER_H
+#pragma once
 
 #include "base/status.h"
 
@@ -34,5 +33,3 @@ bool oz_marker_has(const OzMarker *marker, const char *name);
 /* Removes what the folder's marker names, and in named folders what their own markers name; a
  * folder stays when something else is in it. Follows no link. The folder's own marker stays. */
 OzStatus oz_marker_clean(const char *folder);
-
-#endif

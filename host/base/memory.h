@@ -1,7 +1,6 @@
 /* Checked memory: sizes are multiplied with overflow checks, memory comes zeroed, and running out
  * is a status with a text rather than a crash. */
-#ifndef OZ_BASE_MEMORY_H
-#define OZ_BASE_MEMORY_H
+#pragma once
 
 #include "base/status.h"
 
@@ -24,5 +23,3 @@ double oz_memory_most(void);
 
 #define OZ_NEW(pointer, count)                                                                     \
     oz_memory_new((void **)(pointer), (size_t)(count), sizeof **(pointer), #pointer)
-
-#endif

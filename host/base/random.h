@@ -1,8 +1,7 @@
 /* Counter-based random numbers: a value depends on (seed, stream, counter) alone, so that grain 17 of
  * population 2 is the same whatever else was drawn, on any number of threads.
  * SplitMix64 finaliser over a mixed counter (Steele, Lea & Flood 2014). */
-#ifndef OZ_BASE_RANDOM_H
-#define OZ_BASE_RANDOM_H
+#pragma once
 
 #include <stdint.h>
 
@@ -20,5 +19,3 @@ double oz_random_uniform(OzRandom *random, double low, double high);
 
 /* A unit vector, uniform on the sphere. */
 void oz_random_direction(OzRandom *random, double direction[3]);
-
-#endif

@@ -1,7 +1,6 @@
 /* A piece of work that may take long without coming back (a kernel build, a placement): a person is
  * told when it does, by a thread that lives as long as the stage. */
-#ifndef OZ_BASE_STAGE_H
-#define OZ_BASE_STAGE_H
+#pragma once
 
 #include <pthread.h>
 #include <stdbool.h>
@@ -29,5 +28,3 @@ void oz_stage_say(OzStage *stage, const char *format, ...) __attribute__((format
 
 /* Ends it: nothing is shown any more when this returns. */
 void oz_stage_end(OzStage *stage);
-
-#endif

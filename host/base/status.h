@@ -2,8 +2,7 @@
  * The innermost place that knows the facts writes the text once with oz_status_fail (what was
  * wanted, what happened, where, what to try); callers pass the status on unchanged. The text is
  * kept per thread, so several simulations may run in one process. */
-#ifndef OZ_BASE_STATUS_H
-#define OZ_BASE_STATUS_H
+#pragma once
 
 #include <stdio.h>
 
@@ -57,5 +56,3 @@ int oz_status_exit_code(OzStatus status);
         OzStatus later_ = (later);                                                                 \
         (status) = (status) == OZ_OK ? later_ : oz_status_fail((status), "%s", text_);             \
     } while (0)
-
-#endif

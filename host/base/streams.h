@@ -1,6 +1,5 @@
 /* The three standard streams: safe from the start of the program, judged at its end. */
-#ifndef OZ_BASE_STREAMS_H
-#define OZ_BASE_STREAMS_H
+#pragma once
 
 #include "base/status.h"
 
@@ -13,5 +12,3 @@ void oz_streams_open(void);
 /* Sends what was printed to stdout on its way. Fails with OZ_ERR_FILE when some of it did not
  * arrive (a full disk, a closed stream); a reader that has left, as `head` does, is no failure. */
 OzStatus oz_streams_flush(void);
-
-#endif

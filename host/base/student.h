@@ -1,9 +1,6 @@
 /* Student's t, for intervals of confidence from few values. */
-#ifndef OZ_BASE_STUDENT_H
-#define OZ_BASE_STUDENT_H
+#pragma once
 
 /* The t that |t| stays below with probability 0.95, for 1 or more degrees of freedom; infinity for
  * fewer. */
 double oz_student_limit(int degrees);
-
-#endif

@@ -1,7 +1,6 @@
 /* What a person is told to change after a contact was too deep: the step where it is to blame, else
  * how soft contacts are. */
-#ifndef OZ_COMPUTE_ADVICE_H
-#define OZ_COMPUTE_ADVICE_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -14,5 +13,3 @@
  * grains, or, where others touch the grain too, the heaviest grain's. The second is the weight of the
  * scene's heaviest grain let go on its lightest. Friction and dashpots are left out. */
 void oz_advice_write(char *text, size_t size, const OzSnapshot *now, int64_t grain);
-
-#endif

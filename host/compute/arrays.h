@@ -1,7 +1,6 @@
 /* The device's arrays, from a model's list of fields: allocation, growth, copies. Arrays hold one
  * stretch for each member of a launch. */
-#ifndef OZ_COMPUTE_ARRAYS_H
-#define OZ_COMPUTE_ARRAYS_H
+#pragma once
 
 #include "compute/model.h"
 
@@ -55,5 +54,3 @@ void oz_arrays_print(const OzModel *model, const void *switches, const void *siz
 
 /* Enlarges the capacities that control asks for, with room to spare. */
 void oz_arrays_grow(OzSizesHead *sizes, const OzControlHead *control, int lanes);
-
-#endif

@@ -1,7 +1,6 @@
 /* Buffers of a device, each with a stride a member: what the arrays of both models are made of. A
  * buffer of no bytes is NULL; kernels are given none, and nothing is written to it. */
-#ifndef OZ_COMPUTE_BUFFERS_H
-#define OZ_COMPUTE_BUFFERS_H
+#pragma once
 
 #include "compute/device.h"
 
@@ -28,5 +27,3 @@ OzStatus oz_buffers_restore(const OzDevice *device, const cl_mem *buffers, int c
 
 /* Makes the buffers a kernel's first arguments. */
 OzStatus oz_buffers_bind(const cl_mem *buffers, int count, cl_kernel kernel);
-
-#endif

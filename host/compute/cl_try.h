@@ -1,6 +1,5 @@
 /* OpenCL error codes as names, and the macro that turns a failing call into a status. */
-#ifndef OZ_COMPUTE_CL_TRY_H
-#define OZ_COMPUTE_CL_TRY_H
+#pragma once
 
 #include "base/status.h"
 
@@ -21,5 +20,3 @@ OzStatus oz_cl_try_fail(cl_int code, const char *call, const char *file, int lin
             goto done;                                                                             \
         }                                                                                          \
     } while (0)
-
-#endif

@@ -1,6 +1,5 @@
 /* Which scenes may be members of one simulation, and how many a device holds. */
-#ifndef OZ_COMPUTE_COMPANY_H
-#define OZ_COMPUTE_COMPANY_H
+#pragma once
 
 #include "compute/sim.h"
 
@@ -14,5 +13,3 @@ bool oz_company_fits(const OzDevice *device, const OzMember *a, const OzMember *
  * at least 1. *bytes receives what one needs. */
 OzStatus oz_company_most(const OzDevice *device, const OzMember *member, int64_t *most,
                          double *bytes);
-
-#endif

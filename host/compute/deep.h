@@ -1,7 +1,6 @@
 /* Deep contacts (scene key guards.overlap.warn): counted member by member, and the first one said
  * in the log. */
-#ifndef OZ_COMPUTE_DEEP_H
-#define OZ_COMPUTE_DEEP_H
+#pragma once
 
 #include "compute/crew.h"
 
@@ -20,5 +19,3 @@ void oz_deep_note(OzCrew *crew, int member, const OzDeepFound *found);
 
 /* That line, for a simulation without a crew. */
 void oz_deep_say(const OzScene *scene, const OzDeepFound *found, bool settling);
-
-#endif

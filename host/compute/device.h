@@ -1,7 +1,6 @@
 /* OpenCL devices: which there are, which one is taken and why not the others; chosen once at
  * start. */
-#ifndef OZ_COMPUTE_DEVICE_H
-#define OZ_COMPUTE_DEVICE_H
+#pragma once
 
 #include "base/status.h"
 
@@ -48,5 +47,3 @@ OzStatus oz_device_check_double(const OzDevice *device, bool is_needed);
 
 /* Every device, numbered, and why it would be refused. */
 OzStatus oz_device_list(FILE *file);
-
-#endif

@@ -2,8 +2,7 @@
  * a device are fields of one struct here. For .c files alone: each that includes this has a struct
  * of its own for each thread, to be set to the scene's switches before any of the physics is
  * called. */
-#ifndef OZ_COMPUTE_DIALECT_H
-#define OZ_COMPUTE_DIALECT_H
+#pragma once
 
 #include "compute/physics.h"
 
@@ -63,5 +62,3 @@ OZ_INLINE OzContactForce oz_dialect_touch_wall(const OzPhysics *physics, int w, 
     return oz_rods_wall(grain, end, at, oz_vec3(0, 0, speed), present,
                         physics->parameters.wall[w].law, history, dt, physics->share, contact, arm);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* What a guard of the kernels found, in words. */
-#ifndef OZ_COMPUTE_GUARD_H
-#define OZ_COMPUTE_GUARD_H
+#pragma once
 
 #include "compute/model.h"
 
@@ -10,5 +9,3 @@
  * after that step. */
 OzStatus oz_guard_fail(const OzModel *model, const OzControlHead *control, const OzSnapshot *now,
                        bool settling);
-
-#endif

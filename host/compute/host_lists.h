@@ -1,7 +1,6 @@
 /* Outer lists made by the host, for `broadphase: sort_axis`: the kernel stops when it needs one, the
  * host makes it and the kernel goes on. */
-#ifndef OZ_COMPUTE_HOST_LISTS_H
-#define OZ_COMPUTE_HOST_LISTS_H
+#pragma once
 
 #include "compute/sim.h"
 
@@ -9,5 +8,3 @@
  * device would list them. Tangential springs are kept, and a list that is too small grows. Fails
  * with OZ_ERR_DEVICE in a simulation whose kernels make the lists themselves. */
 OzStatus oz_host_lists_make(OzSim *sim);
-
-#endif

@@ -1,7 +1,6 @@
 /* The folder in which PoCL keeps the kernels that it has built. Where PoCL cannot write it, PoCL finds
  * no device at all or ends the process. */
-#ifndef OZ_COMPUTE_KERNEL_CACHE_H
-#define OZ_COMPUTE_KERNEL_CACHE_H
+#pragma once
 
 /* To be called before the first OpenCL call; later calls do nothing. Where PoCL's own choice
  * (POCL_CACHE_DIR, else XDG_CACHE_HOME, else HOME) cannot be written, a folder of this user's among
@@ -11,5 +10,3 @@ void oz_kernel_cache_choose(void);
 /* Why there is no place to write, for the message that no device was found; "" when there is one.
  */
 const char *oz_kernel_cache_trouble(void);
-
-#endif

@@ -1,6 +1,5 @@
 /* One launch of a simulation's kernels. */
-#ifndef OZ_COMPUTE_LAUNCH_H
-#define OZ_COMPUTE_LAUNCH_H
+#pragma once
 
 #include "compute/sim_private.h"
 
@@ -16,5 +15,3 @@ OzStatus oz_launch_enqueue(OzSim *sim, cl_kernel kernel, int last);
 /* Control words of all members to the device, and back. */
 OzStatus oz_launch_write_control(OzSim *sim);
 OzStatus oz_launch_read_control(OzSim *sim);
-
-#endif

@@ -1,7 +1,6 @@
 /* The energy ledger of the host reference: the work of contacts, added up step by step as in
  * kernels/ledger.h. */
-#ifndef OZ_COMPUTE_LEDGER_H
-#define OZ_COMPUTE_LEDGER_H
+#pragma once
 
 #include "compute/constants.h"
 
@@ -22,5 +21,3 @@ void oz_ledger_note_couple(OzWork *work, OzVec3 couple, OzVec3 turning, OzVec3 a
 
 /* Adds the work of a wall that moved along z with mean_speed while it pushed a grain with force. */
 void oz_ledger_push(OzWork *work, OzVec3 force, double mean_speed, double dt);
-
-#endif

@@ -1,7 +1,6 @@
 /* What a device can do at best: bytes moved and multiply-adds made in a second, measured with
  * kernels/limits.cl in the lanes of the physics. For `orzo bench`. */
-#ifndef OZ_COMPUTE_LIMITS_H
-#define OZ_COMPUTE_LIMITS_H
+#pragma once
 
 #include "compute/device.h"
 
@@ -14,5 +13,3 @@ OzStatus oz_limits_copy(double *bytes_per_second, const OzDevice *device, const 
 /* Operations a second, two for each multiply-add of each lane. The fastest of several launches. */
 OzStatus oz_limits_multiply_add(double *operations_per_second, const OzDevice *device,
                                 const char *source_dir, bool is_double);
-
-#endif

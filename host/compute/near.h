@@ -1,8 +1,7 @@
 /* Which grains are near each other while they move: a pair list that reaches a skin beyond contact,
  * made anew only when a grain has used up its half of the skin, and that keeps each pair's
  * tangential spring when it is. On the host, for the reference simulation. */
-#ifndef OZ_COMPUTE_NEAR_H
-#define OZ_COMPUTE_NEAR_H
+#pragma once
 
 #include "compute/physics.h"
 #include "compute/sort_axis.h"
@@ -21,5 +20,3 @@ OzStatus oz_near_renew(OzNear *near, bool *renewed, const OzGrains *grains, cons
                        const double *axis);
 
 void oz_near_free(OzNear *near);
-
-#endif

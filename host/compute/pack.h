@@ -1,6 +1,5 @@
 /* Grains between the host's arrays by id and the device's words by slot and lane. */
-#ifndef OZ_COMPUTE_PACK_H
-#define OZ_COMPUTE_PACK_H
+#pragma once
 
 #include "compute/rods_fields.h"
 #include "observe/snapshot.h"
@@ -19,5 +18,3 @@ OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *p
 
 /* Where word `word` of a slot lies, in scalars, in an array of blocks of `words` words. */
 size_t oz_pack_lane(const OzSwitches *switches, int64_t slot, int words, int word);
-
-#endif

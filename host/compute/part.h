@@ -1,7 +1,6 @@
 /* Moving grains apart that overlap at the start (scene key settle.overlaps), without forces, so
  * that no spring throws them. */
-#ifndef OZ_COMPUTE_PART_H
-#define OZ_COMPUTE_PART_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -11,5 +10,3 @@
  * are. A line in the log says how far grains were moved. Fails with OZ_ERR_INPUT when thousands of
  * sweeps are not enough, because there is no room. */
 OzStatus oz_part_grains(OzGrains *grains, const OzScene *scene);
-
-#endif

@@ -1,6 +1,5 @@
 /* Moving trigrains apart: the part of compute/part.h that knows triangles. */
-#ifndef OZ_COMPUTE_PART_PIECES_H
-#define OZ_COMPUTE_PART_PIECES_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -8,5 +7,3 @@
  * that is more than it was. An overlap for which contacts have no law (one grain inside another) counts
  * as INFINITY; its two grains are moved apart along the line between their centres. */
 OzStatus oz_part_pieces_sweep(OzGrains *grains, const OzScene *scene, double *deepest);
-
-#endif

@@ -1,7 +1,6 @@
 /* What the parts of a step cost, each timed by itself on a simulation that stands still. For `orzo
  * bench`. */
-#ifndef OZ_COMPUTE_PHASES_H
-#define OZ_COMPUTE_PHASES_H
+#pragma once
 
 #include "compute/sim.h"
 
@@ -18,5 +17,3 @@ typedef struct OzPhases {
  * array of the device holds the same bits as before, and the simulation can go on. One member only.
  */
 OzStatus oz_phases_measure(OzPhases *phases, OzSim *sim, const char *source_dir);
-
-#endif

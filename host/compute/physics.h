@@ -1,8 +1,7 @@
 /* What the physics headers need to know of a scene before the host can use them: switches,
  * constants in double, walls in kernel order. Shared by the reference simulation and by oz_touch.
  */
-#ifndef OZ_COMPUTE_PHYSICS_H
-#define OZ_COMPUTE_PHYSICS_H
+#pragma once
 
 #include "compute/constants.h"
 
@@ -17,5 +16,3 @@ typedef struct OzPhysics {
 
 /* Fails with OZ_ERR_INPUT as oz_constants_fill does. */
 OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGrains *grains);
-
-#endif

@@ -1,7 +1,6 @@
 /* What a person is told to change after a guard stopped trigrains: the step where it is to blame,
  * else beams or contacts that are too soft, and by how much. */
-#ifndef OZ_COMPUTE_PIECE_ADVICE_H
-#define OZ_COMPUTE_PIECE_ADVICE_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -19,5 +18,3 @@ typedef enum OzPieceSoft {
  */
 void oz_piece_advice_write(char *text, size_t size, const OzSnapshot *now, int64_t piece,
                            OzPieceSoft soft);
-
-#endif

@@ -2,8 +2,7 @@
  * on a device are fields of one struct here. For .c files alone: each that includes this has a
  * struct of its own for each thread, to be set to the scene's switches before any of the physics is
  * called. */
-#ifndef OZ_COMPUTE_PIECE_DIALECT_H
-#define OZ_COMPUTE_PIECE_DIALECT_H
+#pragma once
 
 #include "compute/piece_laws.h"
 
@@ -24,5 +23,3 @@ OZ_INLINE void oz_piece_dialect_set(const OzScene *scene)
     piece_dialect.midpoint = scene->triangles.force_point == OZ_FORCE_MIDPOINT;
     piece_dialect.balanced = scene->beams.damping_shear == OZ_SHEAR_BALANCED;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* What trigrains' guards say. */
-#ifndef OZ_COMPUTE_PIECE_GUARD_H
-#define OZ_COMPUTE_PIECE_GUARD_H
+#pragma once
 
 #include "compute/model.h"
 
@@ -10,5 +9,3 @@ extern const OzStop oz_piece_guard_stops[OZ_PIECE_GUARD_STOPS];
 int oz_piece_guard_grain(const OzGrains *grains, int slot);
 void oz_piece_guard_advise(char *text, size_t size, const OzControlHead *control,
                            const OzSnapshot *now);
-
-#endif

@@ -1,7 +1,6 @@
 /* A scene of pieces as the constants that kernels and the host reference share. Says OZ_HOST for
  * whoever includes it. */
-#ifndef OZ_COMPUTE_PIECE_LAWS_H
-#define OZ_COMPUTE_PIECE_LAWS_H
+#pragma once
 
 #define OZ_HOST
 #include "kernels/piece_law.h"
@@ -13,5 +12,3 @@ OzBeamConstants oz_piece_laws_beam(const OzScene *scene);
  * ways to damp only the constant dashpot is known here, and no tangential spring: its dashpot
  * alone. */
 OzDiscLaw oz_piece_laws_disc(const OzScene *scene, int wall);
-
-#endif

@@ -1,7 +1,6 @@
 /* What two pieces of trigrains do to each other at the start of a run, one pair at a time. For .c
  * files of compute/ that look at starts (start.h, part.h). */
-#ifndef OZ_COMPUTE_PIECE_MEET_H
-#define OZ_COMPUTE_PIECE_MEET_H
+#pragma once
 
 #include "compute/piece_laws.h"
 #include "model/grains.h"
@@ -21,5 +20,3 @@ OzPieceMeeting oz_piece_meet_pair(const OzScene *scene, const OzGrains *grains, 
 
 /* The corners of a wall's or grain's piece in the world (x y each). */
 void oz_piece_meet_corners(const OzPieces *pieces, int i, double corners[6]);
-
-#endif

@@ -1,6 +1,5 @@
 /* Walls of trigrains from launch to launch. */
-#ifndef OZ_COMPUTE_PIECE_MOTION_H
-#define OZ_COMPUTE_PIECE_MOTION_H
+#pragma once
 
 #include "compute/model.h"
 
@@ -11,5 +10,3 @@ OzStatus oz_piece_motion_prepare(OzSim *sim, int member, int steps);
 
 /* The motion of every wall of a member at each step of the launch, and at its end. */
 OzStatus oz_piece_motion_write_motion(OzSim *sim, int member, int steps);
-
-#endif

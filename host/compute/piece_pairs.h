@@ -1,7 +1,6 @@
 /* Which pieces are near each other while they move: a list of pairs that reaches a skin beyond
  * their circles, made anew only when a piece has used up its half of the skin. On the host. */
-#ifndef OZ_COMPUTE_PIECE_PAIRS_H
-#define OZ_COMPUTE_PIECE_PAIRS_H
+#pragma once
 
 #include "model/pieces.h"
 
@@ -22,5 +21,3 @@ typedef struct OzPiecePairs {
 OzStatus oz_piece_pairs_renew(OzPiecePairs *pairs, const OzPieces *pieces, const double *position);
 
 void oz_piece_pairs_free(OzPiecePairs *pairs);
-
-#endif

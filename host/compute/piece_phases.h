@@ -1,7 +1,6 @@
 /* What the parts of a step of trigrains cost, each timed by itself on a simulation that stands
  * still. For `orzo bench`. */
-#ifndef OZ_COMPUTE_PIECE_PHASES_H
-#define OZ_COMPUTE_PIECE_PHASES_H
+#pragma once
 
 #include "compute/sim.h"
 
@@ -31,5 +30,3 @@ const char *oz_piece_phases_name(OzPiecePhase phase);
  */
 OzStatus oz_piece_phases_measure(double seconds[OZ_PIECE_PHASE_COUNT], OzSim *sim,
                                  const char *source_dir);
-
-#endif

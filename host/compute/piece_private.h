@@ -1,7 +1,6 @@
 /* What the files of trigrains' simulation share among themselves: what the driver keeps for them,
  * as what it is. */
-#ifndef OZ_COMPUTE_PIECE_PRIVATE_H
-#define OZ_COMPUTE_PIECE_PRIVATE_H
+#pragma once
 
 #include "compute/piece_fields.h"
 #include "compute/sim_private.h"
@@ -36,5 +35,3 @@ static inline OzPieceParameters *oz_piece_parameters(const OzSim *sim, int membe
 {
     return (OzPieceParameters *)sim->parameters + member;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* How a scene of trigrains is laid out on a device: slots, regions, list capacities, cells, skins;
  * and the parameters that its kernels read. */
-#ifndef OZ_COMPUTE_PIECE_SIZES_H
-#define OZ_COMPUTE_PIECE_SIZES_H
+#pragma once
 
 #include "compute/piece_fields.h"
 
@@ -16,5 +15,3 @@ void oz_piece_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
 
 /* Makes sizes large enough for another member too. */
 void oz_piece_sizes_join(void *sizes, const void *another);
-
-#endif

@@ -1,6 +1,5 @@
 /* How trigrains start: the part of compute/start.h that knows triangles. */
-#ifndef OZ_COMPUTE_PIECE_START_H
-#define OZ_COMPUTE_PIECE_START_H
+#pragma once
 
 #include "compute/start.h"
 
@@ -12,5 +11,3 @@ OzStatus oz_piece_start_look(OzStart *start, const OzScene *scene, const OzGrain
 
 /* The radius of the circle of a grain's area, m. */
 double oz_piece_start_radius(const OzGrains *grains, int grain);
-
-#endif

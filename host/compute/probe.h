@@ -1,6 +1,5 @@
 /* What a simulation holds at the moment, for benchmarks: pairs, contacts, memory. */
-#ifndef OZ_COMPUTE_PROBE_H
-#define OZ_COMPUTE_PROBE_H
+#pragma once
 
 #include "compute/sim.h"
 
@@ -16,5 +15,3 @@ typedef struct OzProbe {
 
 /* Reads lists and forces back: slow for large scenes. */
 OzStatus oz_probe_read(OzProbe *probe, const OzSim *sim);
-
-#endif

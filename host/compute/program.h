@@ -1,7 +1,6 @@
 /* Kernel programs: one flat text (includes expanded, with #line for true file names in build logs),
  * built with a scene's switches. */
-#ifndef OZ_COMPUTE_PROGRAM_H
-#define OZ_COMPUTE_PROGRAM_H
+#pragma once
 
 #include "compute/device.h"
 
@@ -24,5 +23,3 @@ typedef struct OzLayout {
 
 /* Fails with OZ_ERR_DEVICE if the program's kernel oz_layout knows them otherwise. */
 OzStatus oz_program_check(cl_program program, const OzDevice *device, const OzLayout *layout);
-
-#endif

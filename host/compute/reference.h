@@ -2,8 +2,7 @@
  * headers in the same order as the kernels (each grain sums the pairs in which it is the second by
  * the other's id, then its own, then planes, then cylinders). For tests and for errors against a
  * known answer; one thread, no settling: step 0 is the grains' state as given. */
-#ifndef OZ_COMPUTE_REFERENCE_H
-#define OZ_COMPUTE_REFERENCE_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -25,5 +24,3 @@ OzStatus oz_reference_snapshot(const OzReference *reference, OzSnapshot *snapsho
 
 /* NULL is fine. */
 void oz_reference_free(OzReference *reference);
-
-#endif

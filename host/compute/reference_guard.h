@@ -1,11 +1,8 @@
 /* The guards of the reference, with the bounds of the kernels'. */
-#ifndef OZ_COMPUTE_REFERENCE_GUARD_H
-#define OZ_COMPUTE_REFERENCE_GUARD_H
+#pragma once
 
 #include "compute/reference_private.h"
 
 /* Whether contacts and bodies are sound after a step of dt (s), deep contacts being counted; else
  * OZ_ERR_BLOWUP, with grain, step and time. */
 OzStatus oz_reference_guard_check(OzReference *reference, double dt);
-
-#endif

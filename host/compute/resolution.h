@@ -1,6 +1,5 @@
 /* What single precision can tell apart in a scene of rods, and what its lightest contacts need. */
-#ifndef OZ_COMPUTE_RESOLUTION_H
-#define OZ_COMPUTE_RESOLUTION_H
+#pragma once
 
 #include "base/status.h"
 #include "model/grains.h"
@@ -41,5 +40,3 @@ OzStatus oz_resolution_print(FILE *file, const OzScene *scene, const OzGrains *g
 /* Fails with OZ_ERR_INPUT where single precision would be silently wrong; a warning in the log
  * where it is coarse, or where force is set. */
 OzStatus oz_resolution_judge(const OzScene *scene, const OzGrains *grains, bool force);
-
-#endif

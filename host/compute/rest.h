@@ -1,7 +1,6 @@
 /* Bringing the members of a simulation to rest before time 0, whatever their model: the settling
  * of compute/settle.h. */
-#ifndef OZ_COMPUTE_REST_H
-#define OZ_COMPUTE_REST_H
+#pragma once
 
 #include "compute/crew.h"
 #include "observe/snapshot.h"
@@ -38,5 +37,3 @@ bool oz_rest_is_same(const OzSettle *a, const OzSettle *b);
  * scene.settle. *seconds receives the simulated time of the member that took longest. Fails with
  * OZ_ERR_INTERRUPTED when watch (may be NULL) says no. */
 OzStatus oz_rest_run(const OzRest *rest, double *seconds, OzSettleWatch watch, void *context);
-
-#endif

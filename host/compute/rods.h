@@ -1,9 +1,6 @@
 /* The model of rods and spheres. */
-#ifndef OZ_COMPUTE_RODS_H
-#define OZ_COMPUTE_RODS_H
+#pragma once
 
 #include "compute/model.h"
 
 extern const OzModel oz_rods_model;
-
-#endif

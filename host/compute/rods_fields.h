@@ -1,6 +1,5 @@
 /* Rods' fields on the device, from the one list in kernels/fields.h. */
-#ifndef OZ_COMPUTE_RODS_FIELDS_H
-#define OZ_COMPUTE_RODS_FIELDS_H
+#pragma once
 
 #include "compute/arrays.h"
 #include "compute/constants.h"
@@ -29,5 +28,3 @@ static inline const OzSizes *oz_rods_fields_sizes(const OzArrays *arrays)
 {
     return arrays->sizes;
 }
-
-#endif

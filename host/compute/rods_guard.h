@@ -1,6 +1,5 @@
 /* What rods' guards say. */
-#ifndef OZ_COMPUTE_RODS_GUARD_H
-#define OZ_COMPUTE_RODS_GUARD_H
+#pragma once
 
 #include "compute/model.h"
 
@@ -10,5 +9,3 @@ extern const OzStop oz_rods_guard_stops[OZ_RODS_GUARD_STOPS];
 int oz_rods_guard_grain(const OzGrains *grains, int index);
 void oz_rods_guard_advise(char *text, size_t size, const OzControlHead *control,
                           const OzSnapshot *now);
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbers in the device's precision, in host memory. */
-#ifndef OZ_COMPUTE_SCALARS_H
-#define OZ_COMPUTE_SCALARS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,5 +11,3 @@ void oz_scalars_put(void *to, const double *from, size_t count, bool is_double);
 
 /* One of the device's scalars. */
 double oz_scalars_get(const void *words, size_t index, bool is_double);
-
-#endif

@@ -1,11 +1,8 @@
 /* Letting the grains of a simulation come to rest before time 0. */
-#ifndef OZ_COMPUTE_SETTLE_H
-#define OZ_COMPUTE_SETTLE_H
+#pragma once
 
 #include "compute/rest.h"
 #include "compute/sim.h"
 
 /* As oz_rest_run; walls that will go later are all there meanwhile. */
 OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context);
-
-#endif

@@ -1,7 +1,6 @@
 /* A simulation on a device: owns every device array, the step count and the time. Several scenes of
  * the same kind (seeds, sweeps) may run side by side as members of one simulation. */
-#ifndef OZ_COMPUTE_SIM_H
-#define OZ_COMPUTE_SIM_H
+#pragma once
 
 #include "compute/device.h"
 #include "model/grains.h"
@@ -51,5 +50,3 @@ OzSimCounts oz_sim_counts(const OzSim *sim);
  * check`). */
 OzStatus oz_sim_describe(const OzDevice *device, const OzScene *scene, const OzGrains *grains,
                          FILE *file);
-
-#endif

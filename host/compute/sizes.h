@@ -1,6 +1,5 @@
 /* How a scene is laid out on a device: blocks, regions, list capacities, cells, skins. */
-#ifndef OZ_COMPUTE_SIZES_H
-#define OZ_COMPUTE_SIZES_H
+#pragma once
 
 #include "compute/constants.h"
 
@@ -10,5 +9,3 @@
 void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
                      const void *switches);
 void oz_sizes_join(void *sizes, const void *other);
-
-#endif

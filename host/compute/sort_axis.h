@@ -1,7 +1,6 @@
 /* Pairs of grains near each other by a sort along one axis (Pournin et al. 2005, sec. 3): on the
  * host, for `broadphase: sort_axis` and for the reference simulation. */
-#ifndef OZ_COMPUTE_SORT_AXIS_H
-#define OZ_COMPUTE_SORT_AXIS_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -24,5 +23,3 @@ OzStatus oz_sort_axis_pairs(OzPairList *list, const OzGrains *grains, const doub
                             const double *axis, double skin);
 
 void oz_sort_axis_free(OzPairList *list);
-
-#endif

@@ -1,7 +1,6 @@
 /* Whether grains start soundly: overlaps with each other and with walls, grains that no wall will
  * catch. Springs that start compressed throw grains apart at speeds that nobody asked for. */
-#ifndef OZ_COMPUTE_START_H
-#define OZ_COMPUTE_START_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -52,5 +51,3 @@ double oz_start_load(const OzScene *scene, const OzGrains *grains);
 /* Counts an overlap that is not left alone. It is refused where its share is above most, or, with
  * refuse, whatever its share. */
 void oz_start_add(OzStart *start, const OzStartOverlap *overlap, double most, bool refuse);
-
-#endif

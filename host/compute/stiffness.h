@@ -2,8 +2,7 @@
  * sticking tangential springs included. A grain held by many neighbours, or by its end, swings
  * faster than any pair of centres, so that the bed's largest stable step is smaller than that of a
  * single contact (model/predict.h). */
-#ifndef OZ_COMPUTE_STIFFNESS_H
-#define OZ_COMPUTE_STIFFNESS_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -25,5 +24,3 @@ OzStatus oz_stiffness_measure(OzStiffness *stiffness, const OzSnapshot *now);
 /* One line in the log, with a warning where the scene's step is too large; none without contacts.
  */
 void oz_stiffness_say(const OzStiffness *stiffness, const OzScene *scene);
-
-#endif

@@ -1,6 +1,5 @@
 /* Timing single kernels on a simulation that stands still. */
-#ifndef OZ_COMPUTE_TIMING_H
-#define OZ_COMPUTE_TIMING_H
+#pragma once
 
 #include "compute/sim_private.h"
 
@@ -31,5 +30,3 @@ OzStatus oz_timing_build(OzSim *sim, const void *switches, const char *source_di
 /* Calls measure with every array of the device saved, and puts them back afterwards. */
 OzStatus oz_timing_restored(OzSim *sim, OzStatus (*measure)(void *context, OzSim *sim),
                             void *context);
-
-#endif

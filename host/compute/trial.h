@@ -1,7 +1,6 @@
 /* How far the beams of a grain go when it hits something: the grain, alone and without gravity, is
  * thrown at a floor by the host's reference. Serves `orzo check` and what the guards say. */
-#ifndef OZ_COMPUTE_TRIAL_H
-#define OZ_COMPUTE_TRIAL_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -40,5 +39,3 @@ OzStatus oz_trial_worst(OzTrial *trial, const OzScene *scene, const OzGrains *gr
  * where the trial is within the limits. Bending falls with the root of the second moment or faster,
  * stretch with that of the stiffness. */
 void oz_trial_advise(char *text, size_t size, const OzTrial *trial, const OzScene *scene);
-
-#endif

@@ -1,9 +1,6 @@
 /* The model of trigrains. */
-#ifndef OZ_COMPUTE_TRIGRAINS_H
-#define OZ_COMPUTE_TRIGRAINS_H
+#pragma once
 
 #include "compute/model.h"
 
 extern const OzModel oz_trigrains_model;
-
-#endif

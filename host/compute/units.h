@@ -1,8 +1,7 @@
 /* The units in which kernels count: a length, a time and a mass of the scene's own, so that physics
  * and guards are the same from a nanometre to a kilometre though single precision ends at 1e-38.
  * Powers of two: nothing is rounded, and the host goes on in SI units. */
-#ifndef OZ_COMPUTE_UNITS_H
-#define OZ_COMPUTE_UNITS_H
+#pragma once
 
 #include "compute/constants.h"
 #include "kernels/piece_layout.h"
@@ -26,5 +25,3 @@ OzParameters oz_units_parameters(const OzParameters *si, int law);
 
 /* The same of trigrains. */
 OzPieceParameters oz_units_pieces(const OzPieceParameters *si);
-
-#endif

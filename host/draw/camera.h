@@ -1,8 +1,7 @@
 /* Where the camera stands, and how the picture is divided. View coordinates have their origin at
  * the middle of what is framed, x to the right, y up and z towards the eye; their unit is a length
  * of the scene's size, so that all coordinates in shaders are of order one. */
-#ifndef OZ_DRAW_CAMERA_H
-#define OZ_DRAW_CAMERA_H
+#pragma once
 
 #include "draw/renderer.h"
 
@@ -42,5 +41,3 @@ void oz_camera_see(const OzCamera *camera, const double world[3], double view[3]
 
 /* A direction of the world (not scaled) in view coordinates. */
 void oz_camera_turn(const OzCamera *camera, const double world[3], double view[3]);
-
-#endif

@@ -1,7 +1,6 @@
 /* Rods and spheres on the GPU: one record a grain, each drawn as one rectangle whose pixels are
  * cast as rays. */
-#ifndef OZ_DRAW_CAPSULES_H
-#define OZ_DRAW_CAPSULES_H
+#pragma once
 
 #include "draw/camera.h"
 #include "draw/gl.h"
@@ -32,5 +31,3 @@ void oz_capsules_find_samples(OzCapsules *capsules, int sample_count);
  * the outlines of those before the plane, over the others, if the look has cut_outlines. */
 void oz_capsules_draw(const OzCapsules *capsules, OzView view, const OzLook *look,
                       const OzCamera *camera, double viewport_width, double viewport_height);
-
-#endif

@@ -1,7 +1,6 @@
 /* The walls as glass, floor and lines, so that one sees the grains inside. Part of it lies behind
  * the grains and is drawn before them, part in front and is drawn after. */
-#ifndef OZ_DRAW_CONTAINER_H
-#define OZ_DRAW_CONTAINER_H
+#pragma once
 
 #include "draw/camera.h"
 #include "draw/gl.h"
@@ -32,5 +31,3 @@ void oz_container_draw_behind(const OzContainer *container, const OzCamera *came
 /* then this. */
 void oz_container_draw_before(const OzContainer *container, const OzCamera *camera, double width,
                               double height);
-
-#endif

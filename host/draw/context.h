@@ -1,7 +1,6 @@
 /* An off-screen OpenGL 3.3 core context: EGL (surfaceless, else a bare EGL device), else OSMesa,
  * both opened at run time. */
-#ifndef OZ_DRAW_CONTEXT_H
-#define OZ_DRAW_CONTEXT_H
+#pragma once
 
 #include "base/status.h"
 #include "draw/gl.h"
@@ -29,5 +28,3 @@ void oz_context_free(OzContext *context); /* zeroed is fine */
 /* One line for each back-end: what it would give, or why it is refused. Each is tried in a process
  * of its own, since two Mesa libraries should not share one. */
 void oz_context_describe(FILE *file);
-
-#endif

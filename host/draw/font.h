@@ -1,6 +1,5 @@
 /* Text on pictures, through FreeType. Without a font, text is left out, never an error. */
-#ifndef OZ_DRAW_FONT_H
-#define OZ_DRAW_FONT_H
+#pragma once
 
 #include "draw/image.h"
 
@@ -30,5 +29,3 @@ size_t oz_font_fit(const OzFont *font, OzWeight weight, double size, const char 
  * the image is left out. */
 void oz_font_draw(const OzFont *font, OzImage *image, OzWeight weight, double size, double x,
                   double y, const float rgb[3], const char *text);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a scene's pictures show: chosen once from its walls and its bed. */
-#ifndef OZ_DRAW_FRAMING_H
-#define OZ_DRAW_FRAMING_H
+#pragma once
 
 #include "draw/camera.h"
 
@@ -16,5 +15,3 @@ double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapsh
 
 /* The smallest of 1, 2, 5 times a power of ten that is at least x (x > 0). */
 double oz_framing_round_up(double x);
-
-#endif

@@ -1,7 +1,6 @@
 /* The pictures of a run: movie frames and snapshots, from the snapshots that are handed in. GL and
  * libav are opened by the first picture that needs them and never otherwise. */
-#ifndef OZ_DRAW_GALLERY_H
-#define OZ_DRAW_GALLERY_H
+#pragma once
 
 #include "draw/renderer.h"
 
@@ -39,5 +38,3 @@ void oz_gallery_times(const OzGallery *gallery, double *drawing, double *encodin
 /* Draws snapshots/strobe.png, the kept states over each other, if there are any; closes the movie,
  * frees; NULL is fine. */
 OzStatus oz_gallery_finish(OzGallery *gallery);
-
-#endif

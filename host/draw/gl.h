@@ -1,7 +1,6 @@
 /* The OpenGL functions that the pictures need, fetched from whichever context is current, and what
  * is built with them: programs from shader files, checks with a text. No GL library is linked. */
-#ifndef OZ_DRAW_GL_H
-#define OZ_DRAW_GL_H
+#pragma once
 
 #include "base/status.h"
 
@@ -88,5 +87,3 @@ OzStatus oz_gl_program(const OzGl *gl, GLuint *program, const char *source_dir, 
 /* Fails with OZ_ERR_GRAPHICS when GL has recorded an error since the last check. what: the work
  * just done, for the text. */
 OzStatus oz_gl_check(const OzGl *gl, const char *what);
-
-#endif

@@ -1,6 +1,5 @@
 /* A picture in memory. */
-#ifndef OZ_DRAW_IMAGE_H
-#define OZ_DRAW_IMAGE_H
+#pragma once
 
 #include "base/status.h"
 
@@ -16,5 +15,3 @@ void oz_image_free(OzImage *image);
 
 /* Writes a PNG under a temporary name beside path and renames it. */
 OzStatus oz_image_write_png(const OzImage *image, const char *path);
-
-#endif

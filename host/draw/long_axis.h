@@ -1,6 +1,5 @@
 /* The direction in which a flat grain is longest. */
-#ifndef OZ_DRAW_LONG_AXIS_H
-#define OZ_DRAW_LONG_AXIS_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -9,5 +8,3 @@
  * (a^2 - b^2) / (a^2 + b^2) of an ellipse of the same moments: 0 of discs, squares and regular
  * polygons, 0.6 of a grain twice as long as wide. */
 double oz_long_axis_find(const OzSnapshot *snapshot, int64_t grain, double *strength);
-
-#endif

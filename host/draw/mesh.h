@@ -1,6 +1,5 @@
 /* Coloured triangles and lines in view coordinates, gathered on the host. */
-#ifndef OZ_DRAW_MESH_H
-#define OZ_DRAW_MESH_H
+#pragma once
 
 #include "draw/camera.h"
 
@@ -31,5 +30,3 @@ void oz_mesh_quad(OzMesh *mesh, double view[4][3], const float first_rgba[4],
  */
 void oz_mesh_line(OzMesh *mesh, const OzCamera *camera, const double from[3], const double to[3],
                   double width, const float rgba[4]);
-
-#endif

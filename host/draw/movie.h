@@ -1,7 +1,6 @@
 /* An mp4 from images. The only file that knows libav, which it opens at run time: a process that
  * makes no movie never maps it. */
-#ifndef OZ_DRAW_MOVIE_H
-#define OZ_DRAW_MOVIE_H
+#pragma once
 
 #include "base/status.h"
 #include "draw/image.h"
@@ -29,5 +28,3 @@ OzStatus oz_movie_finish(OzMovie *movie);
 /* The encoder that would be used, for `orzo devices` ("libx264", "mpeg4"), or the reason in the
  * failure text. */
 OzStatus oz_movie_encoder(const char **name);
-
-#endif

@@ -1,7 +1,6 @@
 /* What is written on a picture: title, time and tap, captions, scale bar, colour bar. Set on the
  * finished image. */
-#ifndef OZ_DRAW_OVERLAY_H
-#define OZ_DRAW_OVERLAY_H
+#pragma once
 
 #include "draw/camera.h"
 #include "draw/font.h"
@@ -9,5 +8,3 @@
 /* Does nothing when camera->font is 0. */
 void oz_overlay_draw(const OzFont *font, OzImage *image, const OzSnapshot *snapshot,
                      const OzLook *look, const OzCamera *camera);
-
-#endif

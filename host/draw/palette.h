@@ -1,6 +1,5 @@
 /* Colours: what a grain's colour means, and the colour bar's own. sRGB, 0..1. */
-#ifndef OZ_DRAW_PALETTE_H
-#define OZ_DRAW_PALETTE_H
+#pragma once
 
 #include "draw/renderer.h"
 
@@ -20,5 +19,3 @@ void oz_palette_type(int row, float rgb[3]);
 /* The colour of grain i; a grain without the quantity (the angle of a sphere, or of a square) is
  * grey. */
 void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i, float rgb[3]);
-
-#endif

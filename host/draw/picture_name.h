@@ -1,6 +1,5 @@
 /* The file names of a run's single pictures. */
-#ifndef OZ_DRAW_PICTURE_NAME_H
-#define OZ_DRAW_PICTURE_NAME_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -13,5 +12,3 @@ int oz_picture_name_decimals(const OzScene *scene);
 /* tap_00300.png of a whole tap, tap_00300.500.png of others, time_1.250000.png without a moving
  * wall: the tap or time that was asked for where the picture's own is within half a step of one. */
 void oz_picture_name_make(const OzScene *scene, double time, int decimals, char *name, size_t size);
-
-#endif

@@ -1,6 +1,5 @@
 /* What pictures of flat grains show: chosen once from walls and grains, as for standing ones. */
-#ifndef OZ_DRAW_PLANE_H
-#define OZ_DRAW_PLANE_H
+#pragma once
 
 #include "draw/renderer.h"
 
@@ -8,5 +7,3 @@
  * what lies below an outlet, and where grains fly to when nothing pulls them; fills the scale of
  * speed. The snapshot has pieces. */
 void oz_plane_frame(OzLook *look, const OzScene *scene, const OzSnapshot *snapshot);
-
-#endif

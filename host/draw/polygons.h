@@ -1,7 +1,6 @@
 /* Flat grains and walls on the GPU: filled triangles and discs, their outlines and beams, laid over
  * each other in the order in which they are added. */
-#ifndef OZ_DRAW_POLYGONS_H
-#define OZ_DRAW_POLYGONS_H
+#pragma once
 
 #include "draw/camera.h"
 #include "draw/gl.h"
@@ -44,5 +43,3 @@ void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, co
 /* Draws what was added into the current viewport of the given width and height, pixels. */
 OzStatus oz_polygons_draw(const OzPolygons *polygons, const OzLook *look, const OzCamera *camera,
                           double viewport_width, double viewport_height);
-
-#endif

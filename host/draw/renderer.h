@@ -1,7 +1,6 @@
 /* Draws snapshots off-screen into images. One renderer is one GL context, used from the thread that
  * made it. */
-#ifndef OZ_DRAW_RENDERER_H
-#define OZ_DRAW_RENDERER_H
+#pragma once
 
 #include "base/status.h"
 #include "draw/image.h"
@@ -62,5 +61,3 @@ OzStatus oz_renderer_draw_states(OzRenderer *renderer, const OzSnapshot *snapsho
 /* For `orzo devices`: one line for each GL back-end, what it gives or why it is refused. Call it
  * before any renderer or OpenCL device exists in this process: it forks. */
 void oz_renderer_describe(FILE *file);
-
-#endif

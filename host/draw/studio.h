@@ -1,8 +1,7 @@
 /* Pictures drawn beside the simulation: one thread that owns the GL context and the encoders of all
  * its galleries, and before it a short queue of copied snapshots. Several
  * threads may hand in pictures, each those of its own galleries. */
-#ifndef OZ_DRAW_STUDIO_H
-#define OZ_DRAW_STUDIO_H
+#pragma once
 
 #include "draw/gallery.h"
 
@@ -39,5 +38,3 @@ OzStudioTimes oz_studio_take_times(OzStudio *studio);
 
 /* Every gallery must be finished; NULL is fine. */
 void oz_studio_free(OzStudio *studio);
-
-#endif

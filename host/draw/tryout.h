@@ -1,6 +1,5 @@
 /* Libraries that crash where memory runs out, tried first in a process of their own. */
-#ifndef OZ_DRAW_TRYOUT_H
-#define OZ_DRAW_TRYOUT_H
+#pragma once
 
 #include "base/status.h"
 
@@ -10,5 +9,3 @@
  * with its text. A copy that hangs tells nothing and is no failure. Files that work writes are the
  * caller's to remove. */
 OzStatus oz_tryout_run(OzStatus (*work)(void *argument), void *argument);
-
-#endif

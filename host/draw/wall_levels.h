@@ -1,6 +1,5 @@
 /* The picture of a wall of which nothing but its distance is known: level lines on its surface. */
-#ifndef OZ_DRAW_WALL_LEVELS_H
-#define OZ_DRAW_WALL_LEVELS_H
+#pragma once
 
 #include "draw/mesh.h"
 #include "scene/scene.h"
@@ -19,5 +18,3 @@ typedef struct OzWallLevels {
  * out. */
 void oz_wall_levels_add(const OzWallLevels *levels, OzMesh *behind, OzMesh *before,
                         const float rgba[4]);
-
-#endif

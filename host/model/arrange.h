@@ -1,6 +1,5 @@
 /* The start of trigrains: grains and walls as pieces, from a scene's populations. */
-#ifndef OZ_MODEL_ARRANGE_H
-#define OZ_MODEL_ARRANGE_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -18,5 +17,3 @@
  * OZ_ERR_INPUT, naming the population's line, for shapes that cannot be made or that are beyond the
  * limits of `beams`, and when there is no room. */
 OzStatus oz_arrange_grains(OzGrains *grains, const OzScene *scene);
-
-#endif

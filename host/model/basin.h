@@ -1,6 +1,5 @@
 /* Where trigrains are put at random: what the scene's container leaves free, filled from below. */
-#ifndef OZ_MODEL_BASIN_H
-#define OZ_MODEL_BASIN_H
+#pragma once
 
 #include "base/random.h"
 #include "model/patch.h"
@@ -31,5 +30,3 @@ bool oz_basin_holds(const OzBasin *basin, const double centre[2], double radius)
 
 /* The distance from a point to a triangle (x y of three corners), m; 0 inside. */
 double oz_basin_distance(const double corners[6], const double point[2]);
-
-#endif

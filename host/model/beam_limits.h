@@ -1,6 +1,5 @@
 /* The largest step at which grains of beams, and contacts of pieces, are stable. */
-#ifndef OZ_MODEL_BEAM_LIMITS_H
-#define OZ_MODEL_BEAM_LIMITS_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -24,5 +23,3 @@ double oz_beam_limits_step(OzIntegrator integrator, double rate, double damping)
  * also press another, alike, with the whole of its longest edge (discs: hooke's binary hit, or
  * hertz at an overlap of a tenth of the radius). Fails with OZ_ERR_MEMORY. */
 OzStatus oz_beam_limits_find(OzBeamLimit *limit, const OzScene *scene, const OzGrains *grains);
-
-#endif

@@ -1,7 +1,6 @@
 /* A bed from a file: final.csv of an earlier run, one row per grain by id, with enough digits to
  * restore every value. The columns are spelled here once, for its writer too. */
-#ifndef OZ_MODEL_BED_H
-#define OZ_MODEL_BED_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -27,5 +26,3 @@ enum {
  * 1, each once, and there is at least one. Fails with OZ_ERR_INPUT as `file:line: what is wrong;
  * what was expected`, with OZ_ERR_FILE when the file cannot be read; grains is then zeroed. */
 OzStatus oz_bed_read(OzGrains *grains, const char *path);
-
-#endif

@@ -1,8 +1,7 @@
 /* Contact constants that make up for the errors of the step (`restitution_calibration: discrete`):
  * the discrete map of a hit (predict.h) is inverted, so that an isolated central hit of two grains
  * returns the restitution asked although the step is coarse. */
-#ifndef OZ_MODEL_CALIBRATE_H
-#define OZ_MODEL_CALIBRATE_H
+#pragma once
 
 #include "model/contact.h"
 
@@ -28,5 +27,3 @@ OzCalibrated oz_calibrate_outcome(const OzScene *scene, const OzContactValues *v
 
 /* A warning in the log for each of the scene's contacts that was calibrated in vain. */
 void oz_calibrate_say(const OzScene *scene);
-
-#endif

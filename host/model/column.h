@@ -1,7 +1,6 @@
 /* The room in which a scene's grains are placed at random: what its walls leave free, cut off where
  * no wall does so. A box along the axes, inside the cylinder when there is one. */
-#ifndef OZ_MODEL_COLUMN_H
-#define OZ_MODEL_COLUMN_H
+#pragma once
 
 #include "base/random.h"
 #include "model/crowd.h"
@@ -33,5 +32,3 @@ void oz_column_draw(const OzColumn *column, OzRandom *random, OzCapsule *capsule
 
 /* True when the capsule crosses no wall. */
 bool oz_column_holds(const OzColumn *column, const OzCapsule *capsule);
-
-#endif

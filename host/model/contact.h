@@ -1,8 +1,7 @@
 /* The constants of a contact from what a scene says about it: contact time and restitution in,
  * spring and dashpot out, per kg of effective mass, so that one set serves all grains; for `law:
  * hertz-mindlin`, moduli and restitution in. Knows nothing of steps: see calibrate.h. */
-#ifndef OZ_MODEL_CONTACT_H
-#define OZ_MODEL_CONTACT_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -45,5 +44,3 @@ double oz_contact_clamped_restitution(double damping_ratio);
  * it may pull, damping_ratio must stay below 3 sqrt(3) / 4: beyond that, hits do not end. */
 double oz_contact_smooth_restitution(double damping_ratio, OzAttraction attraction,
                                      double *duration);
-
-#endif

@@ -1,7 +1,6 @@
 /* Spherocylinders lying in space, and the question whether one more would touch any of them. Works
  * for any mixture of sizes and aspects without comparing all with all. */
-#ifndef OZ_MODEL_CROWD_H
-#define OZ_MODEL_CROWD_H
+#pragma once
 
 #include "base/status.h"
 
@@ -40,5 +39,3 @@ bool oz_crowd_touches(const OzCrowd *crowd, const OzCapsule *capsule);
 
 /* The least distance between two shafts, m; 0 when they intersect. */
 double oz_crowd_distance(const OzCapsule *a, const OzCapsule *b);
-
-#endif

@@ -1,7 +1,6 @@
 /* The grains as the host holds them: arrays indexed by id (0 first, in scene order), double, SI.
  * Geometry and mass never change during a run; position to spin are the start. */
-#ifndef OZ_MODEL_GRAINS_H
-#define OZ_MODEL_GRAINS_H
+#pragma once
 
 #include "base/status.h"
 #include "model/pieces.h"
@@ -46,5 +45,3 @@ double oz_grains_volume(double diameter, double length);
 
 /* Refuses, with OZ_ERR_INPUT, more grains than this machine's memory holds whatever else the scene asks for. */
 OzStatus oz_grains_check_memory(const char *scene_path, int64_t count);
-
-#endif

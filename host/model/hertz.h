@@ -1,7 +1,6 @@
 /* Hertzian contacts (`law: hertz`, `hertz-mindlin`) at the speed and with the grain that ask most
  * of the step: what predict.c needs, since their stiffness and duration depend on both. */
-#ifndef OZ_MODEL_HERTZ_H
-#define OZ_MODEL_HERTZ_H
+#pragma once
 
 #include "model/contact.h"
 #include "model/grains.h"
@@ -19,5 +18,3 @@ typedef struct OzHertzHit {
  * Without grains: of one of 1 mm and 1 mg. */
 OzHertzHit oz_hertz_hit(const OzScene *scene, const OzContactValues *values, int wall,
                         const OzGrains *grains);
-
-#endif

@@ -1,7 +1,6 @@
 /* The triangles that one body is made of, or its disc, in the body's own frame: what shapes and
  * walls are before they become pieces. */
-#ifndef OZ_MODEL_PATCH_H
-#define OZ_MODEL_PATCH_H
+#pragma once
 
 #include "base/status.h"
 
@@ -42,5 +41,3 @@ double oz_patch_area(const OzPatch *patch, int triangle);
 
 /* The centres' distance of two joined triangles, m: a beam's length. */
 double oz_patch_joint_length(const OzPatch *patch, int joint);
-
-#endif

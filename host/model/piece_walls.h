@@ -1,6 +1,5 @@
 /* Walls of trigrains as triangles. */
-#ifndef OZ_MODEL_PIECE_WALLS_H
-#define OZ_MODEL_PIECE_WALLS_H
+#pragma once
 
 #include "model/patch.h"
 #include "scene/scene.h"
@@ -11,5 +10,3 @@
  * triangle. A wall whose scene gives no thickness is as thick as two grains of the given size (m), or,
  * where size is 0, a twentieth of the wall's own size. */
 OzStatus oz_piece_walls_make(OzPatch *patch, const OzWall *wall, double size);
-
-#endif

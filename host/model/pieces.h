@@ -2,8 +2,7 @@
  * pieces, each a triangle or a disc, and the beams that join a grain's triangles. Arrays by piece
  * id: the pieces of grain 0 first, then of grain 1, ..., then those of the walls in scene order.
  * Double, SI, a metre deep: nothing here depends on a third dimension. */
-#ifndef OZ_MODEL_PIECES_H
-#define OZ_MODEL_PIECES_H
+#pragma once
 
 #include "base/status.h"
 
@@ -65,5 +64,3 @@ void oz_pieces_rest_beam(OzPieces *pieces, int64_t k);
 /* The world coordinates of a piece's corners at a position and angle. */
 void oz_pieces_corners(const OzPieces *pieces, int64_t i, const double position[2], double angle,
                        double corners[6]);
-
-#endif

@@ -1,6 +1,5 @@
 /* The start: grains from a scene's populations. */
-#ifndef OZ_MODEL_PLACE_H
-#define OZ_MODEL_PLACE_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -21,5 +20,3 @@
  * time: after some hundred tries for each grain), when the scene has more than 2^31 - 1 grains, and
  * when a file population cannot be read. */
 OzStatus oz_place_grains(OzGrains *grains, const OzScene *scene);
-
-#endif

@@ -1,8 +1,7 @@
 /* What an integrator makes of a contact at a given step: the exact discrete map of a binary hit of
  * two centres. Serves `orzo check`, the refusal of unstable steps, and every test of restitution.
  * Masses drop out: the map knows K = kappa dt^2 and G = gamma dt alone. */
-#ifndef OZ_MODEL_PREDICT_H
-#define OZ_MODEL_PREDICT_H
+#pragma once
 
 #include "base/status.h"
 #include "model/contact.h"
@@ -61,5 +60,3 @@ double oz_predict_largest_step(OzIntegrator integrator, double stiffness, double
 /* *rows receives one row for pairs of grains, then one for each wall; the caller frees it. */
 OzStatus oz_predict_scene(OzPrediction **rows, int *count, const OzScene *scene,
                           const OzGrains *grains);
-
-#endif

@@ -1,6 +1,5 @@
 /* Grains' shapes as triangles joined by beams, or as discs. */
-#ifndef OZ_MODEL_SHAPE_H
-#define OZ_MODEL_SHAPE_H
+#pragma once
 
 #include "base/random.h"
 #include "model/patch.h"
@@ -23,5 +22,3 @@ OzStatus oz_shape_make(OzPatch *patch, const OzScene *scene, const OzPopulation 
 
 /* False for given vertices whose outline has a symmetry that its triangles have not. */
 bool oz_shape_keeps_symmetry(const OzScene *scene, const OzPopulation *population);
-
-#endif

@@ -1,8 +1,7 @@
 /* Simulated time of steps. A run is a sequence of stretches, each of steps of one length: within a
  * stretch the time of step k is start + (k - first) x dt, so it does not depend on how the steps
  * were made, and no rounding adds up. */
-#ifndef OZ_MODEL_STEP_CLOCK_H
-#define OZ_MODEL_STEP_CLOCK_H
+#pragma once
 
 #include <stdint.h>
 
@@ -24,5 +23,3 @@ int64_t oz_step_clock_after(const OzStepClock *clock, double time);
 
 /* A new stretch from this step on. With the same dt the clock stays as it is, to the bit. */
 void oz_step_clock_change(OzStepClock *clock, int64_t step, double dt);
-
-#endif

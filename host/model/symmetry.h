@@ -1,6 +1,5 @@
 /* Whether a polygon's triangles are as symmetric as its outline. */
-#ifndef OZ_MODEL_SYMMETRY_H
-#define OZ_MODEL_SYMMETRY_H
+#pragma once
 
 #include "model/patch.h"
 
@@ -11,5 +10,3 @@
  * triangles. True of outlines that have none. A square cut along one diagonal is not: dropped flat,
  * it is softer on one side and begins to turn. */
 bool oz_symmetry_is_kept(const OzPatch *patch);
-
-#endif

@@ -1,6 +1,5 @@
 /* A simple polygon cut into triangles whose corners are its own. */
-#ifndef OZ_MODEL_TRIANGULATION_H
-#define OZ_MODEL_TRIANGULATION_H
+#pragma once
 
 #include "model/patch.h"
 
@@ -11,5 +10,3 @@
  * edges meet. */
 OzStatus oz_triangulation_make(OzPatch *patch, const double *corners, int corner_count,
                                const char *where);
-
-#endif

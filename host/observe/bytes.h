@@ -1,7 +1,6 @@
 /* Values into and out of blocks of bytes, in the machine's own byte order. Each call moves *at on by the
  * bytes that it wrote or read. */
-#ifndef OZ_OBSERVE_BYTES_H
-#define OZ_OBSERVE_BYTES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -38,5 +37,3 @@ static inline void oz_bytes_unpack_floats(OzBytes *at, double *values, int64_t c
         values[i] = (double)value;
     }
 }
-
-#endif

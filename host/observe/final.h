@@ -1,7 +1,6 @@
 /* final.csv: one row per grain by id, with enough digits to restore every value. Its columns and
  * its reader are in model/bed.h; trigrains have columns of their own, OZ_FINAL_FLAT_HEADER. */
-#ifndef OZ_OBSERVE_FINAL_H
-#define OZ_OBSERVE_FINAL_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -20,5 +19,3 @@ void oz_final_give_up(const char *path);
 /* Writes under a temporary name beside path and renames. Fails with OZ_ERR_FILE, leaving what stood
  * under path, and with OZ_ERR_BLOWUP where a grain's state is no number. */
 OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path);
-
-#endif

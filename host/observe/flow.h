@@ -1,8 +1,7 @@
 /* What only a series of states tells about flat grains: how fast they flow out, and how the bed in
  * a drum moves: steadily, or sticking and slipping in avalanches. Rows of series.csv are the
  * states. */
-#ifndef OZ_OBSERVE_FLOW_H
-#define OZ_OBSERVE_FLOW_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -45,5 +44,3 @@ enum { OZ_FLOW_FREQUENCIES = 2000 };
 OzStatus oz_flow_write_spectrum(const OzFlow *flow, double interval, const char *path);
 
 void oz_flow_free(OzFlow *flow); /* zeroed is fine */
-
-#endif

@@ -1,7 +1,6 @@
 /* The pieces of flat grains in frames.bin: what never changes, and their part of a frame. The
  * layout is in observe/frames.h. */
-#ifndef OZ_OBSERVE_FRAME_PIECES_H
-#define OZ_OBSERVE_FRAME_PIECES_H
+#pragma once
 
 #include "observe/bytes.h"
 #include "observe/snapshot.h"
@@ -28,5 +27,3 @@ bool oz_frame_pieces_unpack_static(OzBytes *at, OzPieces *pieces);
  * zero. */
 void oz_frame_pieces_pack(OzBytes *at, const OzSnapshot *snapshot);
 void oz_frame_pieces_unpack(OzBytes *at, OzSnapshot *snapshot);
-
-#endif

@@ -18,8 +18,7 @@
  *   frame   f32 piece_position[2 pieces]; f32 piece_angle[pieces]; f32 piece_velocity[2 pieces] in
  *           the place of position, quaternion and velocity
  * SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
-#ifndef OZ_OBSERVE_FRAMES_H
-#define OZ_OBSERVE_FRAMES_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -49,5 +48,3 @@ OzStatus oz_frames_open(OzFrames **frames, const char *path, OzGrains *grains);
  * OZ_ERR_INPUT); *more is false at the end and the snapshot then untouched. Spin is zero, axes are
  * turned, there are no contacts and no ledger. */
 OzStatus oz_frames_next(OzFrames *frames, OzSnapshot *snapshot, int *purpose, bool *more);
-
-#endif

@@ -1,7 +1,6 @@
 /* Counting the hits of two grains: a hit is a span of looks at which they touch, and it counts when
  * it has a fair share of the impulse of all of them. Grazes are spans too, and do not count. */
-#ifndef OZ_OBSERVE_HITS_H
-#define OZ_OBSERVE_HITS_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -35,5 +34,3 @@ double oz_hits_share(const OzHits *hits, int span);
 
 /* How many spans have at least this share, OZ_HITS_SHARE_LEAST to 1. */
 int oz_hits_count(const OzHits *hits, double share);
-
-#endif

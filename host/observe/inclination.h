@@ -1,8 +1,7 @@
 /* How steep the bed in a drum lies. Angles in rad against the horizontal (across gravity), positive
  * when the surface rises to where the drum's turning carries the grains (to the right for a drum at
  * rest or turning counter-clockwise). */
-#ifndef OZ_OBSERVE_INCLINATION_H
-#define OZ_OBSERVE_INCLINATION_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -20,5 +19,3 @@ bool oz_inclination_surface(const OzSnapshot *snapshot, double *angle);
  * inclination of an even bed with a straight surface, and far less noisy, since every grain counts.
  * False for grains about the axis itself. */
 bool oz_inclination_centre(const OzSnapshot *snapshot, double *angle);
-
-#endif

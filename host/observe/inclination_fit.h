@@ -1,7 +1,6 @@
 /* A bed's inclination against the speed of its drum, over the values of a sweep: a constant and a
  * power of the speed (Poeschel and Buchholtz 1995 fit a square to it, their Fig. 18). */
-#ifndef OZ_OBSERVE_INCLINATION_FIT_H
-#define OZ_OBSERVE_INCLINATION_FIT_H
+#pragma once
 
 #include "base/status.h"
 
@@ -27,5 +26,3 @@ OzStatus oz_inclination_fit_write(const OzInclinationFit *fit, const char *folde
 
 /* Frees what fit owns and zeroes it. */
 void oz_inclination_fit_free(OzInclinationFit *fit);
-
-#endif

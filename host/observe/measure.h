@@ -1,7 +1,6 @@
 /* What positions and axes alone say about a bed: its density and its directions. Needs no contacts,
  * so it can be taken many times a period. */
-#ifndef OZ_OBSERVE_MEASURE_H
-#define OZ_OBSERVE_MEASURE_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -59,5 +58,3 @@ void oz_measure_layers(const OzMeasure *measure, const OzSnapshot *snapshot,
 
 /* Largest eigenvalue of Q = <3 u u - 1> / 2 over the rods: 1 aligned, 0 isotropic. */
 bool oz_measure_nematic(const OzSnapshot *snapshot, double *value);
-
-#endif

@@ -1,6 +1,5 @@
 /* A constant and a power: y = constant + factor x^exponent, all three free, by least squares. */
-#ifndef OZ_OBSERVE_POWER_FIT_H
-#define OZ_OBSERVE_POWER_FIT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -24,5 +23,3 @@ typedef struct OzPowerFit {
  * model linear in it and equal normal errors). False with fewer than OZ_POWER_FIT_POINTS different
  * x. */
 bool oz_power_fit_find(OzPowerFit *fit, const double *x, const double *y, int count);
-
-#endif

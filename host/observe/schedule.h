@@ -1,7 +1,6 @@
 /* When a run is looked at. Events are whole step numbers (event k of a kind lies at the step
  * nearest to k T), so that a frame rate never changes the physics. */
-#ifndef OZ_OBSERVE_SCHEDULE_H
-#define OZ_OBSERVE_SCHEDULE_H
+#pragma once
 
 #include "model/step_clock.h"
 #include "scene/scene.h"
@@ -46,5 +45,3 @@ bool oz_schedule_missed(const OzSchedule *schedule, char *text, size_t size);
 
 /* Whether two schedules have their events at the same times. */
 bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b);
-
-#endif

@@ -1,11 +1,8 @@
 /* What an evenly sampled series is made of. */
-#ifndef OZ_OBSERVE_SPECTRUM_H
-#define OZ_OBSERVE_SPECTRUM_H
+#pragma once
 
 #include <stdint.h>
 
 /* Amplitude of the harmonic that has so many whole periods in the series (1 <= periods <= count/2):
  * a sine of amplitude A with that many periods gives A. */
 double oz_spectrum_amplitude(const double *values, int64_t count, int64_t periods);
-
-#endif

@@ -1,8 +1,7 @@
 /* A guard against energy from nowhere: what grains and springs hold may shrink, and grow by what
  * walls put in, by nothing else. Sees the rows that are written anyway, so it costs one sum over
  * the grains a row. */
-#ifndef OZ_OBSERVE_SURPLUS_H
-#define OZ_OBSERVE_SURPLUS_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -20,5 +19,3 @@ typedef struct OzSurplus {
  * it is the law's doing and not the step's. Nothing is judged in snapshots without contacts (their
  * springs are unknown), nor without a ledger where walls move or with `slip: scale`. */
 OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot);
-
-#endif

@@ -1,6 +1,5 @@
 /* What follows from a scene's values, and whether they agree with one another. */
-#ifndef OZ_SCENE_CHECK_H
-#define OZ_SCENE_CHECK_H
+#pragma once
 
 #include "scene/scene.h"
 #include "scene/tree.h"
@@ -14,5 +13,3 @@
 /* Fills in what is derived (unit vectors, period, taps in seconds, amplitudes) and adds faults for
  * what cannot be together. Values that were refused before are skipped. */
 OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults);
-
-#endif

@@ -1,7 +1,6 @@
 /* The names of choices, for the rows of the list of scene keys alone. FLAT_ ones are those of
  * trigrains where they differ from those of rods. */
-#ifndef OZ_SCENE_CHOICES_H
-#define OZ_SCENE_CHOICES_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -78,5 +77,3 @@ static const char *const FLAT_COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                            [OZ_COLOUR_GREY] = "grey",
                                            [OZ_COLOUR_TURNED] = "turned",
                                            NULL};
-
-#endif

@@ -1,6 +1,5 @@
 /* Keys in words, for messages and help. */
-#ifndef OZ_SCENE_DESCRIBE_H
-#define OZ_SCENE_DESCRIBE_H
+#pragma once
 
 #include "scene/keys.h"
 #include "scene/tree.h"
@@ -21,5 +20,3 @@ void oz_describe_names(const char *group, int model, unsigned kinds, unsigned sh
 
 /* The names of the choice at path whose bits are set, as in "single or lattice"; cut to size. */
 void oz_describe_bits(unsigned bits, const char *path, char *text, size_t size);
-
-#endif

@@ -1,6 +1,5 @@
 /* A YAML text made into a tree with the line of every value. */
-#ifndef OZ_SCENE_DOCUMENT_H
-#define OZ_SCENE_DOCUMENT_H
+#pragma once
 
 #include "scene/tree.h"
 
@@ -10,5 +9,3 @@
  * 32): faults then holds that alone. */
 OzStatus oz_document_parse(OzNode **root, const char *text, size_t length, const OzSource *source,
                            OzFaults *faults);
-
-#endif

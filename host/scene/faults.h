@@ -1,8 +1,7 @@
 /* What is wrong with a scene, gathered while it is read so that a person gets every error at once,
  * in file order. Running out of memory while gathering is kept and reported in place of the errors.
  */
-#ifndef OZ_SCENE_FAULTS_H
-#define OZ_SCENE_FAULTS_H
+#pragma once
 
 #include "base/status.h"
 
@@ -37,5 +36,3 @@ OzStatus oz_faults_report(OzFaults *faults);
 
 /* Forgets every fault; a zeroed list is fine. */
 void oz_faults_free(OzFaults *faults);
-
-#endif

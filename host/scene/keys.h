@@ -2,8 +2,7 @@
  * written and what it means; loading, unknown-key hints, `--set`, writing a scene back and
  * `orzo keys` all walk the rows. A new key is a new row in rows.c. A key that means different
  * things to different models has a row for each. */
-#ifndef OZ_SCENE_KEYS_H
-#define OZ_SCENE_KEYS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -94,5 +93,3 @@ size_t oz_keys_size(const OzKey *key);
  * of one alone: meaning, type, range, unit, default and what it belongs to. False when there is
  * none. */
 bool oz_keys_print(const char *part, FILE *file);
-
-#endif

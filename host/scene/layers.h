@@ -1,8 +1,7 @@
 /* Trees put over one another: a scene over the one that it extends, settings over both. Of two keys
  * that say the same (time.duration and time.taps) the upper layer's replaces the lower one's. A
  * part that a scene can do without is left out where an upper layer says `false`. */
-#ifndef OZ_SCENE_LAYERS_H
-#define OZ_SCENE_LAYERS_H
+#pragma once
 
 #include "scene/tree.h"
 
@@ -18,5 +17,3 @@ OzStatus oz_layers_set(OzNode *root, const char *path, OzNode *value, OzFaults *
  * default, groups of those, and items of lists of groups. What has a default or is required stays,
  * to be refused as a wrong value. */
 void oz_layers_drop(OzNode *root, int model);
-
-#endif

@@ -1,6 +1,5 @@
 /* A tree into a scene, by the list of keys. */
-#ifndef OZ_SCENE_READ_H
-#define OZ_SCENE_READ_H
+#pragma once
 
 #include "scene/scene.h"
 #include "scene/tree.h"
@@ -10,5 +9,3 @@
  * which keep their defaults, and for missing ones; where the model is not known, and other keys
  * cannot be judged without it, for that alone. */
 OzStatus oz_read_scene(OzScene *scene, OzNode *root, OzFaults *faults);
-
-#endif

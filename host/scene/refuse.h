@@ -1,7 +1,6 @@
 /* The words for keys that stand where they should not, or do not stand where they should. Each adds
  * one fault. */
-#ifndef OZ_SCENE_REFUSE_H
-#define OZ_SCENE_REFUSE_H
+#pragma once
 
 #include "scene/keys.h"
 #include "scene/tree.h"
@@ -23,5 +22,3 @@ void oz_refuse_shared(OzFaults *faults, const OzNode *node, const OzKey *key);
 
 /* The group whose rows' paths begin with prefix does not hold the required key, nor its rival. */
 void oz_refuse_missing(OzFaults *faults, const OzNode *group, const char *prefix, const OzKey *key);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * Loading reports every error of the file at once as `file:line: what is wrong; what was expected`
  * (one per line, in file order) and fails with OZ_ERR_INPUT. It never asserts on what a file says. */
-#ifndef OZ_SCENE_SCENE_H
-#define OZ_SCENE_SCENE_H
+#pragma once
 
 #include "base/status.h"
 #include "kernels/integrators.h"
@@ -298,5 +297,3 @@ OzStatus oz_scene_write(const OzScene *scene, FILE *file);
 
 /* Frees what scene owns and zeroes it; a zeroed scene is fine. */
 void oz_scene_free(OzScene *scene);
-
-#endif

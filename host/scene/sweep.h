@@ -1,7 +1,6 @@
 /* The `sweep` group of a scene: keys and the values that each takes, whose combinations are members
  * of an ensemble. */
-#ifndef OZ_SCENE_SWEEP_H
-#define OZ_SCENE_SWEEP_H
+#pragma once
 
 #include "scene/scene.h"
 #include "scene/tree.h"
@@ -26,5 +25,3 @@ void oz_sweep_write(const OzSweep *sweep, FILE *file);
 
 /* Frees what sweep owns and zeroes it. */
 void oz_sweep_free(OzSweep *sweep);
-
-#endif

@@ -1,6 +1,5 @@
 /* A scene file as a tree of values, each knowing where it was written. Knows nothing of keys. */
-#ifndef OZ_SCENE_TREE_H
-#define OZ_SCENE_TREE_H
+#pragma once
 
 #include "base/status.h"
 #include "scene/faults.h"
@@ -58,5 +57,3 @@ bool oz_tree_is_false(const OzNode *node);
 
 /* Frees a root or detached node with all below it; NULL is fine. */
 void oz_tree_free(OzNode *node);
-
-#endif

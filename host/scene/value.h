@@ -1,6 +1,5 @@
 /* One key's value: from text into memory, and its place there. */
-#ifndef OZ_SCENE_VALUE_H
-#define OZ_SCENE_VALUE_H
+#pragma once
 
 #include "scene/keys.h"
 #include "scene/tree.h"
@@ -27,5 +26,3 @@ void oz_value_copy(const OzKey *key, void *base, const OzKey *from, const void *
 
 /* Frees what a text or list row owns. */
 void oz_value_free(const OzKey *key, void *base);
-
-#endif

@@ -1,7 +1,6 @@
 /* Rods' walls as their distances read them: the one place where a scene's keys become a shape. Says
  * OZ_HOST for whoever includes it. */
-#ifndef OZ_SCENE_WALL_SHAPE_H
-#define OZ_SCENE_WALL_SHAPE_H
+#pragma once
 
 #define OZ_HOST
 
@@ -15,5 +14,3 @@ OzWallShape oz_wall_shape_of(const OzWall *wall);
  * moved up. normal, unless NULL, receives the unit vector into the free side. */
 double oz_wall_shape_distance(const OzWall *wall, double offset, const double point[3],
                               double normal[3]);
-
-#endif

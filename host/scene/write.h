@@ -1,10 +1,7 @@
 /* A scene back into a file. */
-#ifndef OZ_SCENE_WRITE_H
-#define OZ_SCENE_WRITE_H
+#pragma once
 
 #include "scene/scene.h"
 
 /* Writes every key with its value, in the order of the list of keys. */
 void oz_write_scene(const OzScene *scene, FILE *file);
-
-#endif

@@ -1,8 +1,7 @@
 /* Work in a process of its own: its threads, its memory and its crashes end with it. OpenCL's
  * threads can be limited only before a process's first OpenCL call, so every benchmark row runs
  * apart, and the process that starts them makes no OpenCL call at all. */
-#ifndef OZ_STUDY_APART_H
-#define OZ_STUDY_APART_H
+#pragma once
 
 #include "base/status.h"
 
@@ -12,5 +11,3 @@
  * only result (size bytes, no pointers in it) comes back. Fails as work does, with its text, or
  * with OZ_ERR_DEVICE when the child ended otherwise. */
 OzStatus oz_apart_run(OzStatus (*work)(void *context), void *context, void *result, size_t size);
-
-#endif

@@ -1,7 +1,6 @@
 /* `orzo bench`: how fast this machine runs beds of rods, and how far that is from what it could do.
  */
-#ifndef OZ_STUDY_BENCH_H
-#define OZ_STUDY_BENCH_H
+#pragma once
 
 #include "cli.h"
 
@@ -9,5 +8,3 @@
  * threads, in float and double; prints a table and leaves DIR/bench.csv and DIR/bench.png. A row
  * that memory or time does not allow is left out with a line that says so. */
 OzStatus oz_bench_run(const OzOptions *options);
-
-#endif

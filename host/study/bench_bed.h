@@ -1,7 +1,6 @@
 /* The beds that the benchmark runs: a scene with its grains, settled and shaken, and large beds of
  * the same height made of copies of a small one. */
-#ifndef OZ_STUDY_BENCH_BED_H
-#define OZ_STUDY_BENCH_BED_H
+#pragma once
 
 #include "cli.h"
 #include "model/grains.h"
@@ -49,5 +48,3 @@ void oz_bench_bed_free_tile(OzBenchTile *tile);
  * count allows; count is rounded to whole tiles. */
 OzStatus oz_bench_bed_pave(OzBenchBed *bed, const OzBenchTile *tile, const OzOptions *options,
                            int64_t count);
-
-#endif

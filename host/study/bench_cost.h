@@ -7,8 +7,7 @@
  * contact_hooke.h, closest.h and body.h, one each, for capsules that are all equal, the Euler step,
  * forces on surfaces; a wall counts its distances only. Other switches change it by a few per cent.
  */
-#ifndef OZ_STUDY_BENCH_COST_H
-#define OZ_STUDY_BENCH_COST_H
+#pragma once
 
 #include "compute/probe.h"
 
@@ -18,5 +17,3 @@ typedef struct OzBenchCost {
 } OzBenchCost;
 
 OzBenchCost oz_bench_cost_step(const OzProbe *probe);
-
-#endif

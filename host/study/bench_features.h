@@ -1,6 +1,5 @@
 /* What each feature of an6 costs. */
-#ifndef OZ_STUDY_BENCH_FEATURES_H
-#define OZ_STUDY_BENCH_FEATURES_H
+#pragma once
 
 #include "study/bench_bed.h"
 
@@ -12,5 +11,3 @@
  * the motion too, so pairs per grain are told. */
 OzStatus oz_bench_features_print(const OzBenchBed *bed, const OzOptions *options,
                                  const char *folder, FILE *text);
-
-#endif

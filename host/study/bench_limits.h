@@ -1,6 +1,5 @@
 /* The device that a benchmark runs on, and what it can do at best. */
-#ifndef OZ_STUDY_BENCH_LIMITS_H
-#define OZ_STUDY_BENCH_LIMITS_H
+#pragma once
 
 #include "cli.h"
 
@@ -19,5 +18,3 @@ OzStatus oz_bench_limits_device(OzBenchDevice *device, const OzOptions *options)
 
 /* Prints the device, and its copy and multiply-add rates on one and on all threads. */
 OzStatus oz_bench_limits_print(const OzBenchDevice *device, const OzOptions *options, FILE *file);
-
-#endif

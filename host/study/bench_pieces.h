@@ -1,7 +1,6 @@
 /* Where a step of a trigrains scene spends its time: the rows of Table 1 of Poeschel and Buchholtz
  * (1995). */
-#ifndef OZ_STUDY_BENCH_PIECES_H
-#define OZ_STUDY_BENCH_PIECES_H
+#pragma once
 
 #include "study/bench_bed.h"
 
@@ -9,5 +8,3 @@
  * prints the table; `folder`/pieces_NAME.csv receives the same. */
 OzStatus oz_bench_pieces_print(const OzBenchBed *bed, const OzOptions *options, const char *folder,
                                FILE *text);
-
-#endif

@@ -1,7 +1,6 @@
 /* One row of the benchmark: a bed stepped on a device with so many threads, in a process of its
  * own. */
-#ifndef OZ_STUDY_BENCH_ROW_H
-#define OZ_STUDY_BENCH_ROW_H
+#pragma once
 
 #include "study/bench_bed.h"
 
@@ -66,5 +65,3 @@ OzBenchRow oz_bench_row_empty(const char *name);
 void oz_bench_row_describe(const OzBenchRow *row, char *text, size_t size);
 
 OzStatus oz_bench_row_measure(OzBenchRow *row, const OzBenchJob *job);
-
-#endif

@@ -1,6 +1,5 @@
 /* Where the time of one scene goes: parts of a step, and what looks at it. */
-#ifndef OZ_STUDY_BENCH_SHARES_H
-#define OZ_STUDY_BENCH_SHARES_H
+#pragma once
 
 #include "study/bench_bed.h"
 
@@ -13,5 +12,3 @@
  * encoding are timed on the host at the rates of the scene. */
 OzStatus oz_bench_shares_print(OzBenchBed *bed, const OzOptions *options, const char *folder,
                                const char *name, FILE *text);
-
-#endif

@@ -1,6 +1,5 @@
 /* The benchmark's rows as a table for people and as bench.csv, written as they come. */
-#ifndef OZ_STUDY_BENCH_TABLE_H
-#define OZ_STUDY_BENCH_TABLE_H
+#pragma once
 
 #include "study/bench_row.h"
 
@@ -14,5 +13,3 @@ void oz_bench_table_add(const OzBenchRow *row, FILE *text, FILE *csv);
 
 /* What the headings mean, one line each. */
 void oz_bench_table_explain(FILE *text);
-
-#endif

@@ -1,6 +1,5 @@
 /* The scalar yardstick (tests/yardstick.c): another program that steps the same bed on one core. */
-#ifndef OZ_STUDY_BENCH_YARDSTICK_H
-#define OZ_STUDY_BENCH_YARDSTICK_H
+#pragma once
 
 #include "study/bench_row.h"
 
@@ -16,5 +15,3 @@ OzStatus oz_bench_yardstick_measure(OzBenchRow *row, bool *found, const OzBenchB
  * clock. */
 void oz_bench_yardstick_compare(const OzBenchRow *yardstick, const OzBenchRow *rows, int count,
                                 FILE *file);
-
-#endif

@@ -1,6 +1,5 @@
 /* `orzo check`: what follows from a scene before it is run. */
-#ifndef OZ_STUDY_INSPECT_H
-#define OZ_STUDY_INSPECT_H
+#pragma once
 
 #include "cli.h"
 
@@ -13,5 +12,3 @@
  * --force; of a sweep, when any member would be refused; OZ_ERR_BLOWUP where a guard stops the first steps. A bed whose own limit lies below the step is a warning, as
  * it is in a run. */
 OzStatus oz_inspect_scene(const OzOptions *options, FILE *file);
-
-#endif

@@ -1,6 +1,5 @@
 /* What follows from a trigrains scene, for `orzo check`. */
-#ifndef OZ_STUDY_INSPECT_PIECES_H
-#define OZ_STUDY_INSPECT_PIECES_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -12,5 +11,3 @@ OzStatus oz_inspect_pieces_print(FILE *file, const OzScene *scene, const OzGrain
 
 /* A line that warns of beams or contacts too soft for the hits to be expected, where they are. */
 OzStatus oz_inspect_pieces_warn(FILE *file, const OzScene *scene, const OzGrains *grains);
-
-#endif

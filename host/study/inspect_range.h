@@ -1,11 +1,8 @@
 /* A line about numbers that lie between two. */
-#ifndef OZ_STUDY_INSPECT_RANGE_H
-#define OZ_STUDY_INSPECT_RANGE_H
+#pragma once
 
 #include <stdio.h>
 
 /* `name low ... high unit`, or one number where both are written alike. */
 void oz_inspect_range_print(FILE *file, const char *name, double low, double high,
                             const char *unit);
-
-#endif

@@ -1,6 +1,5 @@
 /* The first lines of `orzo check`: whether a run of the scene can be trusted, and what it costs. */
-#ifndef OZ_STUDY_INSPECT_VERDICT_H
-#define OZ_STUDY_INSPECT_VERDICT_H
+#pragma once
 
 #include "cli.h"
 #include "study/rehearsal.h"
@@ -20,5 +19,3 @@ typedef struct OzVerdict {
 /* Prints restitution, stability, cost in wall time and memory, what single precision resolves, and
  * which columns stay empty. Draws two pictures to time those of a movie. */
 OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict);
-
-#endif

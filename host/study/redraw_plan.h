@@ -1,6 +1,5 @@
 /* Which stored frames `orzo draw` makes its pictures of. */
-#ifndef OZ_STUDY_REDRAW_PLAN_H
-#define OZ_STUDY_REDRAW_PLAN_H
+#pragma once
 
 #include "observe/frames.h"
 
@@ -27,5 +26,3 @@ void oz_redraw_plan_free(OzRedrawPlan *plan);
  * drawn, where they are off by more than half a step, so that pictures are named truly. Fails with
  * OZ_ERR_INPUT when there is nothing to draw. */
 OzStatus oz_redraw_plan_choose(OzRedrawPlan *plan, const OzScene *run, OzScene *asked);
-
-#endif

@@ -1,7 +1,6 @@
 /* A rehearsal of a run: its bed settled and its first steps made, to say how stiff the bed is and
  * what a step costs here, before anyone waits for it. */
-#ifndef OZ_STUDY_REHEARSAL_H
-#define OZ_STUDY_REHEARSAL_H
+#pragma once
 
 #include "compute/sim.h"
 #include "compute/stiffness.h"
@@ -28,5 +27,3 @@ OzStatus oz_rehearsal_run(OzRehearsal *rehearsal, const OzScene *scene, const Oz
                           const OzDevice *device, const char *source_dir, double patience,
                           double stretch);
 void oz_rehearsal_free(OzRehearsal *rehearsal);
-
-#endif

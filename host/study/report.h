@@ -1,7 +1,6 @@
 /* `orzo report`: what the error of a setting costs in time, how far the theory of stability holds,
  * and how extreme cases fare. */
-#ifndef OZ_STUDY_REPORT_H
-#define OZ_STUDY_REPORT_H
+#pragma once
 
 #include "cli.h"
 
@@ -11,5 +10,3 @@
  * device. --device may be a list, as in cpu,gpu: a curve for each. With --extreme, --map,
  * --stability, --ensemble or --hits the study of that name instead. */
 OzStatus oz_report_run(const OzOptions *options);
-
-#endif

@@ -1,7 +1,6 @@
 /* `orzo report --stability`, and the lines of `orzo check` about the bed: the stability of all its
  * contacts together (compute/stiffness.h). */
-#ifndef OZ_STUDY_REPORT_BED_H
-#define OZ_STUDY_REPORT_BED_H
+#pragma once
 
 #include "study/rehearsal.h"
 
@@ -15,5 +14,3 @@ void oz_report_bed_print(FILE *file, const OzScene *scene, const OzRehearsal *re
 /* The same for a scene file, with all the time that settling takes. */
 OzStatus oz_report_bed_say(const char *path, char *const *settings, int setting_count,
                            const char *device, int threads, const char *source_dir);
-
-#endif

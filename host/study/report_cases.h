@@ -1,7 +1,6 @@
 /* THE list of small scenes of known outcome that `orzo report` studies: what is measured at the end
  * of each, and what it must be. A new case is a scene in scenes/report/ and a row. */
-#ifndef OZ_STUDY_REPORT_CASES_H
-#define OZ_STUDY_REPORT_CASES_H
+#pragma once
 
 #include "cli.h"
 #include "observe/snapshot.h"
@@ -30,5 +29,3 @@ double oz_report_cases_error(const OzReportCase *row, double value, double truth
 /* Kinetic, rotational and potential energy, J: now, and at the start. */
 double oz_report_cases_energy(const OzSnapshot *now);
 double oz_report_cases_energy_start(const OzSnapshot *now);
-
-#endif

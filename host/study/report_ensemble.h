@@ -1,8 +1,7 @@
 /* `orzo report --ensemble`: what a chaotic bed owes to its step and integrator. Two runs of such a
  * bed part within a few taps whatever the step, so paths are never compared: only means over seeds,
  * with their spread and interval. */
-#ifndef OZ_STUDY_REPORT_ENSEMBLE_H
-#define OZ_STUDY_REPORT_ENSEMBLE_H
+#pragma once
 
 #include "cli.h"
 
@@ -12,5 +11,3 @@
  * ensemble.csv, ensemble.png and the runs in folder. A setting that fails is listed with its
  * reason. Fails with OZ_ERR_INPUT when the scene has no moving wall. */
 OzStatus oz_report_ensemble_run(const OzOptions *options, const char *folder);
-
-#endif

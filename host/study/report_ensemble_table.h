@@ -1,6 +1,5 @@
 /* Ensembles in words and pictures: means over seeds with their spread and interval. */
-#ifndef OZ_STUDY_REPORT_ENSEMBLE_TABLE_H
-#define OZ_STUDY_REPORT_ENSEMBLE_TABLE_H
+#pragma once
 
 #include "study/report_member.h"
 
@@ -36,5 +35,3 @@ void oz_report_ensemble_table_print(FILE *file, const OzEnsemblePoint *points, i
 /* Writes folder/ensemble.csv and, where there is gnuplot, folder/ensemble.png. */
 OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,
                                         const OzEnsemblePoint *points, int count);
-
-#endif

@@ -1,7 +1,6 @@
 /* `orzo report --extreme`: stiff and extreme cases, each with what must come out. Nothing may be
  * silently wrong: a case is right, or it is refused with a message. */
-#ifndef OZ_STUDY_REPORT_EXTREME_H
-#define OZ_STUDY_REPORT_EXTREME_H
+#pragma once
 
 #include "cli.h"
 #include "compute/device.h"
@@ -32,5 +31,3 @@ OzStatus oz_report_extreme_try(OzExtremeOutcome *outcome, const OzExtremeCase *r
 /* Runs every case in float and double (--quick: the short durations) and prints the table. Fails
  * with OZ_ERR_BLOWUP when a row is not as it should be. */
 OzStatus oz_report_extreme_run(const OzOptions *options);
-
-#endif

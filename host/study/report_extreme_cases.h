@@ -1,7 +1,6 @@
 /* THE list of stiff and extreme cases of rods, and what a row of any model is. A new case is a row;
  * the table and the test walk the rows, and those of study/report_extreme_pieces.h. */
-#ifndef OZ_STUDY_REPORT_EXTREME_CASES_H
-#define OZ_STUDY_REPORT_EXTREME_CASES_H
+#pragma once
 
 #include "observe/snapshot.h"
 
@@ -31,5 +30,3 @@ const char *oz_report_extreme_cases_common(void);
 
 /* The walls they share: a plane at rest, z = 0, and a cylinder out of reach. */
 const char *oz_report_extreme_cases_walls(void);
-
-#endif

@@ -1,7 +1,6 @@
 /* THE list of stiff and extreme cases of trigrains. A new case is a row (study/
  * report_extreme_cases.h says what a row is). */
-#ifndef OZ_STUDY_REPORT_EXTREME_PIECES_H
-#define OZ_STUDY_REPORT_EXTREME_PIECES_H
+#pragma once
 
 #include "study/report_extreme_cases.h"
 
@@ -14,5 +13,3 @@ const char *oz_report_extreme_pieces_common(void);
 
 /* The walls they share: one floor far below. */
 const char *oz_report_extreme_pieces_walls(void);
-
-#endif

@@ -1,7 +1,6 @@
 /* `orzo report --hits`: how often two grains hit each other, and how they spin afterwards, for
  * every value of a scene's sweep; stepped by the reference. */
-#ifndef OZ_STUDY_REPORT_HITS_H
-#define OZ_STUDY_REPORT_HITS_H
+#pragma once
 
 #include "cli.h"
 #include "model/grains.h"
@@ -24,5 +23,3 @@ OzStatus oz_report_hits_follow(OzReportHits *meeting, const OzScene *scene, cons
  * values the number of hits changes, counted from options->share (0: OZ_HITS_SHARE) of the impulse
  * and from 3, 5 and 10 % of it; leaves folder/hits.csv and, with gnuplot, folder/hits.png. */
 OzStatus oz_report_hits_run(const OzOptions *options, const char *folder);
-
-#endif

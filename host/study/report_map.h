@@ -1,7 +1,6 @@
 /* `orzo report --map`: where a lasting contact comes to rest, for each integrator, over steps per
  * contact and restitution; measured with the reference, the theory drawn in. */
-#ifndef OZ_STUDY_REPORT_MAP_H
-#define OZ_STUDY_REPORT_MAP_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -18,5 +17,3 @@ OzStatus oz_report_map_try(OzMapVerdict *verdict, double *amplitude, OzIntegrato
 
 /* Leaves folder/stability.csv and, with gnuplot, folder/stability.png. */
 OzStatus oz_report_map_draw(const char *folder);
-
-#endif

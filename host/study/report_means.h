@@ -1,7 +1,6 @@
 /* Where paths cannot be compared any more: means over seeds of what a few settings of a scene give,
  * with their intervals. */
-#ifndef OZ_STUDY_REPORT_MEANS_H
-#define OZ_STUDY_REPORT_MEANS_H
+#pragma once
 
 #include "study/report_path.h"
 
@@ -37,5 +36,3 @@ OzStatus oz_report_means_study(OzReportMeans *means, const OzReportStart *start,
 
 /* What the scene has none of is left out, and named. */
 void oz_report_means_print(FILE *file, const OzReportMeans *means);
-
-#endif

@@ -1,6 +1,5 @@
 /* What one member of an ensemble says: numbers of its later half, read from its series.csv. */
-#ifndef OZ_STUDY_REPORT_MEMBER_H
-#define OZ_STUDY_REPORT_MEMBER_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -26,5 +25,3 @@ OzStatus oz_report_member_read(double values[OZ_MEMBER_QUANTITIES], const char *
 /* The mean of any column over the rows whose time is at least half of the last one's, or NAN as
  * above. */
 OzStatus oz_report_member_mean(double *value, const char *path, const char *column);
-
-#endif

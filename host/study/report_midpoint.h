@@ -1,8 +1,7 @@
 /* What the force at the chord's midpoint (Poeschel and Buchholtz 1995) does to the energy, beside
  * the force at the overlap's centroid, which for kind i has a potential: the net work of a closed
  * loop, and the power that contacts inject into a pile that should come to rest. */
-#ifndef OZ_STUDY_REPORT_MIDPOINT_H
-#define OZ_STUDY_REPORT_MIDPOINT_H
+#pragma once
 
 #include "cli.h"
 #include "compute/device.h"
@@ -26,5 +25,3 @@ OzStatus oz_report_midpoint_pile(OzMidpointPile *pile, const OzScene *scene, con
 
 /* The study of one scene: prints both force points, and leaves folder/midpoint.csv. */
 OzStatus oz_report_midpoint_study(const char *path, const char *folder, const OzOptions *options);
-
-#endif

@@ -1,8 +1,7 @@
 /* `orzo report SCENE` of a scene that no answer is known for: what can be said of any. How long
  * paths of grains can be compared at all, and what each integrator and step makes of them; whether
  * means over seeds depend on either; how stable the bed is. */
-#ifndef OZ_STUDY_REPORT_OWN_H
-#define OZ_STUDY_REPORT_OWN_H
+#pragma once
 
 #include "study/report_means.h"
 
@@ -16,5 +15,3 @@ OzStatus oz_report_own_study(const char *path, const char *folder, const OzOptio
  * tenths of the largest stable one; the most accurate where none is; NULL where none was measured.
  */
 const OzReportPath *oz_report_own_choose(const OzReportPaths *paths, double tolerance);
-
-#endif

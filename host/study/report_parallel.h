@@ -1,7 +1,6 @@
 /* What nearly parallel contacts cost: torque noise and energy from nowhere of `parallel: single`
  * against `line`, in a bed of aligned rods. */
-#ifndef OZ_STUDY_REPORT_PARALLEL_H
-#define OZ_STUDY_REPORT_PARALLEL_H
+#pragma once
 
 #include "cli.h"
 #include "scene/scene.h"
@@ -19,5 +18,3 @@ OzStatus oz_report_parallel_measure(OzParallelNoise *noise, const char *path, Oz
 /* Both kinds at 10 to 500 steps per contact (--quick: 10 to 50): prints a table, leaves
  * folder/aligned.csv and, with gnuplot, folder/aligned.png. */
 OzStatus oz_report_parallel_study(const char *path, const char *folder, const OzOptions *options);
-
-#endif

@@ -1,7 +1,6 @@
 /* Paths of grains against those of a small step, for as long as they can be compared: in a bed two
  * paths that differ by rounding part exponentially, and from some time on no step is right. */
-#ifndef OZ_STUDY_REPORT_PATH_H
-#define OZ_STUDY_REPORT_PATH_H
+#pragma once
 
 #include "study/report_start.h"
 
@@ -52,5 +51,3 @@ OzStatus oz_report_path_write(const char *folder, const OzReportPaths *paths);
 
 /* "velocity-verlet, 4 substeps" */
 void oz_report_path_name(const OzReportPath *path, char *text, size_t size);
-
-#endif

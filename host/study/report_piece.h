@@ -1,7 +1,6 @@
 /* The work-precision study of trigrains: which methods are compared, at which steps, and against
  * what truth. */
-#ifndef OZ_STUDY_REPORT_PIECE_H
-#define OZ_STUDY_REPORT_PIECE_H
+#pragma once
 
 #include "study/report_point.h"
 
@@ -25,5 +24,3 @@ const int *oz_report_piece_ladder(bool quick, int *count);
 /* Fills job->truth: zeros where the case is exact, else the reference (gear4, double) at
  * OZ_REPORT_PIECE_TRUTH steps. */
 OzStatus oz_report_piece_truth(OzReportJob *job);
-
-#endif

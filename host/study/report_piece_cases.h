@@ -1,8 +1,7 @@
 /* THE list of small scenes of trigrains that `orzo report` studies. What comes out of each is a few
  * numbers, scaled so that the distance between two outcomes is the error. A new case is a scene in
  * scenes/report/ and a row. */
-#ifndef OZ_STUDY_REPORT_PIECE_CASES_H
-#define OZ_STUDY_REPORT_PIECE_CASES_H
+#pragma once
 
 #include "study/report_cases.h"
 
@@ -28,5 +27,3 @@ const OzReportPieceCase *oz_report_piece_cases_find(const char *scene);
 /* Distance of an end from the truth (zeros where the case is exact). */
 double oz_report_piece_cases_error(const OzReportPieceCase *pieces, const OzSnapshot *end,
                                    const double truth[OZ_REPORT_PIECE_VALUES]);
-
-#endif

@@ -1,7 +1,6 @@
 /* The picture of a report: error against wall time and against force evaluations, drawn by gnuplot.
  */
-#ifndef OZ_STUDY_REPORT_PLOT_H
-#define OZ_STUDY_REPORT_PLOT_H
+#pragma once
 
 #include "study/report_point.h"
 
@@ -9,5 +8,3 @@
  * says so, and there is no picture. Fails with OZ_ERR_FILE when gnuplot does. */
 OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzReportPoint *points,
                              int count);
-
-#endif

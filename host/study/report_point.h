@@ -1,7 +1,6 @@
 /* One point of a work-precision study: a scene run with one integrator, precision and step; its
  * error over the phases of first touch, and its wall time. */
-#ifndef OZ_STUDY_REPORT_POINT_H
-#define OZ_STUDY_REPORT_POINT_H
+#pragma once
 
 #include "cli.h"
 #include "compute/device.h"
@@ -55,5 +54,3 @@ OzStatus oz_report_point_truth(double *truth, const OzReportJob *job);
 /* Fills the point's errors and times from its integrator, precision, steps and truth. A setting
  * that is unstable or blows up is no failure: the point's reason says so. */
 OzStatus oz_report_point_measure(OzReportPoint *point, const OzReportJob *job);
-
-#endif

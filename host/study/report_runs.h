@@ -1,7 +1,6 @@
 /* The copies of a scene that one point of a report runs side by side: the scene at the point's
  * setting, and one start for each phase of first touch (or for each start of the case's own). */
-#ifndef OZ_STUDY_REPORT_RUNS_H
-#define OZ_STUDY_REPORT_RUNS_H
+#pragma once
 
 #include "compute/sim.h"
 #include "study/report_point.h"
@@ -21,5 +20,3 @@ typedef struct OzReportRuns {
 OzStatus oz_report_runs_open(OzReportRuns **runs, const OzReportJob *job,
                              const OzReportPoint *point);
 void oz_report_runs_close(OzReportRuns *runs); /* NULL is fine */
-
-#endif

@@ -1,7 +1,6 @@
 /* Where the study of a scene without a known answer begins: its bed, settled, or run until its
  * grains touch. */
-#ifndef OZ_STUDY_REPORT_START_H
-#define OZ_STUDY_REPORT_START_H
+#pragma once
 
 #include "cli.h"
 #include "compute/device.h"
@@ -43,5 +42,3 @@ OzStatus oz_report_start_limit(double *largest, const OzReportStart *start, OzIn
 
 /* Prints what is known of the bed's stability. */
 OzStatus oz_report_start_say(FILE *file, const OzReportStart *start);
-
-#endif

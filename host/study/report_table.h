@@ -1,6 +1,5 @@
 /* A report in words and numbers: report.csv, the Pareto front, the sentence for a tolerance. */
-#ifndef OZ_STUDY_REPORT_TABLE_H
-#define OZ_STUDY_REPORT_TABLE_H
+#pragma once
 
 #include "study/report_point.h"
 
@@ -32,5 +31,3 @@ void oz_report_table_say(FILE *file, const OzReportPoint *points, int count, dou
 
 /* Writes folder/report.csv. */
 OzStatus oz_report_table_write(const char *folder, const OzReportPoint *points, int count);
-
-#endif
