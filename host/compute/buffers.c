@@ -70,34 +70,30 @@ done:
 
 OzStatus oz_buffers_save(const OzDevice *device, const cl_mem *buffers, int count, void **copies)
 {
-    OzStatus status = OZ_OK;
     for (int i = 0; i < count; i++) {
         size_t bytes = 0;
         if (!buffers[i]) {
             continue;
         }
-        OZ_TRY(size_of(buffers[i], &bytes));
-        OZ_TRY(oz_memory_new(&copies[i], bytes, 1, "copy of a buffer"));
-        OZ_TRY(oz_buffers_read(device, buffers[i], 0, copies[i], bytes));
+        OZ_PASS(size_of(buffers[i], &bytes));
+        OZ_PASS(oz_memory_new(&copies[i], bytes, 1, "copy of a buffer"));
+        OZ_PASS(oz_buffers_read(device, buffers[i], 0, copies[i], bytes));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_buffers_restore(const OzDevice *device, const cl_mem *buffers, int count,
                             void *const *copies)
 {
-    OzStatus status = OZ_OK;
     for (int i = 0; i < count; i++) {
         size_t bytes = 0;
         if (!copies[i]) {
             continue;
         }
-        OZ_TRY(size_of(buffers[i], &bytes));
-        OZ_TRY(oz_buffers_write(device, buffers[i], 0, copies[i], bytes));
+        OZ_PASS(size_of(buffers[i], &bytes));
+        OZ_PASS(oz_buffers_write(device, buffers[i], 0, copies[i], bytes));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_buffers_bind(const cl_mem *buffers, int count, cl_kernel kernel)

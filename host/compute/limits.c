@@ -98,22 +98,20 @@ done:
 /* Seconds of one repeat, of the fastest launch: a limit is what can be done. */
 static OzStatus time_repeat(Limit *limit, double *seconds)
 {
-    OzStatus status = OZ_OK;
     double spent = 0, least = INFINITY;
     int repeats = 2;
-    OZ_TRY(time_launch(limit, repeats, &spent)); /* compiles, touches every page */
-    OZ_TRY(time_launch(limit, repeats, &spent));
+    OZ_PASS(time_launch(limit, repeats, &spent)); /* compiles, touches every page */
+    OZ_PASS(time_launch(limit, repeats, &spent));
     while (spent < launch_seconds && repeats < 1 << 28) {
         repeats *= 2;
-        OZ_TRY(time_launch(limit, repeats, &spent));
+        OZ_PASS(time_launch(limit, repeats, &spent));
     }
     for (int k = 0; k < LAUNCHES; k++) {
-        OZ_TRY(time_launch(limit, repeats, &spent));
+        OZ_PASS(time_launch(limit, repeats, &spent));
         least = fmin(least, spent);
     }
     *seconds = least / repeats;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_limits_copy(double *bytes_per_second, const OzDevice *device, const char *source_dir,

@@ -72,30 +72,26 @@ static void part_walls(Rods *r, int64_t i, double *deepest)
 
 static OzStatus sweep_rods(Rods *r, double *deepest)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_sort_axis_pairs(&r->pairs, r->grains, r->grains->position, r->axis, 0));
+    OZ_PASS(oz_sort_axis_pairs(&r->pairs, r->grains, r->grains->position, r->axis, 0));
     for (int64_t k = 0; k < r->pairs.count; k++) {
         part_pair(r, r->pairs.pair[k], deepest);
     }
     for (int64_t i = 0; i < r->grains->count; i++) {
         part_walls(r, i, deepest);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus open_rods(Rods *r, OzGrains *grains, const OzScene *scene)
 {
-    OzStatus status = OZ_OK;
     *r = (Rods){.grains = grains};
-    OZ_TRY(oz_physics_derive(&r->physics, scene, grains));
+    OZ_PASS(oz_physics_derive(&r->physics, scene, grains));
     dialect = r->physics.switches;
-    OZ_TRY(OZ_NEW(&r->axis, 3 * grains->count));
+    OZ_PASS(OZ_NEW(&r->axis, 3 * grains->count));
     for (int64_t i = 0; i < grains->count; i++) {
         oz_grains_axis(&grains->quaternion[4 * i], &r->axis[3 * i]);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* The farthest that a grain is now from where it was, m. */

@@ -44,16 +44,14 @@ static bool still_holds(const OzPiecePairs *pairs, const OzPieces *pieces, const
 
 static OzStatus add_pair(OzPiecePairs *pairs, int i, int j)
 {
-    OzStatus status = OZ_OK;
     if (pairs->count == pairs->capacity) {
         int64_t more = 2 * pairs->capacity + 64;
-        OZ_TRY(oz_memory_grow((void **)&pairs->pair, (size_t)pairs->capacity, (size_t)more,
-                              sizeof *pairs->pair, "pairs of pieces"));
+        OZ_PASS(oz_memory_grow((void **)&pairs->pair, (size_t)pairs->capacity, (size_t)more,
+                               sizeof *pairs->pair, "pairs of pieces"));
         pairs->capacity = more;
     }
     pairs->pair[pairs->count++] = (OzPiecePair){i < j ? i : j, i < j ? j : i};
-done:
-    return status;
+    return OZ_OK;
 }
 
 static bool may_touch(const OzPieces *pieces, const double *position, int i, int j, double skin)
@@ -67,7 +65,6 @@ static bool may_touch(const OzPieces *pieces, const double *position, int i, int
 static OzStatus sweep(OzPiecePairs *pairs, const OzPieces *pieces, const double *position,
                       Entry *entries)
 {
-    OzStatus status = OZ_OK;
     for (int64_t i = 0; i < pieces->count; i++) {
         entries[i] = (Entry){position[2 * i] - pieces->reach[i], (int)i};
     }
@@ -77,12 +74,11 @@ static OzStatus sweep(OzPiecePairs *pairs, const OzPieces *pieces, const double 
         double end = position[2 * one] + pieces->reach[one] + pairs->skin;
         for (int64_t j = i + 1; j < pieces->count && entries[j].low < end; j++) {
             if (may_touch(pieces, position, one, entries[j].piece, pairs->skin)) {
-                OZ_TRY(add_pair(pairs, one, entries[j].piece));
+                OZ_PASS(add_pair(pairs, one, entries[j].piece));
             }
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_piece_pairs_renew(OzPiecePairs *pairs, const OzPieces *pieces, const double *position)

@@ -34,7 +34,6 @@ typedef struct Job {
 
 static OzStatus time_all(void *context, OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     const Job *job = context;
     memset(job->seconds, 0, OZ_PIECE_PHASE_COUNT * sizeof *job->seconds);
     for (int p = 0; p < OZ_PIECE_PHASE_COUNT; p++) {
@@ -42,14 +41,13 @@ static OzStatus time_all(void *context, OzSim *sim)
         if (p == OZ_PIECE_PHASE_BEAMS && !oz_piece_switches(sim)->beams) {
             continue;
         }
-        OZ_TRY(time_kernel(sim, job->program, phases[p].kernel, &job->seconds[p]));
+        OZ_PASS(time_kernel(sim, job->program, phases[p].kernel, &job->seconds[p]));
         if (phases[p].less) {
-            OZ_TRY(time_kernel(sim, job->program, phases[p].less, &less));
+            OZ_PASS(time_kernel(sim, job->program, phases[p].less, &less));
         }
         job->seconds[p] -= less;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_piece_phases_measure(double seconds[OZ_PIECE_PHASE_COUNT], OzSim *sim,

@@ -107,11 +107,8 @@ static OzStatus check_bodies(const OzReference *r, double dt)
 
 OzStatus oz_reference_guard_check(OzReference *reference, double dt)
 {
-    OzStatus status = OZ_OK;
     dialect = reference->physics.switches;
-    OZ_TRY(check_pairs(reference));
-    OZ_TRY(check_walls(reference));
-    OZ_TRY(check_bodies(reference, dt));
-done:
-    return status;
+    OZ_PASS(check_pairs(reference));
+    OZ_PASS(check_walls(reference));
+    return check_bodies(reference, dt);
 }

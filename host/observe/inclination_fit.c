@@ -24,18 +24,16 @@ bool oz_inclination_fit_applies(const char *key)
 
 OzStatus oz_inclination_fit_add(OzInclinationFit *fit, double speed, double inclination)
 {
-    OzStatus status = OZ_OK;
     if (fit->count == fit->capacity) {
         size_t old = (size_t)fit->capacity, wanted = 2 * old + 16;
-        OZ_TRY(oz_memory_grow((void **)&fit->speed, old, wanted, sizeof *fit->speed, "speeds"));
-        OZ_TRY(oz_memory_grow((void **)&fit->inclination, old, wanted, sizeof *fit->inclination,
-                              "inclinations"));
+        OZ_PASS(oz_memory_grow((void **)&fit->speed, old, wanted, sizeof *fit->speed, "speeds"));
+        OZ_PASS(oz_memory_grow((void **)&fit->inclination, old, wanted, sizeof *fit->inclination,
+                               "inclinations"));
         fit->capacity = (int)wanted;
     }
     fit->speed[fit->count] = fabs(speed);
     fit->inclination[fit->count++] = inclination;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus write_row(const OzPowerFit *f, int count, const char *folder)
