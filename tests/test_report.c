@@ -385,7 +385,7 @@ static void test_a_member_counts_its_later_half(void **state)
         assert_true(fabs(values[q] / expected[q] - 1) < 1e-12); /* rounding of a few sums */
     }
     OzEnsemblePoint point = {.members = 2, .value = {{1, 3}}};
-    OzEnsembleMoments moments = oz_report_ensemble_table_moments(&point, 0);
+    OzMoments moments = oz_report_ensemble_table_moments(&point, 0);
     /* rounding of two numbers */
     assert_true(fabs(moments.mean - 2) < 1e-12 && fabs(moments.spread - sqrt(2)) < 1e-12);
     assert_true(fabs(moments.interval - 12.706) < 1e-3); /* t of one degree, times 1 */

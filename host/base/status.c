@@ -34,3 +34,11 @@ int oz_status_exit_code(OzStatus status)
         return 1;
     }
 }
+
+OzStatus oz_status_outcome(OzStatus status, char *reason, size_t size)
+{
+    if (status != OZ_OK) {
+        snprintf(reason, size, "%.*s", (int)size - 1, oz_status_text());
+    }
+    return status == OZ_ERR_BLOWUP || status == OZ_ERR_INPUT ? OZ_OK : status;
+}

@@ -26,6 +26,10 @@ OzStatus oz_status_fail(OzStatus status, const char *format, ...)
 /* The text of this thread's last failure; "" when there was none. Valid until the next failure. */
 const char *oz_status_text(void);
 
+/* For studies, to which a refusal (OZ_ERR_INPUT) or a blow-up is an outcome: returns OZ_OK for
+ * these two, else status. Of every failure reason receives the text, cut to size. */
+OzStatus oz_status_outcome(OzStatus status, char *reason, size_t size);
+
 /* The process's exit status for a status: 0, 1, 2 or 130. */
 int oz_status_exit_code(OzStatus status);
 

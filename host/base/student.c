@@ -33,3 +33,20 @@ double oz_student_limit(int degrees)
     }
     return sqrt(degrees) * tan(low);
 }
+
+OzMoments oz_student_moments(const double *values, int count)
+{
+    double n = count, squares = 0;
+    OzMoments m = {n > 0 ? 0 : NAN, NAN, INFINITY};
+    for (int i = 0; i < count; i++) {
+        m.mean += values[i] / n;
+    }
+    for (int i = 0; i < count; i++) {
+        squares += (values[i] - m.mean) * (values[i] - m.mean);
+    }
+    if (n > 1) {
+        m.spread = sqrt(squares / (n - 1));
+        m.interval = oz_student_limit(count - 1) * m.spread / sqrt(n);
+    }
+    return m;
+}

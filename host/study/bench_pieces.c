@@ -40,15 +40,6 @@ static double clock_of(const OzDevice *device)
     return device->is_cpu ? oz_clock_processor() : oz_clock_now();
 }
 
-static OzStatus advance(OzSim *sim, int64_t step)
-{
-    OzStatus status = OZ_OK;
-    while (status == OZ_OK && oz_sim_step(sim) < step) {
-        status = oz_sim_launch(sim, step);
-    }
-    return status;
-}
-
 static int compare(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -62,7 +53,7 @@ static OzStatus time_steps(Job *job, const OzDevice *device)
     OzSimCounts before = oz_sim_counts(job->sim);
     for (int k = 0; k < TURNS; k++) {
         double start = clock_of(device);
-        OZ_PASS(advance(job->sim, oz_sim_step(job->sim) + each));
+        OZ_PASS(oz_sim_advance(job->sim, oz_sim_step(job->sim) + each));
         times[k] = (clock_of(device) - start) / (double)each;
     }
     OzSimCounts after = oz_sim_counts(job->sim);
@@ -98,8 +89,9 @@ static OzStatus measure(void *context)
     OZ_TRY(oz_device_open(&device, options->device, options->threads ? options->threads : 1));
     OZ_TRY(oz_sim_create(&job->sim, &device, &member, 1, options->source_dir));
     OZ_TRY(oz_settle_run(job->sim, &settled, NULL, NULL));
-    OZ_TRY(advance(job->sim, oz_step_clock_nearest(oz_sim_clock(job->sim),
-                                                   fmin(warm_time, member.scene->duration))));
+    OZ_TRY(
+        oz_sim_advance(job->sim, oz_step_clock_nearest(oz_sim_clock(job->sim),
+                                                       fmin(warm_time, member.scene->duration))));
     OZ_TRY(time_steps(job, &device));
     OZ_TRY(count_touches(job));
     OZ_TRY(oz_piece_phases_measure(job->result->phase, job->sim, options->source_dir));

@@ -7,13 +7,11 @@
 #include "base/memory.h"
 #include "model/place.h"
 #include "model/predict.h"
-#include "run.h"
 #include "scene/keys.h"
 #include "study/report_ensemble_table.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const int ladder[] = {20, 30, 50, 100};
 static const int ladder_quick[] = {20, 40};
@@ -23,17 +21,8 @@ enum {
     RUNGS_QUICK = sizeof ladder_quick / sizeof ladder_quick[0],
     TAPS = 20,
     TAPS_QUICK = 2,
-    SEEDS = 4,
-    OWN_SETTINGS = 6,
-    SETTING_SIZE = 64,
-    PATH_SIZE = 1024
+    SEEDS = 4
 };
-
-/* One setting of the study, as the options of a run. */
-typedef struct Setting {
-    OzOptions options;
-    char own[OWN_SETTINGS][SETTING_SIZE], folder[PATH_SIZE];
-} Setting;
 
 static bool is_set(const OzOptions *options, const char *key)
 {
@@ -47,64 +36,35 @@ static bool is_set(const OzOptions *options, const char *key)
     return false;
 }
 
-static void set(Setting *setting, int i, const char *key, const char *value)
-{
-    snprintf(setting->own[i], SETTING_SIZE, "%s=%s", key, value);
-    setting->options.settings[setting->options.setting_count++] = setting->own[i];
-}
-
-static void set_number(Setting *setting, int i, const char *key, double value)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.17g", value);
-    set(setting, i, key, text);
-}
-
-static OzStatus choose(Setting *setting, const OzOptions *options, const char *folder,
+static OzStatus choose(OzMemberOrder *order, const OzOptions *options, const char *folder,
                        const OzEnsemblePoint *point, double contact_time)
 {
     const char *integrator = oz_keys_choice_name("integrator", (int)point->integrator);
-    *setting = (Setting){.options = *options};
-    if (options->setting_count + OWN_SETTINGS > OZ_CLI_SETTINGS_MAX) {
-        return oz_status_fail(OZ_ERR_INPUT, "orzo report: at most %d --set here",
-                              OZ_CLI_SETTINGS_MAX - OWN_SETTINGS);
-    }
-    set(setting, 0, "integrator", integrator);
-    set_number(setting, 1, "time.step", contact_time / point->steps);
-    set(setting, 2, "observe.ledger", "true");
-    set_number(setting, 3, "observe.interval_taps", 0.25);
-    set(setting, 4, "observe.at", "mean"); /* rows lie closer than a period */
+    OZ_PASS(oz_report_member_order(order, options, SEEDS));
+    oz_report_member_set(order, "integrator", integrator);
+    oz_report_member_set_number(order, "time.step", contact_time / point->steps);
+    oz_report_member_set(order, "observe.ledger", "true");
+    oz_report_member_set_number(order, "observe.interval_taps", 0.25);
+    oz_report_member_set(order, "observe.at", "mean"); /* rows lie closer than a period */
     if (!is_set(options, "time.taps")) {
-        set_number(setting, 5, "time.taps", options->quick ? TAPS_QUICK : TAPS);
+        oz_report_member_set_number(order, "time.taps", options->quick ? TAPS_QUICK : TAPS);
     }
-    snprintf(setting->folder, PATH_SIZE, "%s/%s_%d", folder, integrator, point->steps);
-    setting->options.out = setting->folder;
-    setting->options.no_video = true;
-    setting->options.overwrite = true;
-    if (!options->has_seeds) {
-        setting->options.has_seeds = true;
-        setting->options.seed_first = 1;
-        setting->options.seed_last = SEEDS;
-    }
+    snprintf(order->folder, sizeof order->folder, "%s/%s_%d", folder, integrator, point->steps);
     return OZ_OK;
 }
 
-/* A member that a guard stopped leaves no final.csv: only those that reached the end count. */
-static OzStatus read_members(OzEnsemblePoint *point, const Setting *setting)
+static OzStatus read_members(OzEnsemblePoint *point, const OzMemberOrder *order)
 {
     OzStatus status = OZ_OK;
-    const OzOptions *o = &setting->options;
+    const OzOptions *o = &order->options;
     OzScene scene = {0};
     OzGrains grains = {0};
     OZ_TRY(oz_scene_load(&scene, o->paths[0], o->settings, o->setting_count));
     OZ_TRY(oz_place_grains(&grains, &scene));
     for (uint64_t seed = o->seed_first; seed <= o->seed_last; seed++) {
         double values[OZ_MEMBER_QUANTITIES];
-        char path[PATH_SIZE + 64];
-        int length = snprintf(path, sizeof path, "%s/seed_%05llu/final.csv", setting->folder,
-                              (unsigned long long)seed);
-        if (access(path, R_OK) == 0) {
-            snprintf(path + length - strlen("final.csv"), 16, "series.csv");
+        char path[OZ_MEMBER_PATH + 64];
+        if (oz_report_member_ended(order, seed, path)) {
             OZ_TRY(oz_report_member_read(values, path, &scene, &grains));
             for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
                 point->value[q][point->members] = values[q];
@@ -122,22 +82,18 @@ static OzStatus run_point(OzEnsemblePoint *point, const OzOptions *options, cons
                           double contact_time)
 {
     OzStatus status = OZ_OK;
-    Setting *setting = NULL;
-    OZ_TRY(OZ_NEW(&setting, 1));
-    OZ_TRY(choose(setting, options, folder, point, contact_time));
+    OzMemberOrder *order = NULL;
+    bool any = false;
+    OZ_TRY(OZ_NEW(&order, 1));
+    OZ_TRY(choose(order, options, folder, point, contact_time));
     double start = oz_clock_now();
-    OzStatus ran = oz_run_scene(&setting->options);
+    OZ_TRY(oz_report_member_run(order, point->reason, sizeof point->reason, &any));
     point->seconds = oz_clock_now() - start;
-    if (ran != OZ_OK) {
-        snprintf(point->reason, sizeof point->reason, "%.*s", (int)sizeof point->reason - 1,
-                 oz_status_text());
-        status = ran == OZ_ERR_BLOWUP || ran == OZ_ERR_INPUT ? OZ_OK : ran;
-    }
-    if (ran == OZ_OK || ran == OZ_ERR_BLOWUP) {
-        OZ_TRY(read_members(point, setting));
+    if (any) {
+        OZ_TRY(read_members(point, order));
     }
 done:
-    free(setting);
+    free(order);
     return status;
 }
 

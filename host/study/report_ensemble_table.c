@@ -4,7 +4,6 @@
 #include "base/file.h"
 #include "base/folder.h"
 #include "base/log.h"
-#include "base/student.h"
 #include "scene/keys.h"
 
 #include <errno.h>
@@ -12,20 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-OzEnsembleMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity)
+OzMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity)
 {
-    OzEnsembleMoments m = {0};
-    double n = point->members, squares = 0;
-    for (int i = 0; i < point->members; i++) {
-        m.mean += point->value[quantity][i] / n;
-    }
-    for (int i = 0; i < point->members; i++) {
-        double apart = point->value[quantity][i] - m.mean;
-        squares += apart * apart;
-    }
-    m.spread = n > 1 ? sqrt(squares / (n - 1)) : NAN;
-    m.interval = n > 1 ? oz_student_limit(point->members - 1) * m.spread / sqrt(n) : INFINITY;
-    return m;
+    return oz_student_moments(point->value[quantity], point->members);
 }
 
 bool oz_report_ensemble_table_has(const OzEnsemblePoint *points, int count, int quantity)
@@ -65,7 +53,7 @@ static const char *name_of(const OzEnsemblePoint *point)
     return oz_keys_choice_name("integrator", (int)point->integrator);
 }
 
-static void print_cell(FILE *file, OzEnsembleMoments m)
+static void print_cell(FILE *file, OzMoments m)
 {
     if (isfinite(m.mean)) {
         fprintf(file, "  %8.4g +- %-12.2g", m.mean, m.interval);
@@ -123,7 +111,7 @@ static void write_row(FILE *file, const OzEnsemblePoint *p, Shown shown)
 {
     fprintf(file, "%s,%d,%d,%.6g", name_of(p), p->steps, p->members, p->seconds);
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
-        OzEnsembleMoments m = oz_report_ensemble_table_moments(p, q);
+        OzMoments m = oz_report_ensemble_table_moments(p, q);
         if (shown.shown[q] && p->members > 1 && isfinite(m.mean)) {
             fprintf(file, ",%.9g,%.6g,%.6g", m.mean, m.spread, m.interval);
         } else if (shown.shown[q]) {
@@ -141,7 +129,7 @@ static void send_curves(FILE *gnuplot, const OzEnsemblePoint *points, int count,
             fprintf(gnuplot, "%s$q%dm%d << EOD\n", i ? "EOD\n" : "", quantity,
                     (int)points[i].integrator);
         }
-        OzEnsembleMoments m = oz_report_ensemble_table_moments(&points[i], quantity);
+        OzMoments m = oz_report_ensemble_table_moments(&points[i], quantity);
         if (points[i].members > 1 && isfinite(m.mean)) {
             double beside = 1 + 0.02 * ((int)points[i].integrator - 1);
             fprintf(gnuplot, "%.6g %.9g %.6g\n", beside * points[i].steps, m.mean, m.interval);

@@ -1,6 +1,7 @@
 /* Ensembles in words and pictures: means over seeds with their spread and interval. */
 #pragma once
 
+#include "base/student.h"
 #include "study/report_member.h"
 
 #include <stdio.h>
@@ -17,17 +18,12 @@ typedef struct OzEnsemblePoint {
     char reason[200]; /* why there are no members, or not all; empty: there are       */
 } OzEnsemblePoint;
 
-/* Over the members of a point; interval: half-width at 95 %, infinite for fewer than two. */
-typedef struct OzEnsembleMoments {
-    double mean, spread, interval;
-} OzEnsembleMoments;
-
 /* Whether any member of any point has a number of this quantity: what a scene has none of is left
  * out of tables and pictures. */
 bool oz_report_ensemble_table_has(const OzEnsemblePoint *points, int count, int quantity);
 
-/* Not finite where a member has no number. */
-OzEnsembleMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity);
+/* Over the members of a point. */
+OzMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity);
 
 /* Ends with a line about what is left out. */
 void oz_report_ensemble_table_print(FILE *file, const OzEnsemblePoint *points, int count);

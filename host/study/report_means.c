@@ -4,23 +4,14 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/student.h"
-#include "run.h"
 #include "scene/keys.h"
 #include "study/report_member.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-enum {
-    SEEDS = 4,
-    SEEDS_QUICK = 2,
-    ROWS = 64,
-    OWN_SETTINGS = 5,
-    SETTING_SIZE = 64,
-    PATH_SIZE = 1024
-};
+enum { SEEDS = 4, SEEDS_QUICK = 2, ROWS = 64 };
 
 /* s of computing, by the time of a step of one member. */
 static const double budget = 90, budget_quick = 10;
@@ -30,26 +21,9 @@ static const char *const quantities[OZ_REPORT_MEANS_QUANTITIES] = {
     "density_tap_mean", "angle_tap_mean", "contact_count",  "kinetic",    "rotational",
     "speed_mean",       "spin_mean",      "contact_number", "inclination"};
 
-typedef struct Moments {
-    double mean, interval;
-} Moments;
-
-/* Not a number where a member has none. */
-static Moments moments_of(const OzReportMean *setting, int quantity)
+static OzMoments moments_of(const OzReportMean *setting, int quantity)
 {
-    const double *value = setting->value[quantity];
-    double n = setting->members, squares = 0;
-    Moments m = {n > 0 ? 0 : NAN, INFINITY};
-    for (int i = 0; i < setting->members; i++) {
-        m.mean += value[i] / n;
-    }
-    for (int i = 0; i < setting->members; i++) {
-        squares += (value[i] - m.mean) * (value[i] - m.mean);
-    }
-    if (n > 1) {
-        m.interval = oz_student_limit(setting->members - 1) * sqrt(squares / (n - 1) / n);
-    }
-    return m;
+    return oz_student_moments(setting->value[quantity], setting->members);
 }
 
 static bool spreads(OzRange range)
@@ -108,72 +82,39 @@ static void choose_time(OzReportMeans *means, const OzReportStart *start, const 
     }
 }
 
-/* One setting, as the options of a run. */
-typedef struct Order {
-    OzOptions options;
-    char own[OWN_SETTINGS][SETTING_SIZE], folder[PATH_SIZE];
-} Order;
-
-static void set(Order *order, int i, const char *key, const char *value)
-{
-    snprintf(order->own[i], SETTING_SIZE, "%s=%s", key, value);
-    order->options.settings[order->options.setting_count++] = order->own[i];
-}
-
-static void set_number(Order *order, int i, const char *key, double value)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.17g", value);
-    set(order, i, key, text);
-}
-
-static OzStatus choose(Order *order, const OzReportMeans *means, int s, const OzReportStart *start,
-                       const char *folder, const OzOptions *options)
+static OzStatus choose(OzMemberOrder *order, const OzReportMeans *means, int s,
+                       const OzReportStart *start, const char *folder, const OzOptions *options)
 {
     const OzReportPath *path = &means->setting[s].path;
-    *order = (Order){.options = *options};
-    if (options->setting_count + OWN_SETTINGS > OZ_CLI_SETTINGS_MAX) {
-        return oz_status_fail(OZ_ERR_INPUT, "orzo report: at most %d --set here",
-                              OZ_CLI_SETTINGS_MAX - OWN_SETTINGS);
-    }
-    set(order, 0, "integrator", oz_keys_choice_name("integrator", (int)path->integrator));
-    set_number(order, 1, "time.step", path->step);
-    set(order, 2, "observe.at", "mean");
+    const char *integrator = oz_keys_choice_name("integrator", (int)path->integrator);
+    OZ_PASS(oz_report_member_order(order, options, means->seeds));
+    oz_report_member_set(order, "integrator", integrator);
+    oz_report_member_set_number(order, "time.step", path->step);
+    oz_report_member_set(order, "observe.at", "mean");
     if (start->scene.observe.interval_taps > 0) {
-        set_number(order, 3, "observe.interval_taps", 0.25);
+        oz_report_member_set_number(order, "observe.interval_taps", 0.25);
     } else {
-        set_number(order, 3, "observe.interval", fmax(means->time / ROWS, path->step));
+        double interval = fmax(means->time / ROWS, path->step);
+        oz_report_member_set_number(order, "observe.interval", interval);
     }
     if (start->is_flat) {
-        set_number(order, 4, "beams.substeps", (double)path->substeps);
+        oz_report_member_set_number(order, "beams.substeps", (double)path->substeps);
     }
-    snprintf(order->folder, PATH_SIZE, "%s/mean_%d", folder, s);
-    order->options.out = order->folder;
+    snprintf(order->folder, sizeof order->folder, "%s/mean_%d", folder, s);
     order->options.until = means->time;
-    order->options.no_video = order->options.overwrite = true;
-    order->options.has_seeds = true;
-    order->options.seed_first = options->has_seeds ? options->seed_first : 1;
-    order->options.seed_last = order->options.seed_first + (uint64_t)means->seeds - 1;
     return OZ_OK;
 }
 
-/* A member that a guard stopped leaves no final.csv: only those that reached the end count. */
-static OzStatus read_members(OzReportMean *setting, const Order *order)
+static OzStatus read_members(OzReportMean *setting, const OzMemberOrder *order)
 {
-    const OzOptions *o = &order->options;
-    for (uint64_t seed = o->seed_first; seed <= o->seed_last; seed++) {
-        char path[PATH_SIZE + 64];
-        int length = snprintf(path, sizeof path, "%s/seed_%05llu/final.csv", order->folder,
-                              (unsigned long long)seed);
-        if (access(path, R_OK) != 0) {
-            continue;
+    for (uint64_t seed = order->options.seed_first; seed <= order->options.seed_last; seed++) {
+        char path[OZ_MEMBER_PATH + 64];
+        bool ended = oz_report_member_ended(order, seed, path);
+        for (int q = 0; ended && q < OZ_REPORT_MEANS_QUANTITIES; q++) {
+            double *value = &setting->value[q][setting->members];
+            OZ_PASS(oz_report_member_mean(value, path, quantities[q]));
         }
-        snprintf(path + length - strlen("final.csv"), 16, "series.csv");
-        for (int q = 0; q < OZ_REPORT_MEANS_QUANTITIES; q++) {
-            OZ_PASS(
-                oz_report_member_mean(&setting->value[q][setting->members], path, quantities[q]));
-        }
-        setting->members++;
+        setting->members += ended;
     }
     return OZ_OK;
 }
@@ -183,17 +124,13 @@ static OzStatus run_setting(OzReportMeans *means, int s, const OzReportStart *st
 {
     OzStatus status = OZ_OK;
     OzReportMean *setting = &means->setting[s];
-    Order *order = NULL;
+    OzMemberOrder *order = NULL;
+    bool any = false;
     OZ_TRY(OZ_NEW(&order, 1));
     OZ_TRY(choose(order, means, s, start, folder, options));
     oz_log_line("means: %s, %d seeds, %.3g s", setting->label, means->seeds, means->time);
-    OzStatus ran = oz_run_scene(&order->options);
-    if (ran != OZ_OK) {
-        snprintf(setting->reason, sizeof setting->reason, "%.*s", (int)sizeof setting->reason - 1,
-                 oz_status_text());
-        status = ran == OZ_ERR_BLOWUP || ran == OZ_ERR_INPUT ? OZ_OK : ran;
-    }
-    if (ran == OZ_OK || ran == OZ_ERR_BLOWUP) {
+    OZ_TRY(oz_report_member_run(order, setting->reason, sizeof setting->reason, &any));
+    if (any) {
         OZ_TRY(read_members(setting, order));
     }
 done:
@@ -207,7 +144,7 @@ static void compare(OzReportMeans *means)
     const OzReportMean *last = &means->setting[means->count - 1];
     for (int s = 0; s + 1 < means->count; s++) {
         for (int q = 0; q < OZ_REPORT_MEANS_QUANTITIES; q++) {
-            Moments a = moments_of(&means->setting[s], q), b = moments_of(last, q);
+            OzMoments a = moments_of(&means->setting[s], q), b = moments_of(last, q);
             double both = a.interval + b.interval, difference = fabs(a.mean - b.mean);
             if (isfinite(difference) && isfinite(both)) {
                 means->compared++;
@@ -269,7 +206,7 @@ static void print_quantity(FILE *file, const OzReportMeans *means, int q)
 {
     fprintf(file, "  %-18s", quantities[q]);
     for (int s = 0; s < means->count; s++) {
-        Moments m = moments_of(&means->setting[s], q);
+        OzMoments m = moments_of(&means->setting[s], q);
         fprintf(file, "  %11.5g +- %-11.2g", m.mean, m.interval);
     }
     fprintf(file, "\n");

@@ -1,11 +1,13 @@
-/* Reading a member's series.csv. */
+/* Running ensembles and reading a member's series.csv. */
 #include "study/report_member.h"
 
 #include "base/file.h"
+#include "run.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Half of the touching pairs belong to either grain. */
 static double half_count(const OzScene *scene, const OzGrains *grains)
@@ -122,4 +124,53 @@ OzStatus oz_report_member_mean(double *value, const char *path, const char *colu
     }
     free(text);
     return status;
+}
+
+OzStatus oz_report_member_order(OzMemberOrder *order, const OzOptions *options, int seeds)
+{
+    *order = (OzMemberOrder){.options = *options};
+    if (options->setting_count + OZ_MEMBER_SETTINGS > OZ_CLI_SETTINGS_MAX) {
+        return oz_status_fail(OZ_ERR_INPUT, "orzo report: at most %d --set here",
+                              OZ_CLI_SETTINGS_MAX - OZ_MEMBER_SETTINGS);
+    }
+    order->options.out = order->folder;
+    order->options.no_video = order->options.overwrite = true;
+    if (!options->has_seeds) {
+        order->options.has_seeds = true;
+        order->options.seed_first = 1;
+        order->options.seed_last = (uint64_t)seeds;
+    }
+    return OZ_OK;
+}
+
+void oz_report_member_set(OzMemberOrder *order, const char *key, const char *value)
+{
+    char *own = order->own[order->own_count++];
+    snprintf(own, sizeof order->own[0], "%s=%s", key, value);
+    order->options.settings[order->options.setting_count++] = own;
+}
+
+void oz_report_member_set_number(OzMemberOrder *order, const char *key, double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.17g", value);
+    oz_report_member_set(order, key, text);
+}
+
+OzStatus oz_report_member_run(const OzMemberOrder *order, char *reason, size_t size, bool *any)
+{
+    OzStatus status = oz_run_scene(&order->options);
+    *any = status == OZ_OK || status == OZ_ERR_BLOWUP;
+    return oz_status_outcome(status, reason, size);
+}
+
+/* A member that a guard stopped leaves no final.csv. */
+bool oz_report_member_ended(const OzMemberOrder *order, uint64_t seed,
+                            char path[OZ_MEMBER_PATH + 64])
+{
+    int length = snprintf(path, OZ_MEMBER_PATH + 64, "%s/seed_%05llu/final.csv", order->folder,
+                          (unsigned long long)seed);
+    bool ended = access(path, R_OK) == 0;
+    snprintf(path + length - strlen("final.csv"), 16, "series.csv");
+    return ended;
 }

@@ -207,18 +207,6 @@ static int find_horizon(OzReportPaths *paths, const Course *coarse, const Course
     return last;
 }
 
-/* A refusal or a blow-up is an outcome. */
-static OzStatus judge(OzReportPath *path, OzStatus status)
-{
-    path->good = status == OZ_OK && isfinite(path->error);
-    if (status == OZ_ERR_BLOWUP || status == OZ_ERR_INPUT) {
-        snprintf(path->reason, sizeof path->reason, "%.*s", (int)sizeof path->reason - 1,
-                 oz_status_text());
-        return OZ_OK;
-    }
-    return status;
-}
-
 static OzStatus measure(OzReportPath *path, const OzReportPaths *paths, const Course *truth,
                         int look_of_truth, const OzOptions *options, const OzDevice *device)
 {
@@ -236,7 +224,8 @@ static OzStatus measure(OzReportPath *path, const OzReportPaths *paths, const Co
         path->error = apart(&course, 0, truth, look_of_truth);
         path->wall = course.wall;
     }
-    status = judge(path, status);
+    path->good = status == OZ_OK && isfinite(path->error);
+    status = oz_status_outcome(status, path->reason, sizeof path->reason);
 done:
     free(course.place);
     return status;

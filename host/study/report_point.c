@@ -152,19 +152,14 @@ done:
     return status;
 }
 
-/* A refusal or a blow-up is an outcome. Anything else that is not finite is one, too. */
+/* Anything that is not finite is an outcome too. */
 static OzStatus judge(OzReportPoint *point, OzStatus status)
 {
-    if (status == OZ_ERR_BLOWUP || status == OZ_ERR_INPUT) {
-        snprintf(point->reason, sizeof point->reason, "%.*s", (int)sizeof point->reason - 1,
-                 oz_status_text());
-        return OZ_OK;
-    }
     point->good = status == OZ_OK && isfinite(point->error_rms);
     if (status == OZ_OK && !point->good) {
         snprintf(point->reason, sizeof point->reason, "the result is not a number");
     }
-    return status;
+    return oz_status_outcome(status, point->reason, sizeof point->reason);
 }
 
 OzStatus oz_report_point_measure(OzReportPoint *point, const OzReportJob *job)
