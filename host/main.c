@@ -1,17 +1,17 @@
 /* The program: one sub-command, its exit status. */
 #include "base/log.h"
 #include "base/streams.h"
+#include "bench/bench.h"
 #include "cli.h"
+#include "command/inspect.h"
+#include "command/redraw.h"
 #include "compute/device.h"
 #include "draw/movie.h"
 #include "draw/renderer.h"
 #include "observe/series.h"
-#include "run.h"
+#include "report/report.h"
+#include "run/run.h"
 #include "scene/keys.h"
-#include "study/bench.h"
-#include "study/inspect.h"
-#include "study/redraw.h"
-#include "study/report.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #ifndef OZ_KERNELS_BEAM_H
 #define OZ_KERNELS_BEAM_H
 
-#include "kernels/piece_law.h"
+#include "kernels/element_law.h"
 #include "kernels/turn.h"
 
 #ifndef OZ_DAMPING_SHEAR
@@ -16,7 +16,7 @@
 
 typedef struct OzBeamEnd {
     OzVec2 position, velocity; /* of the triangle's centre of mass; any common origin and frame */
-    real angle, spin;          /* rad, rad/s; not wrapped                                       */
+    real angle, angular_velocity; /* rad, rad/s; not wrapped */
 } OzBeamEnd;
 
 typedef struct OzBeamForce {
@@ -52,7 +52,7 @@ OZ_INLINE OzBeamForce oz_beam_force(OzBeamConstants constants, OzBeamEnd a, OzBe
     real elongation = length - rest_length, inverse_rest = REAL(1.0) / rest_length;
     real bending = constants.bending * inverse_rest;
     real damping = constants.damping_bending * inverse_rest;
-    real rate_a = a.spin - turning, rate_b = b.spin - turning;
+    real rate_a = a.angular_velocity - turning, rate_b = b.angular_velocity - turning;
     f.stretch = length * inverse_rest;
     f.bend_a = -oz_turn_between(oz_turn_of(aim_a), apart, length);
     f.bend_b = f.bend_a + oz_beam_wrap(aim_b - aim_a);
@@ -63,12 +63,13 @@ OZ_INLINE OzBeamForce oz_beam_force(OzBeamConstants constants, OzBeamEnd a, OzBe
     real shear = OZ_DAMPING_SHEAR ? -(f.moment_a + f.moment_b) : -(elastic_a + elastic_b);
     real pull = -constants.stiffness * elongation - constants.damping * stretching;
     f.force = oz_along2(oz_scale2(axis, pull), shear * inverse, across);
-    f.energy = REAL(0.5) * constants.stiffness * elongation * elongation +
-               REAL(2.0) * bending *
-                   (f.bend_a * f.bend_a + f.bend_a * f.bend_b + f.bend_b * f.bend_b);
+    f.energy =
+        REAL(0.5) * constants.stiffness * elongation * elongation +
+        REAL(2.0) * bending * (f.bend_a * f.bend_a + f.bend_a * f.bend_b + f.bend_b * f.bend_b);
     f.power_axial = constants.damping * stretching * stretching;
-    f.power_bending = OZ_DAMPING_SHEAR ? damping * (rate_a * rate_a + rate_b * rate_b)
-                                       : damping * (rate_a * a.spin + rate_b * b.spin);
+    f.power_bending = OZ_DAMPING_SHEAR
+                          ? damping * (rate_a * rate_a + rate_b * rate_b)
+                          : damping * (rate_a * a.angular_velocity + rate_b * b.angular_velocity);
     return f;
 }
 

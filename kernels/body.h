@@ -1,30 +1,30 @@
 /* One grain in motion, and the moves that integrators are made of: kick (velocities by a force) and
  * drift (places and turns by velocities).
- * `spin` holds the angular momentum in the world frame (switch OZ_GYROSCOPIC 1: the full Euler equations;
- * constant in a free drift) or the angular velocity (0: the equation of Pournin et al. 2005, eq. 9,
- * without the gyroscopic term). */
+ * `spin` holds the angular momentum in the world frame (switch OZ_GYROSCOPIC 1: the full Euler
+ * equations; constant in a free drift) or the angular velocity (0: the equation of Pournin et al.
+ * 2005, eq. 9, without the gyroscopic term). */
 #ifndef OZ_KERNELS_BODY_H
 #define OZ_KERNELS_BODY_H
 
 #include "kernels/vec3.h"
 
 typedef struct OzShape {
-    real radius, half_length;           /* m                                              */
-    real mass;                          /* kg                                             */
-    real inverse_mass;                  /* 1/kg                                           */
-    real inverse_inertia;               /* 1/(kg m^2), about an axis across the shaft     */
-    real inverse_inertia_axis;          /* 1/(kg m^2), about the shaft                    */
+    real radius, half_length;  /* m                                              */
+    real mass;                 /* kg                                             */
+    real inverse_mass;         /* 1/kg                                           */
+    real inverse_inertia;      /* 1/(kg m^2), about an axis across the shaft     */
+    real inverse_inertia_axis; /* 1/(kg m^2), about the shaft                    */
 } OzShape;
 
 typedef struct OzBody {
-    OzPlace place;
-    OzVec3 rest;         /* what place could not hold yet, units                            */
-    OzVec3 velocity;     /* m/s                                                             */
-    OzVec3 spin;         /* kg m^2/s or rad/s, see above                                    */
+    OzFixedPosition position;
+    OzVec3 rest;     /* what place could not hold yet, units                            */
+    OzVec3 velocity; /* m/s                                                             */
+    OzVec3 spin;     /* kg m^2/s or rad/s, see above                                    */
     OzQuaternion turn;
     OzQuaternion turn_rest; /* what turn could not hold yet                                 */
-    OzVec3 acceleration; /* m/s^2, of the step before (OZ_MOVES_BEFORE)                     */
-    OzVec3 torque;       /* N m, of the step before                                         */
+    OzVec3 acceleration;    /* m/s^2, of the step before (OZ_MOVES_BEFORE)                     */
+    OzVec3 torque;          /* N m, of the step before                                         */
 } OzBody;
 
 /* Force and torque on a grain, gravity included. */
@@ -50,11 +50,12 @@ OZ_INLINE real oz_body_length2(OzQuaternion q)
     return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
 }
 
-/* Whether place, velocity, spin and turn are numbers. Squares must be too: what overflows there is none either. */
+/* Whether place, velocity, spin and turn are numbers. Squares must be too: what overflows there is
+ * none either. */
 OZ_INLINE mask oz_body_is_number(OzBody body)
 {
     real motion2 = oz_dot(body.velocity, body.velocity) + oz_dot(body.spin, body.spin);
-    return oz_place_is_number(body.place) & (motion2 <= REAL(OZ_HUGE)) &
+    return oz_fixed_position_is_number(body.position) & (motion2 <= REAL(OZ_HUGE)) &
            (oz_body_length2(body.turn) <= REAL(OZ_HUGE));
 }
 
@@ -65,8 +66,9 @@ OZ_INLINE mask oz_body_is_turn(OzBody body)
     return (length2 > REAL(0.9)) & (length2 < REAL(1.1));
 }
 
-/* How far an end of the shaft, or of a grain less long than thick its surface, goes in dt, squared, m^2: the
- * centre's way and the turn's as if across each other, and all the spin across the shaft. */
+/* How far an end of the shaft, or of a grain less long than thick its surface, goes in dt, squared,
+ * m^2: the centre's way and the turn's as if across each other, and all the spin across the shaft.
+ */
 OZ_INLINE real oz_body_step2(OzBody body, OzShape shape, real dt)
 {
     real reach = oz_larger(shape.half_length, shape.radius);
@@ -77,8 +79,9 @@ OZ_INLINE real oz_body_step2(OzBody body, OzShape shape, real dt)
     return (oz_dot(body.velocity, body.velocity) + turn2) * dt * dt;
 }
 
-/* The share of its radius that an end may go in a step. Two grains that meet then come no deeper than a
- * radius before their contact is seen, which the guard of depth looks at, and none passes through a wall. */
+/* The share of its radius that an end may go in a step. Two grains that meet then come no deeper
+ * than a radius before their contact is seen, which the guard of depth looks at, and none passes
+ * through a wall. */
 #define OZ_BODY_STEP_SHARE 0.5
 
 /* spin after a torque has acted for dt. */
@@ -88,8 +91,8 @@ OZ_INLINE OzVec3 oz_body_kick_spin(OzVec3 spin, OzVec3 torque, OzVec3 u, OzShape
     return oz_along(spin, dt, push);
 }
 
-/* Turns the body for dt at constant spin. With the angular momentum L constant this is the exact free
- * motion of an axisymmetric body: a turn about L at |L|/I, after a turn about its own axis at
+/* Turns the body for dt at constant spin. With the angular momentum L constant this is the exact
+ * free motion of an axisymmetric body: a turn about L at |L|/I, after a turn about its own axis at
  * (L.u)(1/I_axis - 1/I). */
 OZ_INLINE void oz_body_turn(OzBody *body, OzVec3 spin, OzShape shape, real dt)
 {

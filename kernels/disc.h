@@ -5,10 +5,11 @@
 #ifndef OZ_KERNELS_DISC_H
 #define OZ_KERNELS_DISC_H
 
-#include "kernels/piece_law.h"
+#include "kernels/element_law.h"
 #include "kernels/triangle.h"
 
-/* Where two pieces meet; the normal points from a to b, the point is the middle of the overlap. */
+/* Where two elements meet; the normal points from a to b, the point is the middle of the overlap.
+ */
 typedef struct OzDiscPlace {
     OzVec2 normal, point;
     real overlap; /* m, > 0 while touching */

@@ -1,5 +1,5 @@
-/* Forces between grains and walls. Few grains touch a wall: a sieve picks the ends that do, wall by wall, and
- * the contact law gets full blocks of them, one end a lane. OpenCL C only. */
+/* Forces between grains and walls. Few grains touch a wall: a sieve picks the ends that do, wall by
+ * wall, and the contact law gets full blocks of them, one end a lane. OpenCL C only. */
 #ifndef OZ_KERNELS_ENCLOSURE_H
 #define OZ_KERNELS_ENCLOSURE_H
 
@@ -7,22 +7,23 @@
 
 #if OZ_WALL_COUNT > 0
 
-/* The forces of a step see the walls where they stand at the beginning of this step: the next one where the
- * integrator moves grains before the forces. */
+/* The forces of a step see the walls where they stand at the beginning of this step: the next one
+ * where the integrator moves grains before the forces. */
 #if OZ_MOVES_BEFORE
 #define OZ_ENCLOSURE_STEP(step) ((step) + 1)
 #else
 #define OZ_ENCLOSURE_STEP(step) (step)
 #endif
 
-/* One of the two ends of every grain, paired with one wall: what is the same for all grains in a step. */
+/* One of the two ends of every grain, paired with one wall: what is the same for all grains in a
+ * step. */
 typedef struct OzSide {
     int wall;
-    real sign;   /* of the half-shaft that leads to the end: 1 or -1 */
-    int index;   /* among all ends at all walls                      */
-    int first;   /* the first end: a sphere has no other             */
+    real sign; /* of the half-shaft that leads to the end: 1 or -1 */
+    int index; /* among all ends at all walls                      */
+    int first; /* the first end: a sphere has no other             */
     OzWallShape shape;
-    spot_kind point[3];     /* the shape's                             */
+    fixed_position_kind point[3]; /* the shape's                             */
     scalar unit;
     scalar offset, speed;   /* m, m/s along z, of the wall             */
     scalar rise, rise_rest; /* units: the offset with all its digits   */
@@ -39,7 +40,7 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
     side.shape = w->parameters->wall[side.wall].shape;
     side.shape.kind = oz_wall_kind(side.wall);
     for (int c = 0; c < 3; c++) {
-        side.point[c] = (spot_kind)side.shape.point[c];
+        side.point[c] = (fixed_position_kind)side.shape.point[c];
     }
     side.unit = w->parameters->length_unit;
     side.offset = side.speed = side.rise = side.rise_rest = 0;
@@ -53,12 +54,14 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
     return side;
 }
 
-OZ_INLINE OzWallDistance oz_enclosure_distance(OzPlace place_, OzVec3 end, const OzSide *side)
+OZ_INLINE OzWallDistance oz_enclosure_distance(OzFixedPosition position_, OzVec3 end,
+                                               const OzSide *side)
 {
     scalar unit = side->unit;
-    OzVec3 from = oz_vec3(oz_place_to_real(place_.x - side->point[0]) * unit + end.x,
-                          oz_place_to_real(place_.y - side->point[1]) * unit + end.y,
-                          oz_place_to_real(place_.z - side->point[2]) * unit + end.z - side->offset);
+    OzVec3 from = oz_vec3(oz_fixed_position_to_real(position_.x - side->point[0]) * unit + end.x,
+                          oz_fixed_position_to_real(position_.y - side->point[1]) * unit + end.y,
+                          oz_fixed_position_to_real(position_.z - side->point[2]) * unit + end.z -
+                              side->offset);
     return oz_wall_distance(from, side->shape);
 }
 
@@ -67,7 +70,7 @@ OZ_INLINE OzWallDistance oz_enclosure_distance(OzPlace place_, OzVec3 end, const
 OZ_INLINE real oz_enclosure_fine(const OzWork *w, OzGrain grain, const OzSide *side)
 {
     real unit = grain.radius / grain.fine.radius;
-    OzPlace from = grain.place; /* of every lane the same */
+    OzFixedPosition from = grain.position; /* of every lane the same */
     from.x = side->point[0];
     from.y = side->point[1];
     from.z = side->point[2];
@@ -77,8 +80,8 @@ OZ_INLINE real oz_enclosure_fine(const OzWork *w, OzGrain grain, const OzSide *s
 }
 #endif
 
-/* Stops the run at overlaps that no run may go on with. Lanes outside of `counts` are not looked at: they repeat
- * an end of another lane. */
+/* Stops the run at overlaps that no run may go on with. Lanes outside of `counts` are not looked
+ * at: they repeat an end of another lane. */
 OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact, real radius,
                                   mask counts, int step)
 {
@@ -89,13 +92,15 @@ OZ_INLINE void oz_enclosure_guard(OzWork *w, const int *slots, OzContact contact
     }
 }
 
-/* Forces of one block of picked ends, one end a lane. Only the first `count` lanes hold an end of their own; in a
- * last block that is not full the lanes after them repeat one of these, and what they find is left out. */
-OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slots, int count, int step)
+/* Forces of one block of picked ends, one end a lane. Only the first `count` lanes hold an end of
+ * their own; in a last block that is not full the lanes after them repeat one of these, and what
+ * they find is left out. */
+OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slots, int count,
+                                  int step)
 {
     OzGrain grain = oz_work_grains(w, slots);
     OzVec3 end = oz_scale(grain.half_shaft, side->sign);
-    OzWallDistance at = oz_enclosure_distance(grain.place, end, side);
+    OzWallDistance at = oz_enclosure_distance(grain.position, end, side);
 #if OZ_FINE
     at.overlap = oz_enclosure_fine(w, grain, side);
     mask near = at.overlap > REAL(0.0);
@@ -116,9 +121,9 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
     if (OZ_HISTORY) {
         oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index, history);
     }
-    OzVec3 force = oz_where(OZ_PICKED_BEFORE(count), parts.force);
+    OzVec3 force = oz_where(OZ_ACTIVE_BEFORE(count), parts.force);
     oz_loads_add(w, slots, force, oz_cross(arm, force));
-    mask counts = OZ_PICKED_BEFORE(count);
+    mask counts = OZ_ACTIVE_BEFORE(count);
     if (!OZ_EQUAL && !side->first) {
         counts = counts & (oz_dot(end, end) > REAL(0.0));
     }
@@ -129,12 +134,12 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
 #endif
 }
 
-/* Notes which ends of a block are picked now (one bit a lane), and sets to zero the tangential springs of those that
- * were picked before and are not any more. */
+/* Notes which ends of a block are picked now (one bit a lane), and sets to zero the tangential
+ * springs of those that were picked before and are not any more. */
 OZ_INLINE void oz_enclosure_part(OzWork *w, size_t index, int bits)
 {
 #if OZ_HISTORY
-    int gone = w->wall_picked[index] & ~bits;
+    int gone = w->wall_active[index] & ~bits;
     global scalar *kept = (global scalar *)(w->wall_history + 3 * index);
     for (int l = 0; gone != 0 && l < OZ_LANES; l++) {
         if ((gone >> l) & 1) {
@@ -142,7 +147,7 @@ OZ_INLINE void oz_enclosure_part(OzWork *w, size_t index, int bits)
         }
     }
 #endif
-    w->wall_picked[index] = bits;
+    w->wall_active[index] = bits;
 }
 
 /* Picks the ends of a block of grains that touch a wall, or nearly so. */
@@ -154,7 +159,7 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
     real near = shape.radius * REAL(1 + OZ_PAIRS_MARGIN);
     for (int k = 0; k < OZ_WALL_ENDS; k++) {
         OzVec3 end = oz_scale(half_shaft, sides[k].sign);
-        OzWallDistance at = oz_enclosure_distance(body.place, end, &sides[k]);
+        OzWallDistance at = oz_enclosure_distance(body.position, end, &sides[k]);
         oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + k, oz_lanes_bits(at.distance < near));
     }
 #if OZ_LEDGER
@@ -165,26 +170,27 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
 #endif
 }
 
-/* Forces of a region's picked ends of one side. One side is finished for all grains of the region before the next is
- * begun. So a grain's forces are added in the order of walls, whichever ends happen to share a block. */
+/* Forces of a region's picked ends of one side. One side is finished for all grains of the region
+ * before the next is begun. So a grain's forces are added in the order of walls, whichever ends
+ * happen to share a block. */
 OZ_INLINE void oz_enclosure_side_region(OzWork *w, const OzSide *side, int region, int step)
 {
     int end = oz_work_block_end(w, region);
-    OzPicked picked;
-    picked.count = 0;
+    OzActive active;
+    active.count = 0;
     for (int block = oz_work_block_begin(w, region); block < end; block++) {
-        int bits = w->wall_picked[(size_t)block * OZ_WALL_ENDS + side->index];
+        int bits = w->wall_active[(size_t)block * OZ_WALL_ENDS + side->index];
         int last = block + 1 == end;
         if (bits != 0) {
-            oz_picked_add(&picked, OZ_LANES_IOTA + block * OZ_LANES, bits);
+            oz_active_add(&active, OZ_LANES_IOTA + block * OZ_LANES, bits);
         }
-        if (last || picked.count >= OZ_PICKED_BLOCKS * OZ_LANES) {
-            int due = oz_picked_due(&picked, last);
-            oz_picked_fill(&picked, due);
+        if (last || active.count >= OZ_ACTIVE_BLOCKS * OZ_LANES) {
+            int due = oz_active_due(&active, last);
+            oz_active_fill(&active, due);
             for (int at = 0; at < due; at += OZ_LANES) {
-                oz_enclosure_touch(w, side, picked.item + at, picked.count - at, step);
+                oz_enclosure_touch(w, side, active.item + at, active.count - at, step);
             }
-            oz_picked_drop(&picked, due);
+            oz_active_drop(&active, due);
         }
     }
 }
@@ -195,7 +201,8 @@ OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
     for (int k = 0; k < OZ_WALL_ENDS; k++) {
         sides[k] = oz_enclosure_side(w, k, step);
     }
-    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region);
+         block++) {
         oz_enclosure_sieve(w, sides, block);
     }
     for (int k = 0; k < OZ_WALL_ENDS; k++) {

@@ -5,8 +5,8 @@
  * coordinate of a place), integer, ledger (double). Classes: STATE, what the next step depends on;
  * SPRING, the tangential memory of contacts; LIST, neighbour lists that are made again from these
  * two; SCRATCH, written before it is read by the host at each launch or by each step. Springs of
- * pairs outlive the lists in the saved_ arrays alone, where oz_shelve puts them (springs.h); others
- * are LIST. */
+ * pairs outlive the lists in the saved_ arrays alone, where oz_save_springs puts them (springs.h);
+ * others are LIST. */
 #ifndef OZ_KERNELS_FIELDS_H
 #define OZ_KERNELS_FIELDS_H
 
@@ -29,7 +29,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(real, state, z.blocks *OZ_STATE, STATE)                                                      \
     X(real, shape, OZ_EQUAL ? 0 : z.blocks *OZ_SHAPE, STATE)                                       \
     X(real, wall_history, OZ_HISTORY ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)                     \
-    X(integer, wall_picked, z.blocks *OZ_WALL_ENDS, SPRING)                                        \
+    X(integer, wall_active, z.blocks *OZ_WALL_ENDS, SPRING)                                        \
     X(scalar, record, (z.slots + 1) * OZ_RECORD, STATE)                                            \
     X(real, reference_inner, z.blocks *OZ_REFERENCE, LIST)                                         \
     X(real, reference_outer, z.blocks *OZ_REFERENCE, LIST)                                         \
@@ -37,9 +37,9 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(integer, slot_of, z.slots, STATE)                                                            \
     X(integer, cell_of, z.slots, LIST)                                                             \
     X(integer, cell_first, z.cells + 2, LIST)                                                      \
-    X(spot, sorted_x, z.slots + OZ_LANES, LIST)                                                    \
-    X(spot, sorted_y, z.slots + OZ_LANES, LIST)                                                    \
-    X(spot, sorted_z, z.slots + OZ_LANES, LIST)                                                    \
+    X(fixed_position, sorted_x, z.slots + OZ_LANES, LIST)                                          \
+    X(fixed_position, sorted_y, z.slots + OZ_LANES, LIST)                                          \
+    X(fixed_position, sorted_z, z.slots + OZ_LANES, LIST)                                          \
     X(scalar, sorted_reach, OZ_EQUAL ? 0 : z.slots + OZ_LANES, LIST)                               \
     X(integer, sorted_slot, z.slots + OZ_LANES, LIST)                                              \
     X(integer, sorted_id, z.slots + OZ_LANES, LIST)                                                \
@@ -59,7 +59,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
       SCRATCH)                                                                                     \
     X(scalar, pair_torque, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_TORQUE,   \
       SCRATCH)                                                                                     \
-    X(integer, pair_picked, z.regions *z.inner_capacity / OZ_LANES, LIST)                          \
+    X(integer, pair_active, z.regions *z.inner_capacity / OZ_LANES, LIST)                          \
     X(integer, pair_kept, OZ_SCATTER ? 0 : z.regions *z.inner_capacity / OZ_LANES, SCRATCH)        \
     X(integer, pair_count, z.regions, LIST)                                                        \
     X(integer, pair_first, OZ_SCATTER ? 0 : z.slots, LIST)                                         \

@@ -1,8 +1,9 @@
-/* Overlaps with as many digits at a light contact as at a heavy one (switch OZ_FINE, single precision). A place is an
- * integer with a carried remainder, and so is a turn. The overlap is the small difference of large numbers: in plain
- * floats all of it below one unit of a place would be lost. Here differences of places are taken in integers,
- * remainders are counted in, and the rounding of sums and products is carried along as a second number (Dekker 1971;
- * Knuth's sum of two). All lengths are in units of a place. */
+/* Overlaps with as many digits at a light contact as at a heavy one (switch OZ_FINE, single
+ * precision). A place is an integer with a carried remainder, and so is a turn. The overlap is the
+ * small difference of large numbers: in plain floats all of it below one unit of a place would be
+ * lost. Here differences of places are taken in integers, remainders are counted in, and the
+ * rounding of sums and products is carried along as a second number (Dekker 1971; Knuth's sum of
+ * two). All lengths are in units of a place. */
 #ifndef OZ_KERNELS_FINE_H
 #define OZ_KERNELS_FINE_H
 
@@ -67,15 +68,15 @@ typedef struct OzFineVec3 {
 
 /* A grain's place and shaft. */
 typedef struct OzFineGrain {
-    OzPlace place;
-    OzVec3 rest;     /* of the place                                  */
+    OzFixedPosition position;
+    OzVec3 rest; /* of the place                                  */
     real radius;
     real half_shaft; /* 0 among spheres, whose axis is not looked at  */
     OzFineVec3 axis; /* unit vector                                   */
 } OzFineGrain;
 
-/* The axis of a turn with its remainder: body z turned into the world, over the turn's length squared, which a float
- * keeps to its own digits only. */
+/* The axis of a turn with its remainder: body z turned into the world, over the turn's length
+ * squared, which a float keeps to its own digits only. */
 OZ_INLINE OzFineVec3 oz_fine_axis(OzQuaternion turn, OzQuaternion rest)
 {
     OzFine x = {turn.x, rest.x}, y = {turn.y, rest.y}, z = {turn.z, rest.z}, w = {turn.w, rest.w};
@@ -100,12 +101,12 @@ OZ_INLINE OzFineVec3 oz_fine_axis(OzQuaternion turn, OzQuaternion rest)
 }
 
 /* The difference of two coordinates with their remainders. */
-OZ_INLINE OzFine oz_fine_apart(place a, place b, real rest)
+OZ_INLINE OzFine oz_fine_apart(fixed_position a, fixed_position b, real rest)
 {
-    place count = a - b;
+    fixed_position count = a - b;
     OzFine apart;
-    apart.high = oz_place_to_real(count);
-    apart.low = oz_place_to_real(count - oz_place_from_real(apart.high)) + rest;
+    apart.high = oz_fixed_position_to_real(count);
+    apart.low = oz_fixed_position_to_real(count - oz_fixed_position_from_real(apart.high)) + rest;
     return apart;
 }
 
@@ -118,8 +119,8 @@ OZ_INLINE OzFine oz_fine_add_square(OzFine sum, OzFine x)
     return next;
 }
 
-/* By how much a point is nearer to the origin than `reach`: the difference of squares over the sum. `square` is its
- * distance squared. */
+/* By how much a point is nearer to the origin than `reach`: the difference of squares over the sum.
+ * `square` is its distance squared. */
 OZ_INLINE real oz_fine_nearer(OzFine square, real reach)
 {
     real distance = sqrt(oz_larger(square.high, REAL(0.0)));
@@ -127,14 +128,15 @@ OZ_INLINE real oz_fine_nearer(OzFine square, real reach)
     return -(excess.high + excess.low) / (distance + reach);
 }
 
-/* Overlap of two grains at points of their shafts, given in half-shafts: s of a, t of b. That these are floats does not
- * matter: between closest points the distance does not change when one slides. */
+/* Overlap of two grains at points of their shafts, given in half-shafts: s of a, t of b. That these
+ * are floats does not matter: between closest points the distance does not change when one slides.
+ */
 OZ_INLINE real oz_fine_pair(OzFineGrain a, OzFineGrain b, real s, real t)
 {
     OzFine sum = {REAL(0.0), REAL(0.0)};
-    OzFine x = oz_fine_apart(a.place.x, b.place.x, a.rest.x - b.rest.x);
-    OzFine y = oz_fine_apart(a.place.y, b.place.y, a.rest.y - b.rest.y);
-    OzFine z = oz_fine_apart(a.place.z, b.place.z, a.rest.z - b.rest.z);
+    OzFine x = oz_fine_apart(a.position.x, b.position.x, a.rest.x - b.rest.x);
+    OzFine y = oz_fine_apart(a.position.y, b.position.y, a.rest.y - b.rest.y);
+    OzFine z = oz_fine_apart(a.position.z, b.position.z, a.rest.z - b.rest.z);
     if (!OZ_ROUND) {
         real along_a = s * a.half_shaft, along_b = -t * b.half_shaft;
         x = oz_fine_add_share(oz_fine_add_share(x, along_a, a.axis.x), along_b, b.axis.x);
@@ -148,12 +150,12 @@ OZ_INLINE real oz_fine_pair(OzFineGrain a, OzFineGrain b, real s, real t)
 }
 
 /* Where an end of a grain is (sign: of the half-shaft that leads to it), seen from a point. */
-OZ_INLINE OzFineVec3 oz_fine_end(OzFineGrain grain, real sign, OzPlace from)
+OZ_INLINE OzFineVec3 oz_fine_end(OzFineGrain grain, real sign, OzFixedPosition from)
 {
     OzFineVec3 end;
-    end.x = oz_fine_apart(grain.place.x, from.x, grain.rest.x);
-    end.y = oz_fine_apart(grain.place.y, from.y, grain.rest.y);
-    end.z = oz_fine_apart(grain.place.z, from.z, grain.rest.z);
+    end.x = oz_fine_apart(grain.position.x, from.x, grain.rest.x);
+    end.y = oz_fine_apart(grain.position.y, from.y, grain.rest.y);
+    end.z = oz_fine_apart(grain.position.z, from.z, grain.rest.z);
     if (!OZ_ROUND) {
         end.x = oz_fine_add_share(end.x, sign * grain.half_shaft, grain.axis.x);
         end.y = oz_fine_add_share(end.y, sign * grain.half_shaft, grain.axis.y);

@@ -1,7 +1,7 @@
-/* Grains as contacts see them, and the contact of two at given points of their shafts. Switches: OZ_EQUAL 1:
- * all grains are alike; OZ_SURFACES 1: each force acts on its own grain's surface (Pournin et al. 2005;
- * breaks angular momentum), 0: both in the middle of the overlap; OZ_AT_CONTACT: whether
- * a contact's lightness is needed; OZ_FINE: overlaps as fine.h has them. */
+/* Grains as contacts see them, and the contact of two at given points of their shafts. Switches:
+ * OZ_EQUAL 1: all grains are alike; OZ_SURFACES 1: each force acts on its own grain's surface
+ * (Pournin et al. 2005; breaks angular momentum), 0: both in the middle of the overlap;
+ * OZ_AT_CONTACT: whether a contact's lightness is needed; OZ_FINE: overlaps as fine.h has them. */
 #ifndef OZ_KERNELS_GRAIN_H
 #define OZ_KERNELS_GRAIN_H
 
@@ -12,7 +12,7 @@
 #endif
 
 typedef struct OzGrain {
-    OzPlace place;
+    OzFixedPosition position;
     OzVec3 half_shaft;    /* m                                                       */
     OzVec3 velocity;      /* m/s                                                     */
     OzVec3 rate;          /* rad/s, world frame                                      */
@@ -29,19 +29,20 @@ OZ_INLINE OzVec3 oz_grain_velocity_at(OzGrain grain, OzVec3 arm)
     return oz_add(grain.velocity, oz_cross(grain.rate, arm));
 }
 
-/* The rotation's part in how easily a grain gives way to a push along the normal, 1/kg: to be added to its inverse
- * mass. from_centre: the point of the shaft that is pushed, from the grain's centre. The surface point lies
- * farther along the normal, which changes no torque, so the grain turns about an axis across its shaft. */
-OZ_INLINE real oz_grain_yield(OzGrain grain, OzVec3 from_centre, OzVec3 normal)
+/* The rotation's part in how easily a grain gives way to a push along the normal, 1/kg: to be added
+ * to its inverse mass. from_centre: the point of the shaft that is pushed, from the grain's centre.
+ * The surface point lies farther along the normal, which changes no torque, so the grain turns
+ * about an axis across its shaft. */
+OZ_INLINE real oz_grain_inverse_mass_turn(OzGrain grain, OzVec3 from_centre, OzVec3 normal)
 {
     OzVec3 turning = oz_cross(from_centre, normal);
     return grain.inverse_inertia * oz_dot(turning, turning);
 }
 
-/* The contact of a and b at points of their shafts; apart = x_a - x_b. Arms reach from each centre to where
- * the forces act. *crossed: the shafts meet there, no normal exists and z is taken. */
-OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at, OzVec3 *arm_a,
-                                     OzVec3 *arm_b, mask *crossed)
+/* The contact of a and b at points of their shafts; apart = x_a - x_b. Arms reach from each centre
+ * to where the forces act. *crossed: the shafts meet there, no normal exists and z is taken. */
+OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at,
+                                     OzVec3 *arm_a, OzVec3 *arm_b, mask *crossed)
 {
     OzContact contact;
     OzVec3 from_a = oz_scale(a.half_shaft, at.s), from_b = oz_scale(b.half_shaft, at.t);
@@ -63,12 +64,13 @@ OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClose
     contact.velocity = oz_minus(oz_grain_velocity_at(b, *arm_b), oz_grain_velocity_at(a, *arm_a));
     contact.rate = -oz_dot(contact.velocity, contact.normal);
     contact.mass = OZ_EQUAL ? REAL(0.5) * a.mass : a.mass * b.mass / (a.mass + b.mass);
-    contact.radius = a.radius * b.radius / (a.radius + b.radius); /* left out where no law reads it */
+    contact.radius =
+        a.radius * b.radius / (a.radius + b.radius); /* left out where no law reads it */
     contact.lightness = REAL(1.0);
     if (OZ_AT_CONTACT) {
-        real yield =
-            oz_grain_yield(a, from_a, contact.normal) + oz_grain_yield(b, from_b, contact.normal);
-        contact.lightness = REAL(1.0) / sqrt(REAL(1.0) + contact.mass * yield);
+        real inverse_mass_turn = oz_grain_inverse_mass_turn(a, from_a, contact.normal) +
+                                 oz_grain_inverse_mass_turn(b, from_b, contact.normal);
+        contact.lightness = REAL(1.0) / sqrt(REAL(1.0) + contact.mass * inverse_mass_turn);
     }
     return contact;
 }

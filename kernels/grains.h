@@ -1,5 +1,5 @@
-/* Grains in memory and in motion: their arrays, the integrator under the loads of pairs and walls, the guards.
- * One grain a lane. OpenCL C only. */
+/* Grains in memory and in motion: their arrays, the integrator under the loads of pairs and walls,
+ * the guards. One grain a lane. OpenCL C only. */
 #ifndef OZ_KERNELS_GRAINS_H
 #define OZ_KERNELS_GRAINS_H
 
@@ -47,9 +47,9 @@ OZ_INLINE OzBody oz_grains_load(const OzWork *w, int block)
 {
     global const real *words = w->state + (size_t)block * OZ_STATE;
     OzBody body;
-    body.place.x = oz_place_of_bits(words[OZ_S_PLACE]);
-    body.place.y = oz_place_of_bits(words[OZ_S_PLACE + 1]);
-    body.place.z = oz_place_of_bits(words[OZ_S_PLACE + 2]);
+    body.position.x = oz_fixed_position_of_bits(words[OZ_S_POSITION]);
+    body.position.y = oz_fixed_position_of_bits(words[OZ_S_POSITION + 1]);
+    body.position.z = oz_fixed_position_of_bits(words[OZ_S_POSITION + 2]);
     body.rest = oz_work_load3(words + OZ_S_REST);
     body.velocity = oz_work_load3(words + OZ_S_VELOCITY);
     body.spin = oz_work_load3(words + OZ_S_SPIN);
@@ -65,9 +65,9 @@ OZ_INLINE OzBody oz_grains_load(const OzWork *w, int block)
 OZ_INLINE void oz_grains_store(OzWork *w, int block, OzBody body)
 {
     global real *words = w->state + (size_t)block * OZ_STATE;
-    words[OZ_S_PLACE] = oz_place_bits(body.place.x);
-    words[OZ_S_PLACE + 1] = oz_place_bits(body.place.y);
-    words[OZ_S_PLACE + 2] = oz_place_bits(body.place.z);
+    words[OZ_S_POSITION] = oz_fixed_position_bits(body.position.x);
+    words[OZ_S_POSITION + 1] = oz_fixed_position_bits(body.position.y);
+    words[OZ_S_POSITION + 2] = oz_fixed_position_bits(body.position.z);
     oz_work_store3(words + OZ_S_REST, body.rest);
     oz_work_store3(words + OZ_S_VELOCITY, body.velocity);
     oz_work_store3(words + OZ_S_SPIN, body.spin);
@@ -85,14 +85,14 @@ OZ_INLINE void oz_grains_record(OzWork *w, int block, OzBody body, OzShape shape
 {
     OzVec3 u = oz_quaternion_axis(body.turn), rate = oz_body_rate(spin, u, shape);
     OzVec3 shaft = oz_scale(u, shape.half_length);
-    real a[4] = {oz_place_bits(body.place.x), oz_place_bits(body.place.y),
-                 oz_place_bits(body.place.z), shape.radius};
+    real a[4] = {oz_fixed_position_bits(body.position.x), oz_fixed_position_bits(body.position.y),
+                 oz_fixed_position_bits(body.position.z), shape.radius};
     real b[4] = {shaft.x, shaft.y, shaft.z, shape.mass};
     real skin = w->reference_inner[(size_t)block * OZ_REFERENCE + OZ_REFERENCE_SKIN];
     real c[4] = {velocity.x, velocity.y, velocity.z, skin};
     real d[4] = {rate.x, rate.y, rate.z, OZ_AT_CONTACT ? shape.inverse_inertia : REAL(0.0)};
     global scalar *out = w->record + (size_t)block * OZ_LANES * OZ_RECORD;
-    oz_lanes_store4(out, OZ_RECORD, OZ_R_PLACE, a);
+    oz_lanes_store4(out, OZ_RECORD, OZ_R_POSITION, a);
     oz_lanes_store4(out, OZ_RECORD, OZ_R_SHAFT, b);
     oz_lanes_store4(out, OZ_RECORD, OZ_R_VELOCITY, c);
     oz_lanes_store4(out, OZ_RECORD, OZ_R_RATE, d);
@@ -110,24 +110,26 @@ OZ_INLINE mask oz_grains_present(const OzWork *w, int block)
     return OZ_LANES_LOAD(number) > REAL(0.5);
 }
 
-/* Lanes whose place is within the domain. Coordinates are compared one by one: the larger of two numbers would hide
- * that one of them is NaN. */
+/* Lanes whose place is within the domain. Coordinates are compared one by one: the larger of two
+ * numbers would hide that one of them is NaN. */
 OZ_INLINE mask oz_grains_inside(const OzWork *w, OzBody body)
 {
     real domain = REAL(w->parameters->domain);
-    return (oz_magnitude(oz_place_to_real(body.place.x)) < domain) &
-           (oz_magnitude(oz_place_to_real(body.place.y)) < domain) &
-           (oz_magnitude(oz_place_to_real(body.place.z)) < domain);
+    return (oz_magnitude(oz_fixed_position_to_real(body.position.x)) < domain) &
+           (oz_magnitude(oz_fixed_position_to_real(body.position.y)) < domain) &
+           (oz_magnitude(oz_fixed_position_to_real(body.position.z)) < domain);
 }
 
-/* Stops the run at NaN, at a grain outside of the domain, and at a step too long for a grain's radius. Comparisons ask
- * for what is sound: with NaN they are false, so that NaN stops the run too. */
+/* Stops the run at NaN, at a grain outside of the domain, and at a step too long for a grain's
+ * radius. Comparisons ask for what is sound: with NaN they are false, so that NaN stops the run
+ * too. */
 OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape, int step)
 {
     real allowed = REAL(OZ_BODY_STEP_SHARE) * shape.radius;
     real step2 = oz_body_step2(body, shape, REAL(w->parameters->dt));
     mask number = oz_body_is_number(body), inside = oz_grains_inside(w, body);
-    mask slow = (step2 < allowed * allowed) & oz_body_is_turn(body), wrong = !(number & inside & slow);
+    mask slow = (step2 < allowed * allowed) & oz_body_is_turn(body),
+         wrong = !(number & inside & slow);
     if (OZ_ANY(wrong)) {
         int slots[OZ_LANES];
         for (int l = 0; l < OZ_LANES; l++) {
@@ -139,16 +141,16 @@ OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape,
     }
 }
 
-/* How far any point of the shaft can have moved since the reference was taken, squared: the larger of
- * |dx + da| and |dx - da|. */
+/* How far any point of the shaft can have moved since the reference was taken, squared: the larger
+ * of |dx + da| and |dx - da|. */
 OZ_INLINE real oz_grains_moved2(const OzWork *w, global const real *reference, OzBody body,
                                 OzVec3 shaft)
 {
-    OzPlace from;
-    from.x = oz_place_of_bits(reference[0]);
-    from.y = oz_place_of_bits(reference[1]);
-    from.z = oz_place_of_bits(reference[2]);
-    OzVec3 dx = oz_place_minus(body.place, from, w->parameters->length_unit);
+    OzFixedPosition from;
+    from.x = oz_fixed_position_of_bits(reference[0]);
+    from.y = oz_fixed_position_of_bits(reference[1]);
+    from.z = oz_fixed_position_of_bits(reference[2]);
+    OzVec3 dx = oz_fixed_position_minus(body.position, from, w->parameters->length_unit);
     if (OZ_ROUND) {
         return oz_dot(dx, dx);
     }
@@ -157,7 +159,8 @@ OZ_INLINE real oz_grains_moved2(const OzWork *w, global const real *reference, O
 }
 
 /* Raises the mark when a grain has used up its skin. */
-OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape, global int *mark, int step)
+OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape, global int *mark,
+                               int step)
 {
     OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
     global const real *reference = w->reference_inner + (size_t)block * OZ_REFERENCE;
@@ -180,7 +183,7 @@ OZ_INLINE void oz_grains_before(OzWork *w, int block, int step)
     oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
                      oz_integrate_seen_spin(body, shape, dt));
     oz_grains_watch(w, block, body, shape,
-                    OZ_RESORT ? &w->control->stale_places : &w->control->stale_step, step);
+                    OZ_RESORT ? &w->control->stale_positions : &w->control->stale_step, step);
 }
 #endif
 

@@ -1,5 +1,5 @@
-/* What the shared structs of every model begin with, so that one driver serves them all. A device kernel writes the
- * sizes of the whole structs at start and the host compares them with its own. */
+/* What the shared structs of every model begin with, so that one driver serves them all. A device
+ * kernel writes the sizes of the whole structs at start and the host compares them with its own. */
 #ifndef OZ_KERNELS_HEAD_H
 #define OZ_KERNELS_HEAD_H
 
@@ -12,35 +12,37 @@ enum { OZ_NEVER = 0x7fffffff };
 enum { OZ_DEEP_PAIR = 1, OZ_DEEP_WALL = 2, OZ_DEEP_SHARE = 1000000 };
 
 /* Of the parameters: units, for the host alone; the step, s; the drag, 1/s, only while settling. */
-#define OZ_PARAMETERS_HEAD                                                                                             \
-    OzUnits units;                                                                                                     \
-    scalar dt;                                                                                                         \
+#define OZ_PARAMETERS_HEAD                                                                         \
+    OzUnits units;                                                                                 \
+    scalar dt;                                                                                     \
     scalar drag;
 
-/* Of the sizes. slots: bodies rounded up to whole blocks of lanes; blocks: slots / lanes; regions: runs of slots that
- * one work-item looks after, each of region_slots; capacities: pairs of a region's outer and inner list, whole blocks,
- * and pairs of the inner list in which a body is the second; motion_steps: steps of one launch for which walls' motion
- * is given; members: scenes side by side in this launch. */
-#define OZ_SIZES_HEAD                                                                                                  \
-    int slots, blocks;                                                                                                 \
-    int regions, region_slots;                                                                                         \
-    int outer_capacity, inner_capacity, back_capacity;                                                                 \
-    int motion_steps;                                                                                                  \
+/* Of the sizes. slots: bodies rounded up to whole blocks of lanes; blocks: slots / lanes; regions:
+ * runs of slots that one work-item looks after, each of region_slots; capacities: pairs of a
+ * region's outer and inner list, whole blocks, and pairs of the inner list in which a body is the
+ * second; motion_steps: steps of one launch for which walls' motion is given; members: scenes side
+ * by side in this launch. */
+#define OZ_SIZES_HEAD                                                                              \
+    int slots, blocks;                                                                             \
+    int regions, region_slots;                                                                     \
+    int outer_capacity, inner_capacity, back_capacity;                                             \
+    int motion_steps;                                                                              \
     int members;
 
-/* Of the device's own words. Steps count from the start of the launch; an index is a grain's id, of trigrains a
- * piece's slot.
- * step: next step to make; moved: its places are moved already (a list was full); full: a list was too small, to be
- * made again with larger ones; needed: the largest that were asked for; stop_bits: the model's reasons to stop,
- * stop_step: first step that stopped (OZ_NEVER), stop_index: the lowest in that step (OZ_NEVER); refreshes, rebuilds:
- * since the start of the run; crossed: contacts without a normal (shafts crossing) met so far; deep_count: deep contacts of this launch, each counted once a step, deep_step: first
- * step with one (OZ_NEVER), deep_index: the lowest in it, a pair's first (OZ_NEVER), deep_depth: the greatest depth in
- * it, in OZ_DEEP_SHARE of its unit, deep_kinds: OZ_DEEP_... in it, 0 where the model does not tell. */
-#define OZ_CONTROL_HEAD                                                                                                \
-    int step, moved, full;                                                                                             \
-    int outer_needed, inner_needed, back_needed;                                                                       \
-    int stop_bits, stop_step, stop_index;                                                                              \
-    int refreshes, rebuilds, crossed;                                                                                  \
+/* Of the device's own words. Steps count from the start of the launch; an index is a grain's id, of
+ * trigrains a element's slot. step: next step to make; moved: its places are moved already (a list
+ * was full); full: a list was too small, to be made again with larger ones; needed: the largest
+ * that were asked for; stop_bits: the model's reasons to stop, stop_step: first step that stopped
+ * (OZ_NEVER), stop_index: the lowest in that step (OZ_NEVER); refreshes, rebuilds: since the start
+ * of the run; crossed: contacts without a normal (shafts crossing) met so far; deep_count: deep
+ * contacts of this launch, each counted once a step, deep_step: first step with one (OZ_NEVER),
+ * deep_index: the lowest in it, a pair's first (OZ_NEVER), deep_depth: the greatest depth in it, in
+ * OZ_DEEP_SHARE of its unit, deep_kinds: OZ_DEEP_... in it, 0 where the model does not tell. */
+#define OZ_CONTROL_HEAD                                                                            \
+    int step, moved, full;                                                                         \
+    int outer_needed, inner_needed, back_needed;                                                   \
+    int stop_bits, stop_step, stop_index;                                                          \
+    int refreshes, rebuilds, crossed;                                                              \
     int deep_count, deep_step, deep_index, deep_depth, deep_kinds;
 
 #ifdef OZ_HOST

@@ -1,5 +1,6 @@
-/* What host and device agree on: parameters, sizes, control words and where words lie in records. A device
- * kernel writes the sizes of these structs at start and the host compares them with its own. */
+/* What host and device agree on: parameters, sizes, control words and where words lie in records. A
+ * device kernel writes the sizes of these structs at start and the host compares them with its own.
+ */
 #ifndef OZ_KERNELS_LAYOUT_H
 #define OZ_KERNELS_LAYOUT_H
 
@@ -15,25 +16,25 @@ typedef struct OzWallParameters {
     OzLawConstants law;
 } OzWallParameters;
 
-/* The numbers of a scene that kernels read, and what follows from them. They can change without a new kernel
- * program. All are scalars: the host fills the struct in double, and the single-precision one is made by
- * converting it number by number. On the host the numbers are in SI units; a device's are counted in `units`,
- * as is everything that kernels read. */
+/* The numbers of a scene that kernels read, and what follows from them. They can change without a
+ * new kernel program. All are scalars: the host fills the struct in double, and the
+ * single-precision one is made by converting it number by number. On the host the numbers are in SI
+ * units; a device's are counted in `units`, as is everything that kernels read. */
 typedef struct OzParameters {
     OZ_PARAMETERS_HEAD
-    scalar length_unit;   /* m per count of a place; 1 in double                              */
-    scalar inverse_unit;  /* 1/m                                                              */
-    scalar domain;        /* units: a grain beyond this distance from the origin has escaped  */
-    scalar gravity[3];    /* m/s^2                                                            */
-    scalar deep_look, deep_warn, deep_stop; /* depths (depth.h) looked at, counted, stopped at     */
-    OzLawConstants law;            /* between grains                                                   */
+    scalar length_unit;  /* m per count of a place; 1 in double                              */
+    scalar inverse_unit; /* 1/m                                                              */
+    scalar domain;       /* units: a grain beyond this distance from the origin has escaped  */
+    scalar gravity[3];   /* m/s^2                                                            */
+    scalar deep_look, deep_warn, deep_stop; /* depths (depth.h) looked at, counted, stopped at */
+    OzLawConstants law; /* between grains                                                   */
     scalar outer_least, outer_most; /* m, of one grain in the outer list: grows with its speed */
-    scalar outer_time;    /* s: for which that shall last at its present speed                */
+    scalar outer_time; /* s: for which that shall last at its present speed                */
     scalar skin_least, skin_most; /* m, of one grain: its skin grows with its speed           */
-    scalar skin_time;     /* s: for which a grain's skin shall last at its present speed      */
-    scalar inverse_cell;  /* 1/m, cells of the hashed grid                                    */
-    scalar reach_max;     /* m, largest half-length + radius                                  */
-    scalar radius_count;  /* units: the radius in a place's units                             */
+    scalar skin_time;    /* s: for which a grain's skin shall last at its present speed      */
+    scalar inverse_cell; /* 1/m, cells of the hashed grid                                    */
+    scalar reach_max;    /* m, largest half-length + radius                                  */
+    scalar radius_count; /* units: the radius in a place's units                             */
     scalar radius, half_length, mass; /* of every grain of an equal population                */
     scalar inverse_mass, inverse_inertia, inverse_inertia_axis;
     OzWallParameters wall[OZ_WALLS_MAX];
@@ -42,57 +43,53 @@ typedef struct OzParameters {
 /* Sizes and strides; the same for every member of one launch. */
 typedef struct OzSizes {
     OZ_SIZES_HEAD
-    int count;            /* grains                                                             */
-    int axis[3];          /* of space, in the grid's order: cells along the first follow each other */
-    int cells_along[3];   /* those axes; powers of two: cell coordinates wrap around            */
+    int count;          /* grains                                                             */
+    int axis[3];        /* of space, in the grid's order: cells along the first follow each other */
+    int cells_along[3]; /* those axes; powers of two: cell coordinates wrap around            */
     int cells;
 } OzSizes;
 
 /* Reasons to stop, as bits. */
-enum {
-    OZ_STOP_NAN = 1,
-    OZ_STOP_ESCAPED = 2,
-    OZ_STOP_DEEP = 4,
-    OZ_STOP_FAST = 8,
-    OZ_STOP_MET = 16
-};
+enum { OZ_STOP_NAN = 1, OZ_STOP_ESCAPED = 2, OZ_STOP_DEEP = 4, OZ_STOP_FAST = 8, OZ_STOP_MET = 16 };
 
-/* Where the tangential springs of touching pairs are kept. A rebuild moves them inner -> outer -> saved ->
- * outer -> inner and can be stopped and repeated with larger lists after any of these. */
-enum { OZ_TRUTH_NONE, OZ_TRUTH_SAVED, OZ_TRUTH_OUTER, OZ_TRUTH_INNER };
+/* Where the tangential springs of touching pairs are kept. A rebuild moves them inner -> outer ->
+ * saved -> outer -> inner and can be stopped and repeated with larger lists after any of these. */
+enum { OZ_SPRINGS_AT_NONE, OZ_SPRINGS_AT_SAVED, OZ_SPRINGS_AT_OUTER, OZ_SPRINGS_AT_INNER };
 
 /* The device's own words, one set a member. */
 typedef struct OzControl {
     OZ_CONTROL_HEAD
-    int stale_step;   /* the step after which lists no longer hold; OZ_NEVER                    */
-    int stale_places; /* the step whose places, moved before its forces, the lists do not hold; OZ_NEVER. Large
-                         scenes with an integrator that moves first only: others renew them in time */
-    int truth;        /* where the tangential springs are now: OZ_TRUTH_...                      */
-    int outer_stale;  /* the outer list no longer covers the inner skin                         */
+    int stale_step; /* the step after which lists no longer hold; OZ_NEVER                    */
+    int stale_positions; /* the step whose places, moved before its forces, the lists do not hold;
+                         OZ_NEVER. Large scenes with an integrator that moves first only: others
+                         renew them in time */
+    int truth;       /* where the tangential springs are now: OZ_TRUTH_...                      */
+    int outer_stale; /* the outer list no longer covers the inner skin                         */
 } OzControl;
 
 /* Words of a record: what a contact needs of a grain, one record a slot, OZ_RECORD scalars. */
 enum {
-    OZ_R_PLACE = 0,
+    OZ_R_POSITION = 0,
     OZ_R_RADIUS = 3,
     OZ_R_SHAFT = 4,
     OZ_R_MASS = 7,
     OZ_R_VELOCITY = 8,
     OZ_R_SKIN = 11,
     OZ_R_RATE = 12,
-    OZ_R_YIELD = 15, /* inverse inertia across the shaft; with OZ_AT_CONTACT only */
+    OZ_R_INVERSE_MASS_TURN = 15, /* inverse inertia across the shaft; with OZ_AT_CONTACT only */
     OZ_RECORD = 16
 };
 
-/* Words of a pair's result. Force and torque on b stand together, each with one word to spare; the torque on a is in an
- * array of its own. So the gather of b, which comes to these words in no order of memory, reads one cache line. */
+/* Words of a pair's result. Force and torque on b stand together, each with one word to spare; the
+ * torque on a is in an array of its own. So the gather of b, which comes to these words in no order
+ * of memory, reads one cache line. */
 enum { OZ_F_FORCE = 0, OZ_F_TORQUE = 4, OZ_PAIR_FORCE = 8, OZ_PAIR_TORQUE = 4 };
 
 /* Words of a pair's tangential spring: m, one to spare. */
 enum { OZ_SPRING = 4 };
 
-/* Words of a wall's motion at one step: displacement and velocity along z; the displacement in units, whole ones and the
- * rest. */
+/* Words of a wall's motion at one step: displacement and velocity along z; the displacement in
+ * units, whole ones and the rest. */
 enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_MOTION };
 
 /* Words of a slot's load: force and torque, each with one word to spare. */
@@ -100,7 +97,7 @@ enum { OZ_LOAD = 8 };
 
 /* Words of a block's state, each a real with one lane per grain. */
 enum {
-    OZ_S_PLACE = 0,
+    OZ_S_POSITION = 0,
     OZ_S_REST = 3,
     OZ_S_VELOCITY = 6,
     OZ_S_SPIN = 9,
@@ -111,7 +108,8 @@ enum {
     OZ_STATE = 26
 };
 
-/* Words of a block's shapes, for populations that are not all equal; the count is the radius in a place's units. */
+/* Words of a block's shapes, for populations that are not all equal; the count is the radius in a
+ * place's units. */
 enum {
     OZ_B_RADIUS,
     OZ_B_HALF_LENGTH,
@@ -122,8 +120,8 @@ enum {
     OZ_SHAPE
 };
 
-/* Words of a block's reference: place and half-shaft when a list was made, and the grain's skin in that list: how
- * far it may move before the list must be made again. */
+/* Words of a block's reference: place and half-shaft when a list was made, and the grain's skin in
+ * that list: how far it may move before the list must be made again. */
 enum { OZ_REFERENCE_SKIN = 6, OZ_REFERENCE = 7 };
 
 #endif

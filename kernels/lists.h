@@ -1,10 +1,12 @@
-/* Neighbour lists. The outer list holds every pair whose gap was below the sum of both grains' outer
- * skins when it was made from the hashed grid. The inner list, which the forces walk, holds those of them whose
- * gap was below the sum of both grains' inner skins when it was made. A grain's skins grow with its speed, so that
- * slow and fast ones use theirs up at about the same time. The inner list is made anew from the outer one as long
- * as that covers every grain's motion and skin. A list too small raises control->full with the sizes needed and
- * leaves the springs where control->truth says, so that the host can enlarge it and repeat: no pair is dropped. A pair's first grain is the one with the longer reach
- * (half-length + radius), then the lower id. OpenCL C only. */
+/* Neighbour lists. The outer list holds every pair whose gap was below the sum of both grains'
+ * outer skins when it was made from the hashed grid. The inner list, which the forces walk, holds
+ * those of them whose gap was below the sum of both grains' inner skins when it was made. A grain's
+ * skins grow with its speed, so that slow and fast ones use theirs up at about the same time. The
+ * inner list is made anew from the outer one as long as that covers every grain's motion and skin.
+ * A list too small raises control->full with the sizes needed and leaves the springs where
+ * control->truth says, so that the host can enlarge it and repeat: no pair is dropped. A pair's
+ * first grain is the one with the longer reach (half-length + radius), then the lower id. OpenCL C
+ * only. */
 #ifndef OZ_KERNELS_LISTS_H
 #define OZ_KERNELS_LISTS_H
 
@@ -17,21 +19,21 @@ OZ_INLINE void oz_lists_full(OzWork *w)
     atomic_or(&w->control->full, 1);
 }
 
-/* The search of one grain's partners: candidates by centre distance are collected, then tested by the gap
- * of the capsules, a block of lanes at a time. */
+/* The search of one grain's partners: candidates by centre distance are collected, then tested by
+ * the gap of the capsules, a block of lanes at a time. */
 enum { OZ_CANDIDATES = 256 };
 
 typedef struct OzSearch {
-    int slot, id;        /* of the grain                                  */
-    spot_kind spot[3];   /* its place                                     */
-    OzGrain grain;       /* its geometry, the same in every lane          */
-    scalar reach;        /* m, half-length + radius                       */
-    scalar skin;         /* m, in the outer list                          */
-    scalar far;          /* m, centre distance of the farthest partner    */
-    int out;             /* where its next pair goes in the outer list    */
-    int limit;           /* end of the region's outer list                */
-    int wanted;          /* pairs found in this region, stored or not     */
-    int count;           /* candidates                                    */
+    int slot, id;                          /* of the grain                                  */
+    fixed_position_kind fixed_position[3]; /* its place                                     */
+    OzGrain grain;                         /* its geometry, the same in every lane          */
+    scalar reach;                          /* m, half-length + radius                       */
+    scalar skin;                           /* m, in the outer list                          */
+    scalar far;                            /* m, centre distance of the farthest partner    */
+    int out;                               /* where its next pair goes in the outer list    */
+    int limit;                             /* end of the region's outer list                */
+    int wanted;                            /* pairs found in this region, stored or not     */
+    int count;                             /* candidates                                    */
     int candidate[OZ_CANDIDATES + 2 * OZ_LANES];
 } OzSearch;
 
@@ -42,18 +44,18 @@ OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
         s->candidate[s->count + l] = s->slot;
     }
     for (int first = 0; first < s->count; first += OZ_LANES) {
-        int picked[OZ_LANES];
+        int active[OZ_LANES];
         OzGrain other = oz_work_geometry(w, s->candidate + first);
         real radii, distance2 = oz_pairs_distance2(w, s->grain, other, &radii);
-        real near = radii + REAL(s->skin) + oz_lanes_fetch(w->reference_outer, s->candidate + first,
-                                                               OZ_REFERENCE, OZ_REFERENCE_SKIN);
-        mask hits = (distance2 < near * near) &
-                    oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
-        int count = oz_lanes_compact(picked, OZ_LANES_LOAD(s->candidate + first), hits);
+        real near = radii + REAL(s->skin) +
+                    oz_lanes_fetch(w->reference_outer, s->candidate + first, OZ_REFERENCE,
+                                   OZ_REFERENCE_SKIN);
+        mask hits = (distance2 < near * near) & oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
+        int count = oz_lanes_compact(active, OZ_LANES_LOAD(s->candidate + first), hits);
         s->wanted += count;
         for (int l = 0; l < count && s->out < s->limit; l++) {
             w->outer_a[s->out] = s->slot;
-            w->outer_b[s->out++] = picked[l];
+            w->outer_b[s->out++] = active[l];
         }
     }
     s->count = 0;
@@ -64,12 +66,13 @@ OZ_INLINE void oz_lists_sweep(OzWork *w, OzSearch *s, int first, int last)
 {
     scalar unit = w->parameters->length_unit;
     for (int k = first; k < last; k += OZ_LANES) {
-        OzPlace apart;
-        apart.x = OZ_LANES_LOAD(w->sorted_x + k) - s->spot[0];
-        apart.y = OZ_LANES_LOAD(w->sorted_y + k) - s->spot[1];
-        apart.z = OZ_LANES_LOAD(w->sorted_z + k) - s->spot[2];
-        OzVec3 d = oz_vec3(oz_place_to_real(apart.x) * unit, oz_place_to_real(apart.y) * unit,
-                           oz_place_to_real(apart.z) * unit);
+        OzFixedPosition apart;
+        apart.x = OZ_LANES_LOAD(w->sorted_x + k) - s->fixed_position[0];
+        apart.y = OZ_LANES_LOAD(w->sorted_y + k) - s->fixed_position[1];
+        apart.z = OZ_LANES_LOAD(w->sorted_z + k) - s->fixed_position[2];
+        OzVec3 d = oz_vec3(oz_fixed_position_to_real(apart.x) * unit,
+                           oz_fixed_position_to_real(apart.y) * unit,
+                           oz_fixed_position_to_real(apart.z) * unit);
         mask mine = oz_lanes_mask_of((OZ_LANES_LOAD(w->sorted_id + k) > s->id) &
                                      (OZ_LANES_IOTA + k < last));
         real skins = OZ_LANES_LOAD(w->sorted_skin + k) + REAL(s->skin);
@@ -88,12 +91,13 @@ OZ_INLINE void oz_lists_sweep(OzWork *w, OzSearch *s, int first, int last)
     }
 }
 
-/* Sorts pairs first ... last of the outer list by the second grain's id (Shell's gaps: short lists are
- * usual, long ones must not take the square of their length). */
+/* Sorts pairs first ... last of the outer list by the second grain's id (Shell's gaps: short lists
+ * are usual, long ones must not take the square of their length). */
 OZ_INLINE void oz_lists_sort(OzWork *w, int first, int last)
 {
     int count = last - first;
-    for (int gap = count > 64 ? count / 3 + 1 : 1; gap > 0; gap = gap > 1 ? gap / 3 + (gap == 2) : 0) {
+    for (int gap = count > 64 ? count / 3 + 1 : 1; gap > 0;
+         gap = gap > 1 ? gap / 3 + (gap == 2) : 0) {
         for (int i = first + gap; i < last; i++) {
             int kept = w->outer_b[i], key = w->id[kept], to = i;
             while (to - gap >= first && w->id[w->outer_b[to - gap]] > key) {
@@ -105,15 +109,16 @@ OZ_INLINE void oz_lists_sort(OzWork *w, int first, int last)
     }
 }
 
-/* Distance of a coordinate from the cells at `offset` of its own, m: 0 within. frac: where in its cell. */
+/* Distance of a coordinate from the cells at `offset` of its own, m: 0 within. frac: where in its
+ * cell. */
 OZ_INLINE scalar oz_lists_off(int offset, scalar frac, scalar cell)
 {
     scalar off = offset > 0 ? offset - frac : offset < 0 ? frac - (offset + 1) : 0;
     return off * cell;
 }
 
-/* One row of cells along the grid's first axis, `off2` (m^2) away across it: only as long as the sphere of reach
- * about `at` (m) is wide there. */
+/* One row of cells along the grid's first axis, `off2` (m^2) away across it: only as long as the
+ * sphere of reach about `at` (m) is wide there. */
 OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar at, scalar off2)
 {
     scalar inverse = w->parameters->inverse_cell;
@@ -133,11 +138,11 @@ OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
     oz_lists_sweep(w, s, 0, w->z.count);
 #else
     global const OzParameters *p = w->parameters;
-    scalar cell = 1 / p->inverse_cell, place[3];
+    scalar cell = 1 / p->inverse_cell, position[3];
     for (int k = 0; k < 3; k++) {
-        place[k] = (scalar)s->spot[w->z.axis[k]] * p->length_unit;
+        position[k] = (scalar)s->fixed_position[w->z.axis[k]] * p->length_unit;
     }
-    scalar second = place[1] * p->inverse_cell, third = place[2] * p->inverse_cell;
+    scalar second = position[1] * p->inverse_cell, third = position[2] * p->inverse_cell;
     int at_second = (int)floor(second), at_third = (int)floor(third);
     for (int d3 = -1; d3 <= 1; d3++) {
         scalar off3 = oz_lists_off(d3, third - at_third, cell);
@@ -145,7 +150,7 @@ OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
             scalar off = oz_lists_off(d2, second - at_second, cell), off2 = off3 * off3 + off * off;
             if (off2 < s->far * s->far) {
                 int row = oz_cells_index(w, 0, at_second + d2, at_third + d3);
-                oz_lists_row(w, s, row, place[0], off2);
+                oz_lists_row(w, s, row, position[0], off2);
             }
         }
     }
@@ -172,7 +177,7 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
             own[l] = i;
         }
         s.grain = oz_work_geometry(w, own);
-        oz_cells_spot(w, i, s.spot);
+        oz_cells_fixed_position(w, i, s.fixed_position);
         int first = s.out;
         oz_lists_around(w, &s);
         oz_lists_flush(w, &s);
@@ -195,9 +200,9 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
 /* Notes where a block of grains is. */
 OZ_INLINE void oz_lists_note(global real *reference, OzBody body, OzVec3 shaft)
 {
-    reference[0] = oz_place_bits(body.place.x);
-    reference[1] = oz_place_bits(body.place.y);
-    reference[2] = oz_place_bits(body.place.z);
+    reference[0] = oz_fixed_position_bits(body.position.x);
+    reference[1] = oz_fixed_position_bits(body.position.y);
+    reference[2] = oz_fixed_position_bits(body.position.z);
     oz_work_store3(reference + 3, shaft);
 }
 
@@ -213,18 +218,19 @@ OZ_INLINE void oz_lists_refer(OzWork *w, int region)
     }
 }
 
-/* A grain's skin: what it moves in skin_time at its present speed, no less and no more than the bounds. */
+/* A grain's skin: what it moves in skin_time at its present speed, no less and no more than the
+ * bounds. */
 OZ_INLINE real oz_lists_skin(const OzWork *w, OzBody body, OzShape shape, OzVec3 axis)
 {
     global const OzParameters *p = w->parameters;
     OzVec3 rate = oz_body_rate(body.spin, axis, shape);
-    real speed = sqrt(oz_dot(body.velocity, body.velocity)) +
-                 shape.half_length * sqrt(oz_dot(rate, rate));
+    real speed =
+        sqrt(oz_dot(body.velocity, body.velocity)) + shape.half_length * sqrt(oz_dot(rate, rate));
     return oz_smaller(REAL(p->skin_most), REAL(p->skin_least) + speed * REAL(p->skin_time));
 }
 
-/* Takes the present places as the inner list's reference, gives each grain its skin, and marks the outer list
- * stale where it does not cover a grain's motion since it was made and its skin. */
+/* Takes the present places as the inner list's reference, gives each grain its skin, and marks the
+ * outer list stale where it does not cover a grain's motion since it was made and its skin. */
 OZ_INLINE void oz_lists_measure(OzWork *w, int region)
 {
     int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
@@ -234,7 +240,8 @@ OZ_INLINE void oz_lists_measure(OzWork *w, int region)
         OzVec3 axis = oz_quaternion_axis(body.turn), shaft = oz_scale(axis, shape.half_length);
         real skin = oz_lists_skin(w, body, shape, axis);
         global const real *outer = w->reference_outer + (size_t)block * OZ_REFERENCE;
-        real left = outer[OZ_REFERENCE_SKIN] - skin; /* outer_least is above skin_most: never negative */
+        real left =
+            outer[OZ_REFERENCE_SKIN] - skin; /* outer_least is above skin_most: never negative */
         mask holds = oz_grains_moved2(w, outer, body, shaft) <= left * left;
         if (OZ_ANY(!holds)) {
             w->control->outer_stale = 1;
@@ -249,9 +256,9 @@ OZ_INLINE void oz_lists_measure(OzWork *w, int region)
     }
 }
 
-/* back[l] receives a number for pair l: how many pairs with the same second grain have been counted before it. All
- * numbers of a block are taken before any of its pairs is written, because counting with atomics waits until what
- * was written before has arrived. */
+/* back[l] receives a number for pair l: how many pairs with the same second grain have been counted
+ * before it. All numbers of a block are taken before any of its pairs is written, because counting
+ * with atomics waits until what was written before has arrived. */
 OZ_INLINE void oz_lists_count(OzWork *w, const int *outer, int count, int *back)
 {
 #if !OZ_SCATTER
@@ -261,8 +268,8 @@ OZ_INLINE void oz_lists_count(OzWork *w, const int *outer, int count, int *back)
 #endif
 }
 
-/* Puts one pair of the outer list into the inner one. back is the pair's number among those with the same second
- * grain (oz_lists_count). */
+/* Puts one pair of the outer list into the inner one. back is the pair's number among those with
+ * the same second grain (oz_lists_count). */
 OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to, int back)
 {
     int a = w->outer_a[outer], b = w->outer_b[outer];
@@ -320,20 +327,20 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
     int outer = region * w->z.outer_capacity, outer_end = outer + w->outer_count[region];
     int begin = region * w->z.inner_capacity, count = 0;
     for (int first = outer; first < outer_end; first += OZ_LANES) {
-        int a[OZ_LANES], b[OZ_LANES], picked[OZ_LANES];
+        int a[OZ_LANES], b[OZ_LANES], active[OZ_LANES];
         for (int l = 0; l < OZ_LANES; l++) {
             a[l] = w->outer_a[first + l];
             b[l] = w->outer_b[first + l];
         }
-        real radii, distance2 =
-            oz_pairs_distance2(w, oz_work_geometry(w, a), oz_work_geometry(w, b), &radii);
+        real radii, distance2 = oz_pairs_distance2(w, oz_work_geometry(w, a),
+                                                   oz_work_geometry(w, b), &radii);
         real near = radii + oz_lists_skins(w, a) + oz_lists_skins(w, b);
         mask hits = (distance2 < near * near) & oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
-        int hit_count = oz_lanes_compact(picked, OZ_LANES_IOTA + first, hits);
+        int hit_count = oz_lanes_compact(active, OZ_LANES_IOTA + first, hits);
         int taken = min(hit_count, max(w->z.inner_capacity - count, 0)), back[OZ_LANES];
-        oz_lists_count(w, picked, taken, back);
+        oz_lists_count(w, active, taken, back);
         for (int l = 0; l < taken; l++) {
-            oz_lists_take(w, picked[l], begin + count + l, back[l]);
+            oz_lists_take(w, active[l], begin + count + l, back[l]);
         }
         count += hit_count;
     }
@@ -345,7 +352,7 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
     oz_lists_pad(w, begin, count);
     w->pair_count[region] = count;
     for (int p = begin; p < begin + count; p += OZ_LANES) {
-        w->pair_picked[p / OZ_LANES] = -1; /* any may have a spring */
+        w->pair_active[p / OZ_LANES] = -1; /* any may have a spring */
     }
 }
 

@@ -1,5 +1,5 @@
-/* Force and torque on each grain, kept slot by slot while pairs and walls add theirs: always in the same order,
- * whatever the lists look like. OpenCL C only. */
+/* Force and torque on each grain, kept slot by slot while pairs and walls add theirs: always in the
+ * same order, whatever the lists look like. OpenCL C only. */
 #ifndef OZ_KERNELS_LOADS_H
 #define OZ_KERNELS_LOADS_H
 
@@ -11,23 +11,23 @@ typedef struct OzSum {
     scalar4 force, torque;
 } OzSum;
 
-/* Where the force of a picked pair is kept. Given a pair that was not picked, it is the place of the next pair that
- * was. */
+/* Where the force of a picked pair is kept. Given a pair that was not picked, it is the place of
+ * the next pair that was. */
 OZ_INLINE uint oz_loads_from(const OzWork *w, uint pair)
 {
     uint before = (1u << (pair % OZ_LANES)) - 1;
     return (uint)w->pair_kept[pair / OZ_LANES] +
-           popcount((uint)w->pair_picked[pair / OZ_LANES] & before);
+           popcount((uint)w->pair_active[pair / OZ_LANES] & before);
 }
 
-/* Where to read the force of a pair. Behind the kept forces of all pairs stands a zero (arrays are made zeroed), which
- * serves pairs that were not picked: a processor cannot foresee which are picked, and a branch that it guesses
- * wrong costs more than adding zero. */
+/* Where to read the force of a pair. Behind the kept forces of all pairs stands a zero (arrays are
+ * made zeroed), which serves pairs that were not picked: a processor cannot foresee which are
+ * picked, and a branch that it guesses wrong costs more than adding zero. */
 OZ_INLINE uint oz_loads_at(const OzWork *w, uint pair)
 {
     uint none = (uint)(w->z.regions * w->z.inner_capacity);
-    int picked = (w->pair_picked[pair / OZ_LANES] >> (pair % OZ_LANES)) & 1;
-    return picked ? oz_loads_from(w, pair) : none;
+    int active = (w->pair_active[pair / OZ_LANES] >> (pair % OZ_LANES)) & 1;
+    return active ? oz_loads_from(w, pair) : none;
 }
 
 /* Pairs first ... last of a grain's list of those in which it is the second. */
@@ -50,7 +50,7 @@ OZ_INLINE void oz_loads_sum_own(OzSum *sum, const OzWork *w, int slot)
         return;
     }
     uint end = oz_loads_from(w, (uint)last) +
-               (((uint)w->pair_picked[last / OZ_LANES] >> (last % OZ_LANES)) & 1);
+               (((uint)w->pair_active[last / OZ_LANES] >> (last % OZ_LANES)) & 1);
     for (uint at = oz_loads_from(w, (uint)first); at < end; at++) {
         global const scalar *pair = w->pair_force + (size_t)at * OZ_PAIR_FORCE;
         sum->force -= *(global const scalar4 *)(pair + OZ_F_FORCE);
@@ -58,7 +58,8 @@ OZ_INLINE void oz_loads_sum_own(OzSum *sum, const OzWork *w, int slot)
     }
 }
 
-/* The pairs' force and torque on a grain, in the order of each pair's first grain's id, then the second's. */
+/* The pairs' force and torque on a grain, in the order of each pair's first grain's id, then the
+ * second's. */
 OZ_INLINE void oz_loads_gather(OzWork *w, int slot)
 {
     OzSum sum = {(scalar4)(0), (scalar4)(0)};

@@ -1,21 +1,23 @@
-/* Forces between grains. Most listed pairs do not touch: a sieve picks those that do, or nearly so, from the
- * list, and the contact law gets full blocks of them, one pair a lane, each pair once. OpenCL C only.
- * Where one work-item does a whole member it adds a pair's force to both grains' loads at once; otherwise it
- * keeps the forces of a region's picked pairs closed up, and the grains gather theirs (loads.h). */
+/* Forces between grains. Most listed pairs do not touch: a sieve picks those that do, or nearly so,
+ * from the list, and the contact law gets full blocks of them, one pair a lane, each pair once.
+ * OpenCL C only. Where one work-item does a whole member it adds a pair's force to both grains'
+ * loads at once; otherwise it keeps the forces of a region's picked pairs closed up, and the grains
+ * gather theirs (loads.h). */
 #ifndef OZ_KERNELS_PAIRS_H
 #define OZ_KERNELS_PAIRS_H
 
+#include "kernels/active.h"
 #include "kernels/deep.h"
-#include "kernels/picked.h"
 
-/* The sieve lets pass what is closer than the sum of radii and this share more: whether a pair touches is the
- * contact law's to say, and the rounding of long shafts must not come between. */
+/* The sieve lets pass what is closer than the sum of radii and this share more: whether a pair
+ * touches is the contact law's to say, and the rounding of long shafts must not come between. */
 #define OZ_PAIRS_MARGIN 1e-3
 
 /* The squared distance between the shafts of two grains a lane, and the sum of their radii. */
 OZ_INLINE real oz_pairs_distance2(const OzWork *w, OzGrain one, OzGrain other, real *radii)
 {
-    OzVec3 apart = oz_place_minus(one.place, other.place, w->parameters->length_unit);
+    OzVec3 apart =
+        oz_fixed_position_minus(one.position, other.position, w->parameters->length_unit);
     *radii = one.radius + other.radius;
     if (OZ_ROUND) {
         return oz_dot(apart, apart);
@@ -38,33 +40,33 @@ enum {
 
 /* Picked pairs, their grains' slots and what is known of them. */
 typedef struct OzPairs {
-    OzPicked picked;
+    OzActive active;
     int kept; /* where the first one's force will be kept */
-    int a[OZ_PICKED_MOST], b[OZ_PICKED_MOST];
-    scalar word[15][OZ_PICKED_MOST];
+    int a[OZ_ACTIVE_MOST], b[OZ_ACTIVE_MOST];
+    scalar word[15][OZ_ACTIVE_MOST];
 } OzPairs;
 
-OZ_INLINE void oz_pairs_add(OzPairs *pairs, int first, const int *a, const int *b, const real *words,
-                            int bits)
+OZ_INLINE void oz_pairs_add(OzPairs *pairs, int first, const int *a, const int *b,
+                            const real *words, int bits)
 {
-    oz_lanes_close_up(pairs->a + pairs->picked.count, OZ_LANES_LOAD(a), bits);
-    oz_lanes_close_up(pairs->b + pairs->picked.count, OZ_LANES_LOAD(b), bits);
+    oz_lanes_close_up(pairs->a + pairs->active.count, OZ_LANES_LOAD(a), bits);
+    oz_lanes_close_up(pairs->b + pairs->active.count, OZ_LANES_LOAD(b), bits);
 #pragma unroll
     for (int k = 0; k < OZ_P_WORDS; k++) {
-        oz_picked_add_word(&pairs->picked, pairs->word[k], words[k], bits);
+        oz_active_add_word(&pairs->active, pairs->word[k], words[k], bits);
     }
-    oz_picked_add(&pairs->picked, OZ_LANES_IOTA + first, bits);
+    oz_active_add(&pairs->active, OZ_LANES_IOTA + first, bits);
 }
 
 OZ_INLINE void oz_pairs_fill(OzPairs *pairs, int due)
 {
-    oz_picked_fill(&pairs->picked, due);
-    for (int l = pairs->picked.count; l < due; l++) {
+    oz_active_fill(&pairs->active, due);
+    for (int l = pairs->active.count; l < due; l++) {
         pairs->a[l] = pairs->a[due - OZ_LANES];
         pairs->b[l] = pairs->b[due - OZ_LANES];
     }
     for (int k = 0; k < OZ_P_WORDS; k++) {
-        oz_picked_fill_word(&pairs->picked, pairs->word[k], due);
+        oz_active_fill_word(&pairs->active, pairs->word[k], due);
     }
 }
 
@@ -74,9 +76,9 @@ OZ_INLINE void oz_pairs_drop(OzPairs *pairs, int due)
     OZ_LANES_STORE(OZ_LANES_LOAD(pairs->b + due), pairs->b);
 #pragma unroll
     for (int k = 0; k < OZ_P_WORDS; k++) {
-        oz_picked_drop_word(pairs->word[k], due);
+        oz_active_drop_word(pairs->word[k], due);
     }
-    oz_picked_drop(&pairs->picked, due);
+    oz_active_drop(&pairs->active, due);
 }
 
 OZ_INLINE OzVec3 oz_pairs_vector(const OzPairs *pairs, int word, int at)
@@ -170,9 +172,10 @@ OZ_INLINE void oz_pairs_keep(OzWork *w, int kept, const scalar4 *forces, const s
 
 #endif
 
-/* Brings the forces of a block of picked pairs, from number `at` on, to where the grains find them. Lanes outside of
- * `counts` only fill the block up and have no force of their own. */
-OZ_INLINE void oz_pairs_finish(OzWork *w, const OzPairs *pairs, int at, mask counts, OzPairForce pair)
+/* Brings the forces of a block of picked pairs, from number `at` on, to where the grains find them.
+ * Lanes outside of `counts` only fill the block up and have no force of their own. */
+OZ_INLINE void oz_pairs_finish(OzWork *w, const OzPairs *pairs, int at, mask counts,
+                               OzPairForce pair)
 {
     scalar4 forces[OZ_LANES], torques_a[OZ_LANES], torques_b[OZ_LANES];
     if (OZ_SCATTER) {
@@ -210,13 +213,13 @@ OZ_INLINE void oz_pairs_store_springs(OzWork *w, const int *items, OzVec3 spring
     }
 }
 
-/* Forces of one block of picked pairs, one pair a lane, from number `at` on. Only the first `count` lanes hold a pair
- * of their own; in a last block that is not full the lanes after them repeat one of these, and what they find is left
- * out. */
-OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count, OzLawConstants law,
-                              int step)
+/* Forces of one block of picked pairs, one pair a lane, from number `at` on. Only the first `count`
+ * lanes hold a pair of their own; in a last block that is not full the lanes after them repeat one
+ * of these, and what they find is left out. */
+OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count,
+                              OzLawConstants law, int step)
 {
-    const int *items = pairs->picked.item + at;
+    const int *items = pairs->active.item + at;
     OzGrain one = oz_pairs_grains(w, pairs, 0, at), other = oz_pairs_grains(w, pairs, 1, at);
     OzVec3 apart = oz_pairs_vector(pairs, OZ_P_APART, at);
     OzVec3 springs = oz_pairs_load_springs(w, items);
@@ -227,12 +230,12 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
     if (OZ_HISTORY) {
         oz_pairs_store_springs(w, items, springs);
     }
-    oz_pairs_finish(w, pairs, at, OZ_PICKED_BEFORE(count), pair);
+    oz_pairs_finish(w, pairs, at, OZ_ACTIVE_BEFORE(count), pair);
     OzDeep deep = {pair.depth,
                    pair.closing,
                    oz_smaller(one.radius, other.radius),
                    one.radius + other.radius,
-                   OZ_PICKED_BEFORE(count),
+                   OZ_ACTIVE_BEFORE(count),
                    OZ_DEEP_PAIR};
     oz_deep_guard(w, deep, pairs->a + at, step);
     if (OZ_ANY(pair.crossed)) {
@@ -243,12 +246,12 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
 #endif
 }
 
-/* Notes which pairs of a block are picked now (one bit a lane), and sets to zero the tangential springs of those that
- * were picked before and are not any more. */
+/* Notes which pairs of a block are picked now (one bit a lane), and sets to zero the tangential
+ * springs of those that were picked before and are not any more. */
 OZ_INLINE void oz_pairs_part(OzWork *w, int first, int bits)
 {
-    int gone = w->pair_picked[first / OZ_LANES] & ~bits;
-    w->pair_picked[first / OZ_LANES] = bits;
+    int gone = w->pair_active[first / OZ_LANES] & ~bits;
+    w->pair_active[first / OZ_LANES] = bits;
     for (int l = 0; OZ_HISTORY && gone != 0 && l < OZ_LANES; l++) {
         if ((gone >> l) & 1) {
             *(global scalar4 *)(w->pair_history + (size_t)(first + l) * OZ_SPRING) = (scalar4)(0);
@@ -275,13 +278,15 @@ OZ_INLINE void oz_pairs_fetch(const OzWork *w, OzSieved *s, int first)
     }
     s->one = oz_work_geometry(w, s->a);
     s->other = oz_work_geometry(w, s->b);
-    s->apart = oz_place_minus(s->one.place, s->other.place, w->parameters->length_unit);
+    s->apart =
+        oz_fixed_position_minus(s->one.position, s->other.position, w->parameters->length_unit);
 }
 
 OZ_INLINE void oz_pairs_judge(OzSieved *s)
 {
     s->at = oz_rods_closest(s->apart, s->one.half_shaft, s->other.half_shaft);
-    OzVec3 gap = oz_along(oz_along(s->apart, s->at.s, s->one.half_shaft), -s->at.t, s->other.half_shaft);
+    OzVec3 gap =
+        oz_along(oz_along(s->apart, s->at.s, s->one.half_shaft), -s->at.t, s->other.half_shaft);
     real far = (s->one.radius + s->other.radius) * REAL(1 + OZ_PAIRS_MARGIN);
     s->bits = oz_lanes_bits(oz_dot(gap, gap) < far * far);
 }
@@ -290,10 +295,11 @@ OZ_INLINE void oz_pairs_judge(OzSieved *s)
 OZ_INLINE void oz_pairs_pick(OzWork *w, OzPairs *pairs, const OzSieved *s)
 {
     OzVec3 one = s->one.half_shaft, other = s->other.half_shaft;
-    real words[15] = {s->apart.x, s->apart.y, s->apart.z, one.x, one.y, one.z, other.x, other.y, other.z,
-                      s->at.s, s->at.t, s->one.radius, s->other.radius, s->one.mass, s->other.mass};
+    real words[15] = {s->apart.x, s->apart.y,    s->apart.z,      one.x,       one.y,
+                      one.z,      other.x,       other.y,         other.z,     s->at.s,
+                      s->at.t,    s->one.radius, s->other.radius, s->one.mass, s->other.mass};
 #if !OZ_SCATTER
-    w->pair_kept[s->first / OZ_LANES] = pairs->kept + pairs->picked.count;
+    w->pair_kept[s->first / OZ_LANES] = pairs->kept + pairs->active.count;
 #endif
     oz_pairs_add(pairs, s->first, s->a, s->b, words, s->bits);
     oz_pairs_part(w, s->first, s->bits);
@@ -307,13 +313,13 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
     OzLawConstants law = w->parameters->law;
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region];
     OzPairs pairs;
-    pairs.picked.count = 0;
+    pairs.active.count = 0;
     pairs.kept = begin;
 #if OZ_SCATTER
     oz_work_clear_loads(w, region);
 #endif
-    for (int first = begin; first < end; first += OZ_PICKED_BLOCKS * OZ_LANES) {
-        int stop = min(first + OZ_PICKED_BLOCKS * OZ_LANES, end);
+    for (int first = begin; first < end; first += OZ_ACTIVE_BLOCKS * OZ_LANES) {
+        int stop = min(first + OZ_ACTIVE_BLOCKS * OZ_LANES, end);
         for (int block = first; block < stop; block += 2 * OZ_LANES) {
             OzSieved one, other;
             int two = block + OZ_LANES < stop;
@@ -326,10 +332,10 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
                 oz_pairs_pick(w, &pairs, &other);
             }
         }
-        int due = oz_picked_due(&pairs.picked, stop == end);
+        int due = oz_active_due(&pairs.active, stop == end);
         oz_pairs_fill(&pairs, due);
         for (int at = 0; at < due; at += OZ_LANES) {
-            oz_pairs_touch(w, &pairs, at, pairs.picked.count - at, law, step);
+            oz_pairs_touch(w, &pairs, at, pairs.active.count - at, law, step);
         }
         oz_pairs_drop(&pairs, due);
         pairs.kept += due;

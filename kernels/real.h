@@ -1,10 +1,10 @@
-/* The arithmetic dialect that every physics header is written in. `real` is what one statement computes
- * on: a double on the host, a float or double on a GPU, a vector with one lane per contact or grain on
- * a CPU device. The includer declares the dialect, it is never guessed:
- *   OZ_HOST                        host C, real = double
- *   OZ_LANES 1|4|8|16 [OZ_DOUBLE]  OpenCL C, real = that many float or double lanes
+/* The arithmetic dialect that every physics header is written in. `real` is what one statement
+ * computes on: a double on the host, a float or double on a GPU, a vector with one lane per contact
+ * or grain on a CPU device. The includer declares the dialect, it is never guessed: OZ_HOST host C,
+ * real = double OZ_LANES 1|4|8|16 [OZ_DOUBLE]  OpenCL C, real = that many float or double lanes
  * Rules for code in this dialect: literals through REAL(), choices by (condition) ? a : b, which is
- * componentwise on vectors, conditions combined with & and |, no early return, no loop over lanes. */
+ * componentwise on vectors, conditions combined with & and |, no early return, no loop over lanes.
+ */
 #ifndef OZ_KERNELS_REAL_H
 #define OZ_KERNELS_REAL_H
 
@@ -14,32 +14,33 @@
 #if defined(OZ_HOST)
 
 #include <math.h>
-typedef double scalar; /* one number                                    */
-typedef double real;   /* one number per lane                           */
-typedef int mask;      /* what comparing reals gives                    */
-typedef double place;  /* a coordinate that stays exact far from origin */
-#define REAL(x)     (x)
-#define OZ_INLINE   static inline
-#define OZ_ANY(m)   ((m) != 0)
-#define OZ_TINY     1e-150 /* its square is still a normal double */
-#define OZ_HUGE     1e300  /* beyond this, numbers are none that a motion can have */
-#define OZ_PARALLEL 1e-24  /* sin^2 of the angle below which shafts count as parallel: rounding's limit */
-#define oz_place_to_real(p) (p)
+typedef double scalar;         /* one number                                    */
+typedef double real;           /* one number per lane                           */
+typedef int mask;              /* what comparing reals gives                    */
+typedef double fixed_position; /* a coordinate that stays exact far from origin */
+#define REAL(x)   (x)
+#define OZ_INLINE static inline
+#define OZ_ANY(m) ((m) != 0)
+#define OZ_TINY   1e-150 /* its square is still a normal double */
+#define OZ_HUGE   1e300  /* beyond this, numbers are none that a motion can have */
+#define OZ_PARALLEL                                                                                \
+    1e-24 /* sin^2 of the angle below which shafts count as parallel: rounding's limit */
+#define oz_fixed_position_to_real(p) (p)
 
 #elif defined(OZ_LANES)
 
 #if defined(OZ_DOUBLE)
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double scalar;
-#define OZ_TINY     1e-150
-#define OZ_HUGE     1e300
-#define OZ_PARALLEL 1e-24
+#define OZ_TINY      1e-150
+#define OZ_HUGE      1e300
+#define OZ_PARALLEL  1e-24
 #define OZ_REAL_NAME double
 #else
 typedef float scalar;
-#define OZ_TINY     1e-18f
-#define OZ_HUGE     1e38f
-#define OZ_PARALLEL 1e-10f
+#define OZ_TINY      1e-18f
+#define OZ_HUGE      1e38f
+#define OZ_PARALLEL  1e-10f
 #define OZ_REAL_NAME float
 #endif
 
@@ -48,28 +49,28 @@ typedef scalar real;
 typedef int mask;
 #define OZ_ANY(m) ((m) != 0)
 #if defined(OZ_DOUBLE)
-typedef double place;
-#define oz_place_to_real(p) (p)
+typedef double fixed_position;
+#define oz_fixed_position_to_real(p) (p)
 #else
-typedef int place;
-#define oz_place_to_real(p)   convert_float(p)
-#define oz_place_from_real(r) convert_int(r)
-#define oz_place_bits(p)      as_float(p)
-#define oz_place_of_bits(r)   as_int(r)
+typedef int fixed_position;
+#define oz_fixed_position_to_real(p)   convert_float(p)
+#define oz_fixed_position_from_real(r) convert_int(r)
+#define oz_fixed_position_bits(p)      as_float(p)
+#define oz_fixed_position_of_bits(r)   as_int(r)
 #endif
 #else
 typedef OZ_PASTE(OZ_REAL_NAME, OZ_LANES) real;
 #if defined(OZ_DOUBLE)
 typedef OZ_PASTE(long, OZ_LANES) mask;
-typedef real place;
-#define oz_place_to_real(p) (p)
+typedef real fixed_position;
+#define oz_fixed_position_to_real(p) (p)
 #else
 typedef OZ_PASTE(int, OZ_LANES) mask;
-typedef OZ_PASTE(int, OZ_LANES) place;
-#define oz_place_to_real(p)   OZ_PASTE(convert_float, OZ_LANES)(p)
-#define oz_place_from_real(r) OZ_PASTE(convert_int, OZ_LANES)(r)
-#define oz_place_bits(p)      OZ_PASTE(as_float, OZ_LANES)(p)
-#define oz_place_of_bits(r)   OZ_PASTE(as_int, OZ_LANES)(r)
+typedef OZ_PASTE(int, OZ_LANES) fixed_position;
+#define oz_fixed_position_to_real(p)   OZ_PASTE(convert_float, OZ_LANES)(p)
+#define oz_fixed_position_from_real(r) OZ_PASTE(convert_int, OZ_LANES)(r)
+#define oz_fixed_position_bits(p)      OZ_PASTE(as_float, OZ_LANES)(p)
+#define oz_fixed_position_of_bits(r)   OZ_PASTE(as_int, OZ_LANES)(r)
 #endif
 #define OZ_ANY(m) any(m)
 #endif
@@ -78,8 +79,8 @@ typedef OZ_PASTE(int, OZ_LANES) place;
 #define OZ_INLINE static inline __attribute__((always_inline))
 
 #if defined(OZ_DOUBLE)
-#define oz_place_bits(p)    (p)
-#define oz_place_of_bits(r) (r)
+#define oz_fixed_position_bits(p)    (p)
+#define oz_fixed_position_of_bits(r) (r)
 #endif
 
 #else
@@ -112,8 +113,9 @@ OZ_INLINE real oz_magnitude(real a)
     return oz_larger(a, -a);
 }
 
-/* 1/x and 1/sqrt(x). Every force waits for several of these one after another, so where a device has a fast
- * first guess (14 bits) and a Newton step, right to 2 units in the last place, that is taken. */
+/* 1/x and 1/sqrt(x). Every force waits for several of these one after another, so where a device
+ * has a fast first guess (14 bits) and a Newton step, right to 2 units in the last place, that is
+ * taken. */
 #if OZ_FAST_INVERSE
 OZ_INLINE real oz_inverse(real x)
 {

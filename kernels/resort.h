@@ -1,6 +1,6 @@
-/* Putting grains into the order of the grid's cells, so that neighbours in space are neighbours in memory: large
- * scenes spend most of their time waiting for memory otherwise. Out to the spare array in the new order, then
- * back. OpenCL C only. */
+/* Putting grains into the order of the grid's cells, so that neighbours in space are neighbours in
+ * memory: large scenes spend most of their time waiting for memory otherwise. Out to the spare
+ * array in the new order, then back. OpenCL C only. */
 #ifndef OZ_KERNELS_RESORT_H
 #define OZ_KERNELS_RESORT_H
 
@@ -9,7 +9,8 @@
 /* Words of a slot's springs at walls. */
 #define OZ_RESORT_SPRINGS (OZ_HISTORY ? 3 * OZ_WALL_ENDS : 0)
 
-OZ_INLINE void oz_resort_out_words(global scalar *to, global const scalar *from, int slot, int words)
+OZ_INLINE void oz_resort_out_words(global scalar *to, global const scalar *from, int slot,
+                                   int words)
 {
     for (int k = 0; k < words; k++) {
         to[k] = from[oz_lanes_at(slot, words, k)];
@@ -43,7 +44,8 @@ OZ_INLINE void oz_resort_out(OzWork *w, int region)
 OZ_INLINE void oz_resort_records(OzWork *w, int region)
 {
     real dt = REAL(w->parameters->dt);
-    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region);
+         block++) {
         OzBody body = oz_grains_load(w, block);
         OzShape shape = oz_grains_shape(w, block);
         oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
@@ -70,7 +72,7 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
     }
     for (int k = oz_work_block_begin(w, region) * OZ_WALL_ENDS;
          k < oz_work_block_end(w, region) * OZ_WALL_ENDS; k++) {
-        w->wall_picked[k] = -1; /* any may have a spring */
+        w->wall_active[k] = -1; /* any may have a spring */
     }
     oz_resort_records(w, region);
 }

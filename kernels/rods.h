@@ -1,6 +1,7 @@
-/* The rods model: contacts between two spherocylinders, and between a spherocylinder's end and a wall
- * (Pournin et al. 2005, sec. 3). Switches: OZ_ROUND 1: all grains are spheres; OZ_LINE 1: nearly parallel
- * shafts touch as contact_line.h says, 0: at their closest points; those of grain.h. */
+/* The rods model: contacts between two spherocylinders, and between a spherocylinder's end and a
+ * wall (Pournin et al. 2005, sec. 3). Switches: OZ_ROUND 1: all grains are spheres; OZ_LINE 1:
+ * nearly parallel shafts touch as contact_line.h says, 0: at their closest points; those of
+ * grain.h. */
 #ifndef OZ_KERNELS_RODS_H
 #define OZ_KERNELS_RODS_H
 
@@ -16,9 +17,10 @@ typedef struct OzPairForce {
     mask crossed;              /* the shafts meet: no normal exists, z was taken */
     OzContact contact;         /* for the ledger                  */
     OzContactForce parts;
-    OzVec3 arm_a, arm_b;       /* m, from each centre to where the force acts */
-    OzVec3 couple, turning;    /* with OZ_LINE, for the ledger: N m on b, of dashpots that act elsewhere than
-                                  at arm_b (exact with forces in the middle); rad/s, of b relative to a */
+    OzVec3 arm_a, arm_b; /* m, from each centre to where the force acts */
+    OzVec3 couple,
+        turning; /* with OZ_LINE, for the ledger: N m on b, of dashpots that act elsewhere than
+                    at arm_b (exact with forces in the middle); rad/s, of b relative to a */
 } OzPairForce;
 
 /* The closest points of two grains' shafts; apart = x_a - x_b. */
@@ -27,9 +29,10 @@ OZ_INLINE OzClosest oz_rods_closest(OzVec3 apart, OzVec3 half_shaft_a, OzVec3 ha
     return OZ_ROUND ? oz_closest_spheres() : oz_closest(apart, half_shaft_a, half_shaft_b);
 }
 
-/* Replaces the contact at the closest points by the mean of the pair's points, and adds what they do. */
-OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants law,
-                            OzVec3 *history, scalar dt, scalar share)
+/* Replaces the contact at the closest points by the mean of the pair's points, and adds what they
+ * do. */
+OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apart,
+                            OzLawConstants law, OzVec3 *history, scalar dt, scalar share)
 {
     OzContact *c = &pair->contact;
     OzLine sum = oz_line_sum(a, b, apart, law, *c, pair->arm_a, pair->arm_b);
@@ -65,9 +68,10 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
     pair->turning = oz_minus(b.rate, a.rate);
 }
 
-/* What a and b do to each other, whose closest points are at `at`; their places are not looked at. */
-OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at, OzLawConstants law,
-                                    OzVec3 *history, scalar dt, scalar share)
+/* What a and b do to each other, whose closest points are at `at`; their places are not looked at.
+ */
+OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at,
+                                    OzLawConstants law, OzVec3 *history, scalar dt, scalar share)
 {
     OzPairForce pair;
     pair.contact = oz_grain_contact(a, b, apart, at, &pair.arm_a, &pair.arm_b, &pair.crossed);
@@ -88,13 +92,13 @@ OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzCloses
 OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, scalar length_unit, OzLawConstants law,
                                    OzVec3 *history, scalar dt, scalar share)
 {
-    OzVec3 apart = oz_place_minus(a.place, b.place, length_unit);
+    OzVec3 apart = oz_fixed_position_minus(a.position, b.position, length_unit);
     OzClosest at = oz_rods_closest(apart, a.half_shaft, b.half_shaft);
     return oz_rods_touch(a, b, apart, at, law, history, dt, share);
 }
 
-/* One end of a grain at a wall: end is the cap's centre from the grain's centre (a half-shaft, or minus
- * it), wall where that centre stands, wall_velocity the wall's own. */
+/* One end of a grain at a wall: end is the cap's centre from the grain's centre (a half-shaft, or
+ * minus it), wall where that centre stands, wall_velocity the wall's own. */
 OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance wall,
                                       OzVec3 wall_velocity, mask present, OzLawConstants law,
                                       OzVec3 *history, scalar dt, scalar share, OzContact *contact,
@@ -115,8 +119,8 @@ OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance 
     contact->radius = grain.radius;
     contact->lightness = REAL(1.0);
     if (OZ_AT_CONTACT) {
-        real yield = oz_grain_yield(grain, end, wall.normal);
-        contact->lightness = REAL(1.0) / sqrt(REAL(1.0) + contact->mass * yield);
+        real inverse_mass_turn = oz_grain_inverse_mass_turn(grain, end, wall.normal);
+        contact->lightness = REAL(1.0) / sqrt(REAL(1.0) + contact->mass * inverse_mass_turn);
     }
     return oz_contact_force(*contact, law, history, dt, share);
 }

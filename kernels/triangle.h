@@ -38,11 +38,11 @@ typedef struct OzOverlap {
 } OzOverlap;
 
 /* One triangle's edges cut by the other: edge k runs from corner k to the next. */
-typedef struct OzTrianglePieces {
+typedef struct OzTriangleElements {
     OzVec2 from[3], to[3]; /* the part of each edge inside the other; alike when there is none  */
     real crossings[3];     /* of each edge with the other's outline: 0, 1, 2                    */
     real doubles;          /* edges with two of them                                            */
-} OzTrianglePieces;
+} OzTriangleElements;
 
 /* Twice the area over the edge k of t and point p: > 0 inside. */
 OZ_INLINE real oz_triangle_side(const OzTriangle *t, int k, OzVec2 p)
@@ -81,7 +81,7 @@ OZ_INLINE mask oz_triangle_near(const OzTriangle *a, const OzTriangle *b, real m
 /* Edge k of t, clipped to what is inside the other. mine: the corners of t against the other's
  * edges; theirs: the other's corners against the edges of t. Adds crossing points to *sum. */
 OZ_INLINE void oz_triangle_clip(const OzTriangle *t, int k, real mine[3][3], real theirs[3][3],
-                                OzTrianglePieces *pieces, OzVec2 *sum)
+                                OzTriangleElements *elements, OzVec2 *sum)
 {
     OzVec2 start = t->corner[k], along = oz_minus2(t->corner[(k + 1) % 3], start);
     real low = REAL(0.0), high = REAL(1.0), crossings = REAL(0.0);
@@ -92,26 +92,27 @@ OZ_INLINE void oz_triangle_clip(const OzTriangle *t, int k, real mine[3][3], rea
         low = (changes & in1) ? oz_larger(low, at) : low;
         high = (changes & in0) ? oz_smaller(high, at) : high;
         high = (in0 | in1) ? high : REAL(-1.0);
-        mask meets = changes & ((theirs[k][j] >= REAL(0.0)) ^ (theirs[k][(j + 1) % 3] >= REAL(0.0)));
+        mask meets =
+            changes & ((theirs[k][j] >= REAL(0.0)) ^ (theirs[k][(j + 1) % 3] >= REAL(0.0)));
         crossings += meets ? REAL(1.0) : REAL(0.0);
         *sum = oz_choose2(meets, oz_add2(*sum, oz_along2(start, at, along)), *sum);
     }
     mask inside = high > low;
-    pieces->from[k] = oz_along2(start, inside ? low : REAL(0.0), along);
-    pieces->to[k] = oz_along2(start, inside ? high : REAL(0.0), along);
-    pieces->crossings[k] = crossings;
-    pieces->doubles += crossings > REAL(1.5) ? REAL(1.0) : REAL(0.0);
+    elements->from[k] = oz_along2(start, inside ? low : REAL(0.0), along);
+    elements->to[k] = oz_along2(start, inside ? high : REAL(0.0), along);
+    elements->crossings[k] = crossings;
+    elements->doubles += crossings > REAL(1.5) ? REAL(1.0) : REAL(0.0);
 }
 
 /* Twice the area and six times the first moment, about the origin, of what lies between the origin
- * and the pieces; *along is the pieces' sum. */
-OZ_INLINE real oz_triangle_sweep(const OzTrianglePieces *pieces, OzVec2 origin, OzVec2 *moment,
+ * and the elements; *along is the elements' sum. */
+OZ_INLINE real oz_triangle_sweep(const OzTriangleElements *elements, OzVec2 origin, OzVec2 *moment,
                                  OzVec2 *along)
 {
     real area = REAL(0.0);
     *moment = *along = oz_vec2(REAL(0.0), REAL(0.0));
     for (int k = 0; k < 3; k++) {
-        OzVec2 from = oz_minus2(pieces->from[k], origin), to = oz_minus2(pieces->to[k], origin);
+        OzVec2 from = oz_minus2(elements->from[k], origin), to = oz_minus2(elements->to[k], origin);
         real part = oz_cross2(from, to);
         area += part;
         *moment = oz_along2(*moment, part, oz_add2(from, to));
@@ -136,7 +137,7 @@ OZ_INLINE real oz_triangle_way_out(real theirs[3][3], int k, real length)
 
 /* Adds the edges of t, whose push on b has this sign; taken: t's edges count at all; equal: of two
  * edges only that with the shortest way out, else each with its length. */
-OZ_INLINE void oz_triangle_share(const OzTriangle *t, const OzTrianglePieces *pieces,
+OZ_INLINE void oz_triangle_share(const OzTriangle *t, const OzTriangleElements *elements,
                                  real theirs[3][3], real sign, mask taken, mask equal,
                                  OzVec2 centroid, OzTriangleShare *share)
 {
@@ -144,17 +145,17 @@ OZ_INLINE void oz_triangle_share(const OzTriangle *t, const OzTrianglePieces *pi
     for (int k = 0; k < 3; k++) {
         real length = oz_length2(oz_minus2(t->corner[(k + 1) % 3], t->corner[k]));
         real way = oz_triangle_way_out(theirs, k, length);
-        shortest = pieces->crossings[k] > REAL(1.5) ? oz_smaller(shortest, way) : shortest;
+        shortest = elements->crossings[k] > REAL(1.5) ? oz_smaller(shortest, way) : shortest;
     }
     for (int k = 0; k < 3; k++) {
         OzVec2 edge = oz_minus2(t->corner[(k + 1) % 3], t->corner[k]);
         real length = oz_length2(edge);
         OzVec2 normal = oz_scale2(oz_right2(edge), REAL(1.0) / length);
-        OzVec2 middle = oz_scale2(oz_add2(pieces->from[k], pieces->to[k]), REAL(0.5));
+        OzVec2 middle = oz_scale2(oz_add2(elements->from[k], elements->to[k]), REAL(0.5));
         mask entry = oz_triangle_way_out(theirs, k, length) <= shortest;
-        real weight = oz_length2(oz_minus2(pieces->to[k], pieces->from[k]));
+        real weight = oz_length2(oz_minus2(elements->to[k], elements->from[k]));
         weight = equal ? (entry ? REAL(1.0) : REAL(0.0)) : weight;
-        weight = (taken & (pieces->crossings[k] > REAL(1.5))) ? weight : REAL(0.0);
+        weight = (taken & (elements->crossings[k] > REAL(1.5))) ? weight : REAL(0.0);
         share->push = oz_along2(share->push, sign * weight, normal);
         share->moment += sign * weight * oz_cross2(middle, normal);
         share->depth += weight * oz_dot2(normal, oz_minus2(t->corner[k], centroid));
@@ -170,13 +171,12 @@ OZ_INLINE void oz_triangle_two(OzOverlap *o, OzVec2 along_a, OzVec2 middle, OzVe
     OzVec2 normal = oz_scale2(oz_right2(along_a), REAL(1.0) / length);
     o->push = oz_scale2(normal, o->area);
     o->moment = oz_cross2(middle, o->push);
-    o->energy =
-        oz_magnitude(oz_dot2(normal, moment_a)) + oz_magnitude(oz_dot2(normal, moment_b));
+    o->energy = oz_magnitude(oz_dot2(normal, moment_a)) + oz_magnitude(oz_dot2(normal, moment_b));
 }
 
 /* Four crossings and more, or two edges with two. */
 OZ_INLINE void oz_triangle_many(OzOverlap *o, mask many, const OzTriangle *a, const OzTriangle *b,
-                                const OzTrianglePieces *of_a, const OzTrianglePieces *of_b,
+                                const OzTriangleElements *of_a, const OzTriangleElements *of_b,
                                 real sides_a[3][3], real sides_b[3][3], OzVec2 centroid)
 {
     OzTriangleShare share = {{REAL(0.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0)};
@@ -211,7 +211,7 @@ OZ_INLINE real oz_triangle_area(const OzTriangle *t)
 OZ_INLINE OzOverlap oz_triangle_overlap(const OzTriangle *a, const OzTriangle *b)
 {
     OzOverlap o;
-    OzTrianglePieces of_a, of_b;
+    OzTriangleElements of_a, of_b;
     OzVec2 middle = {REAL(0.0), REAL(0.0)}, unused = middle, moment_a, moment_b, along_a, along_b;
     real sides_a[3][3], sides_b[3][3];
     of_a.doubles = of_b.doubles = REAL(0.0);

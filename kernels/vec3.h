@@ -1,7 +1,7 @@
-/* Vectors of three lanes-wide numbers, quaternions, and places: coordinates whose differences are exact.
- * In single precision a place is a 32-bit integer count of length_unit with a carried remainder, so that
- * overlaps keep their digits far from the origin and slow grains do not stall at small steps; in double
- * it is the coordinate itself. A quaternion carries a remainder too. */
+/* Vectors of three lanes-wide numbers, quaternions, and places: coordinates whose differences are
+ * exact. In single precision a place is a 32-bit integer count of length_unit with a carried
+ * remainder, so that overlaps keep their digits far from the origin and slow grains do not stall at
+ * small steps; in double it is the coordinate itself. A quaternion carries a remainder too. */
 #ifndef OZ_KERNELS_VEC3_H
 #define OZ_KERNELS_VEC3_H
 
@@ -11,9 +11,9 @@ typedef struct OzVec3 {
     real x, y, z;
 } OzVec3;
 
-typedef struct OzPlace {
-    place x, y, z;
-} OzPlace;
+typedef struct OzFixedPosition {
+    fixed_position x, y, z;
+} OzFixedPosition;
 
 typedef struct OzQuaternion { /* turns body z into the shaft's axis */
     real x, y, z, w;
@@ -69,25 +69,26 @@ OZ_INLINE OzVec3 oz_where(mask condition, OzVec3 a)
 }
 
 /* a - b in metres. */
-OZ_INLINE OzVec3 oz_place_minus(OzPlace a, OzPlace b, scalar length_unit)
+OZ_INLINE OzVec3 oz_fixed_position_minus(OzFixedPosition a, OzFixedPosition b, scalar length_unit)
 {
-    return oz_vec3(oz_place_to_real(a.x - b.x) * length_unit,
-                   oz_place_to_real(a.y - b.y) * length_unit,
-                   oz_place_to_real(a.z - b.z) * length_unit);
+    return oz_vec3(oz_fixed_position_to_real(a.x - b.x) * length_unit,
+                   oz_fixed_position_to_real(a.y - b.y) * length_unit,
+                   oz_fixed_position_to_real(a.z - b.z) * length_unit);
 }
 
 #if defined(OZ_HOST) || defined(OZ_DOUBLE)
 
-OZ_INLINE void oz_place_move(OzPlace *place_, OzVec3 *rest, OzVec3 shift, scalar inverse_unit)
+OZ_INLINE void oz_fixed_position_move(OzFixedPosition *position_, OzVec3 *rest, OzVec3 shift,
+                                      scalar inverse_unit)
 {
     (void)rest;
     (void)inverse_unit;
-    place_->x += shift.x;
-    place_->y += shift.y;
-    place_->z += shift.z;
+    position_->x += shift.x;
+    position_->y += shift.y;
+    position_->z += shift.z;
 }
 
-OZ_INLINE mask oz_place_is_number(OzPlace p)
+OZ_INLINE mask oz_fixed_position_is_number(OzFixedPosition p)
 {
     return (p.x == p.x) & (p.y == p.y) & (p.z == p.z);
 }
@@ -95,26 +96,27 @@ OZ_INLINE mask oz_place_is_number(OzPlace p)
 #else
 
 /* Integers always are. */
-OZ_INLINE mask oz_place_is_number(OzPlace p)
+OZ_INLINE mask oz_fixed_position_is_number(OzFixedPosition p)
 {
     (void)p;
     return (mask)(-1);
 }
 
-OZ_INLINE void oz_place_move_one(place *count, real *rest, real shift)
+OZ_INLINE void oz_fixed_position_move_one(fixed_position *count, real *rest, real shift)
 {
     real sum = *rest + shift;
     real whole = rint(sum);
-    *count += oz_place_from_real(whole);
+    *count += oz_fixed_position_from_real(whole);
     *rest = sum - whole;
 }
 
 /* Moves by shift (m); what is less than one unit stays in rest (units). */
-OZ_INLINE void oz_place_move(OzPlace *place_, OzVec3 *rest, OzVec3 shift, scalar inverse_unit)
+OZ_INLINE void oz_fixed_position_move(OzFixedPosition *position_, OzVec3 *rest, OzVec3 shift,
+                                      scalar inverse_unit)
 {
-    oz_place_move_one(&place_->x, &rest->x, shift.x * inverse_unit);
-    oz_place_move_one(&place_->y, &rest->y, shift.y * inverse_unit);
-    oz_place_move_one(&place_->z, &rest->z, shift.z * inverse_unit);
+    oz_fixed_position_move_one(&position_->x, &rest->x, shift.x * inverse_unit);
+    oz_fixed_position_move_one(&position_->y, &rest->y, shift.y * inverse_unit);
+    oz_fixed_position_move_one(&position_->z, &rest->z, shift.z * inverse_unit);
 }
 
 #endif
@@ -136,18 +138,20 @@ OZ_INLINE OzQuaternion oz_quaternion_times(OzQuaternion a, OzQuaternion b)
     return q;
 }
 
-/* What the turn about `angle` (a rotation vector, rad) adds to the turn that changes nothing: series of
- * sin(h)/h and cos(h) - 1 in h^2, h half the angle, exact to 1e-8 up to an angle of 1 rad, more than any
- * stable step turns. Its product with q is what the turn adds to q, to full relative precision. */
+/* What the turn about `angle` (a rotation vector, rad) adds to the turn that changes nothing:
+ * series of sin(h)/h and cos(h) - 1 in h^2, h half the angle, exact to 1e-8 up to an angle of 1
+ * rad, more than any stable step turns. Its product with q is what the turn adds to q, to full
+ * relative precision. */
 OZ_INLINE OzQuaternion oz_quaternion_turn(OzVec3 angle)
 {
     real h2 = REAL(0.25) * oz_dot(angle, angle);
     real half_sine =
-        REAL(0.5) -
-        h2 * (REAL(1.0 / 12) - h2 * (REAL(1.0 / 240) - h2 * (REAL(1.0 / 10080) - h2 * REAL(1.0 / 725760))));
+        REAL(0.5) - h2 * (REAL(1.0 / 12) - h2 * (REAL(1.0 / 240) - h2 * (REAL(1.0 / 10080) -
+                                                                         h2 * REAL(1.0 / 725760))));
     real cosine_less_one =
         -h2 * (REAL(0.5) - h2 * (REAL(1.0 / 24) - h2 * (REAL(1.0 / 720) - h2 * REAL(1.0 / 40320))));
-    OzQuaternion q = {angle.x * half_sine, angle.y * half_sine, angle.z * half_sine, cosine_less_one};
+    OzQuaternion q = {angle.x * half_sine, angle.y * half_sine, angle.z * half_sine,
+                      cosine_less_one};
     return q;
 }
 

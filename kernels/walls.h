@@ -1,26 +1,27 @@
-/* THE list of walls. Scene choices, the kernels' and the host's distances, the room for grains and pictures are made of
- * it: a row whose functions do not exist does not compile. Names alone: host/scene reads it too. */
+/* THE list of walls. Scene choices, the kernels' and the host's distances, the room for grains and
+ * pictures are made of it: a row whose functions do not exist does not compile. Names alone:
+ * host/scene reads it too. */
 #ifndef OZ_KERNELS_WALLS_H
 #define OZ_KERNELS_WALLS_H
 
 /* X(NAME, name, choice, fine), a row each, of rods' walls:
- *   fine   1: kernels/wall_<name>.h has oz_wall_<name>_fine, too: the overlap of light contacts with all digits that
- *          places carry; 0: precision: float refuses scenes that need it
- * kernels/wall_<name>.h has oz_wall_<name>(from, wall) and is included by wall.h; host/scene/wall_shape.c fills the
- * numbers that it reads (shape_<name>); host/model/column.c bounds the room for grains placed at random
- * (bound_by_<name>). The keys of a wall name it under `.kinds` in host/scene/rows.c. Pictures show kinds without a
- * drawing of their own (host/draw/container.c) by level lines, found by distance. */
+ *   fine   1: kernels/wall_<name>.h has oz_wall_<name>_fine, too: the overlap of light contacts
+ * with all digits that places carry; 0: precision: float refuses scenes that need it
+ * kernels/wall_<name>.h has oz_wall_<name>(from, wall) and is included by wall.h;
+ * host/scene/wall_shape.c fills the numbers that it reads (shape_<name>); host/model/fill_region.c
+ * bounds the room for grains placed at random (bound_by_<name>). The keys of a wall name it under
+ * `.kinds` in host/scene/rows.c. Pictures show kinds without a drawing of their own
+ * (host/draw/container.c) by level lines, found by distance. */
 #define OZ_WALLS(X)                                                                                \
     X(PLANE, plane, "plane", 1)                                                                    \
     X(CYLINDER, cylinder, "cylinder", 1)
 
-/* X(NAME, name, choice, rank), of trigrains: a smooth straight wall from one point to another; a toothed floor of a
- * width about a point; two slopes with an opening between them, and upright sides above; the inside of a toothed
- * circle; bottom and two sides.
- *   rank   0: encloses nothing; else the scene's first wall of the highest rank is the one that grains placed at random
- *          lie in
- * host/model/piece_walls.c cuts each into strips of triangles (add_<name>), host/model/basin.c says whether a circle
- * lies inside (inside_<name>). */
+/* X(NAME, name, choice, rank), of trigrains: a smooth straight wall from one point to another; a
+ * toothed floor of a width about a point; two slopes with an opening between them, and upright
+ * sides above; the inside of a toothed circle; bottom and two sides. rank   0: encloses nothing;
+ * else the scene's first wall of the highest rank is the one that grains placed at random lie in
+ * host/model/element_walls.c cuts each into strips of triangles (add_<name>),
+ * host/model/fill_region_flat.c says whether a circle lies inside (inside_<name>). */
 #define OZ_TRIGRAINS_WALLS(X)                                                                      \
     X(SEGMENT, segment, "segment", 0)                                                              \
     X(FLOOR, floor, "floor", 1)                                                                    \

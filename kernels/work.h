@@ -17,9 +17,9 @@ typedef scalar scalar_kind;
 typedef real real_kind;
 typedef int integer_kind;
 #if defined(OZ_DOUBLE)
-typedef double spot_kind;
+typedef double fixed_position_kind;
 #else
-typedef int spot_kind;
+typedef int fixed_position_kind;
 #endif
 #if OZ_LEDGER
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -48,12 +48,12 @@ typedef struct OzWork {
     }
 
 #if OZ_GROUP == 1 && !OZ_RESORT
-#define OZ_WORK_MEET()
+#define OZ_WORK_BARRIER()
 #define OZ_WORK_COUNT(counter) ((*(counter))++)
 #define OZ_WORK_ITEM           0
 #define OZ_WORK_STRIDE         1
 #else
-#define OZ_WORK_MEET()         barrier(CLK_GLOBAL_MEM_FENCE)
+#define OZ_WORK_BARRIER()      barrier(CLK_GLOBAL_MEM_FENCE)
 #define OZ_WORK_COUNT(counter) atomic_inc(counter)
 #define OZ_WORK_ITEM           ((int)get_local_id(0))
 #define OZ_WORK_STRIDE         ((int)get_local_size(0))
@@ -105,12 +105,12 @@ OZ_INLINE int oz_work_region_end(const OzWork *w, int region)
 OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
 {
     real a[4], b[4];
-    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_PLACE, a);
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_POSITION, a);
     oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_SHAFT, b);
     OzGrain grain;
-    grain.place.x = oz_place_of_bits(a[0]);
-    grain.place.y = oz_place_of_bits(a[1]);
-    grain.place.z = oz_place_of_bits(a[2]);
+    grain.position.x = oz_fixed_position_of_bits(a[0]);
+    grain.position.y = oz_fixed_position_of_bits(a[1]);
+    grain.position.z = oz_fixed_position_of_bits(a[2]);
     grain.half_shaft = oz_vec3(b[0], b[1], b[2]);
     grain.radius = OZ_EQUAL ? REAL(w->parameters->radius) : a[3];
     grain.mass = OZ_EQUAL ? REAL(w->parameters->mass) : b[3];
@@ -139,7 +139,7 @@ OZ_INLINE OzFineGrain oz_work_fine(const OzWork *w, const int *slots)
 {
     OzFineGrain fine;
     real counts = REAL(w->parameters->inverse_unit);
-    fine.place = oz_work_geometry(w, slots).place;
+    fine.position = oz_work_geometry(w, slots).position;
     fine.rest = oz_work_fetch3(w->state, slots, OZ_STATE, OZ_S_REST);
     fine.radius = OZ_EQUAL ? REAL(w->parameters->radius_count)
                            : oz_lanes_fetch(w->shape, slots, OZ_SHAPE, OZ_B_COUNT);

@@ -2,7 +2,7 @@
 #ifndef OZ_TESTS_BRUTE_H
 #define OZ_TESTS_BRUTE_H
 
-#include "model/crowd.h"
+#include "model/overlap_grid.h"
 
 #include <math.h>
 

@@ -5,8 +5,8 @@
 #include "rig.h"
 
 #include "base/random.h"
-#include "compute/capture.h"
-#include "compute/sim.h"
+#include "sim/read_snapshot.h"
+#include "sim/sim.h"
 
 #include <stdlib.h>
 
@@ -59,7 +59,7 @@ static inline OzSnapshot state_at(const Rig *rig, OzSim *sim, int64_t step)
     OzSnapshot now;
     must(oz_sim_advance(sim, step));
     must(oz_snapshot_create(&now, &rig->scene, &rig->grains));
-    must(oz_capture_snapshot(sim, 0, &now, true));
+    must(oz_read_snapshot_snapshot(sim, 0, &now, true));
     return now;
 }
 
@@ -79,10 +79,10 @@ static inline void throw_grains(OzGrains *grains, double speed, double rate)
     OzRandom random = oz_random_stream(7, 0);
     for (int64_t i = 0; i < grains->count; i++) {
         oz_random_direction(&random, &grains->velocity[3 * i]);
-        oz_random_direction(&random, &grains->spin[3 * i]);
+        oz_random_direction(&random, &grains->angular_velocity[3 * i]);
         for (int c = 0; c < 3; c++) {
             grains->velocity[3 * i + c] *= speed;
-            grains->spin[3 * i + c] *= rate;
+            grains->angular_velocity[3 * i + c] *= rate;
         }
     }
 }
@@ -92,7 +92,7 @@ static inline void assert_same_bits(const OzSnapshot *a, const OzSnapshot *b)
     size_t three = 3 * (size_t)a->count * sizeof(double);
     assert_memory_equal(a->position, b->position, three);
     assert_memory_equal(a->velocity, b->velocity, three);
-    assert_memory_equal(a->spin, b->spin, three);
+    assert_memory_equal(a->angular_velocity, b->angular_velocity, three);
     assert_memory_equal(a->quaternion, b->quaternion, three / 3 * 4);
     assert_memory_equal(&a->contacts, &b->contacts, sizeof a->contacts);
 }

@@ -6,7 +6,7 @@
 #include "hand_folder.h"
 
 #include "base/random.h"
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
 typedef struct Bed {
     OzWall walls[2];
@@ -58,7 +58,7 @@ static inline void fill_randomly(Bed *bed)
         for (int k = 0; k < 3; k++) {
             bed->snapshot.position[3 * i + k] = oz_random_uniform(&random, 0, 0.02);
             bed->snapshot.velocity[3 * i + k] = oz_random_uniform(&random, -1, 1);
-            bed->snapshot.spin[3 * i + k] = oz_random_uniform(&random, -100, 100);
+            bed->snapshot.angular_velocity[3 * i + k] = oz_random_uniform(&random, -100, 100);
         }
     }
 }

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "model/patch.h"
+#include "model/triangle_set.h"
 
 #include <math.h>
 
@@ -26,13 +26,13 @@ static inline void close_to(double a, double b)
 }
 
 /* Area inside the outline alone, and how far its edges, laid end to end, are from closing. */
-static inline double outline_area(const OzPatch *patch, double gap[2])
+static inline double outline_area(const OzTriangleSet *triangle_set, double gap[2])
 {
     double area = 0, c[6];
     gap[0] = gap[1] = 0;
-    for (int k = 0; k < patch->outline_count; k++) {
-        oz_patch_corners(patch, patch->outline[2 * k], c);
-        int side = patch->outline[2 * k + 1];
+    for (int k = 0; k < triangle_set->outline_count; k++) {
+        oz_triangle_set_corners(triangle_set, triangle_set->outline[2 * k], c);
+        int side = triangle_set->outline[2 * k + 1];
         const double *a = c + 2 * side, *b = c + 2 * ((side + 1) % 3);
         area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
         gap[0] += b[0] - a[0];

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "compute/reference.h"
-#include "model/place.h"
+#include "model/insert.h"
+#include "sim/reference.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ static inline void rig_open(Rig *rig, const char *format, ...)
     va_end(arguments);
     memset(rig, 0, sizeof *rig);
     must(oz_scene_parse(&rig->scene, "rig.yaml", text, NULL, 0));
-    must(oz_place_grains(&rig->grains, &rig->scene));
+    must(oz_insert_grains(&rig->grains, &rig->scene));
 }
 
 /* Starts from the grains' state, or starts again. */
@@ -86,7 +86,7 @@ static inline void cross3(const double *a, const double *b, double *to)
 /* Angular momentum of grain i about its own centre. */
 static inline void own_momentum(const OzSnapshot *s, int64_t i, double momentum[3])
 {
-    const double *u = &s->axis[3 * i], *w = &s->spin[3 * i];
+    const double *u = &s->axis[3 * i], *w = &s->angular_velocity[3 * i];
     double across = s->grains->inertia[i], about = s->grains->inertia_axis[i];
     for (int c = 0; c < 3; c++) {
         momentum[c] = across * w[c] + (about - across) * dot3(w, u) * u[c];
@@ -100,7 +100,7 @@ static inline double mechanical_energy(const OzSnapshot *s)
     for (int64_t i = 0; i < s->count; i++) {
         const double *v = &s->velocity[3 * i], m = s->grains->mass[i];
         own_momentum(s, i, momentum);
-        energy += 0.5 * m * dot3(v, v) + 0.5 * dot3(momentum, &s->spin[3 * i]) -
+        energy += 0.5 * m * dot3(v, v) + 0.5 * dot3(momentum, &s->angular_velocity[3 * i]) -
                   m * dot3(s->scene->gravity, &s->position[3 * i]);
     }
     return energy;

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.." || exit 1
 # Test programs that open a device, run whole scenes or say that they need one, as a pattern for ctest.
 device_tests() {
     pattern='^none$'
-    for file in $(grep -lE '#include "(compute/device|compute/sim|run)\.h|ORZO_NEEDS_DEVICE' tests/test_*.c); do
+    for file in $(grep -lE '#include "(compute/device|sim/sim|run/run)\.h|ORZO_NEEDS_DEVICE' tests/test_*.c); do
         pattern="$pattern|^$(basename "$file" .c)\$"
     done
     printf '%s' "$pattern"

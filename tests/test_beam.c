@@ -1,12 +1,12 @@
 /* Beams: free vibration of two triangles against closed forms, energy as the force's potential, and
  * what conserves momentum and angular momentum. */
-#include "piece_rig.h"
+#include "element_rig.h"
 
 static const double pi = 3.14159265358979323846;
 static const double rest[2] = {0, 0};
 
 /* Two triangles alike, mirrored about the y axis, and a beam along x. No gravity. */
-static void open_pair(PieceRig *rig, const char *shear, double step)
+static void open_pair(ElementRig *rig, const char *shear, double step)
 {
     const double corners[2][6] = {{-2e-3, 0, -0.4e-3, -1e-3, -0.4e-3, 1e-3},
                                   {2e-3, 0, 0.4e-3, -1e-3, 0.4e-3, 1e-3}};
@@ -14,13 +14,13 @@ static void open_pair(PieceRig *rig, const char *shear, double step)
              "gravity: [0, 0]\nintegrator: gear4\nobserve: {ledger: true}\n"
              "time: {step: %.17g, duration: 1}\nbeams: {damping_shear: %s}",
              step, shear);
-    OzPieces *pieces = rig_grains(rig, 1, 2, 1);
+    OzElements *elements = rig_grains(rig, 1, 2, 1);
     for (int i = 0; i < 2; i++) {
-        must(oz_pieces_set_triangle(pieces, i, corners[i], 4));
+        must(oz_elements_set_triangle(elements, i, corners[i], 4));
     }
-    pieces->beam_a[0] = 0;
-    pieces->beam_b[0] = 1;
-    oz_pieces_rest_beam(pieces, 0);
+    elements->beam_a[0] = 0;
+    elements->beam_b[0] = 1;
+    oz_elements_rest_beam(elements, 0);
 }
 
 /* Elongation, and the bending angles of both ends, now. */
@@ -28,34 +28,34 @@ typedef struct Bend {
     double elongation, a, b;
 } Bend;
 
-static Bend bend_of(const PieceRig *rig)
+static Bend bend_of(const ElementRig *rig)
 {
-    const OzPieces *pieces = rig->grains.pieces;
-    const double *x = rig->now.piece_position, *angle = rig->now.piece_angle;
+    const OzElements *elements = rig->grains.elements;
+    const double *x = rig->now.element_position, *angle = rig->now.element_angle;
     double direction = atan2(x[3] - x[1], x[2] - x[0]);
-    return (Bend){hypot(x[2] - x[0], x[3] - x[1]) - pieces->beam_length[0],
-                  angle[0] - direction - pieces->beam_rest_a[0],
-                  angle[1] - direction - pieces->beam_rest_b[0]};
+    return (Bend){hypot(x[2] - x[0], x[3] - x[1]) - elements->beam_length[0],
+                  angle[0] - direction - elements->beam_rest_a[0],
+                  angle[1] - direction - elements->beam_rest_b[0]};
 }
 
 typedef enum Mode { AXIAL, SYMMETRIC, ANTISYMMETRIC } Mode;
 
 /* Rates of one mode alone, small enough for what is not linear to stay below 1e-8. */
-static void push_mode(OzPieces *pieces, Mode mode)
+static void push_mode(OzElements *elements, Mode mode)
 {
     const double small = 1e-2; /* rad/s: angles of some 1e-6 */
-    double length = pieces->beam_length[0];
+    double length = elements->beam_length[0];
     if (mode == AXIAL) {
-        pieces->velocity[0] = -1e-5;
-        pieces->velocity[2] = 1e-5;
+        elements->velocity[0] = -1e-5;
+        elements->velocity[2] = 1e-5;
         return;
     }
-    pieces->spin[0] = small;
-    pieces->spin[1] = mode == SYMMETRIC ? -small : small;
+    elements->angular_velocity[0] = small;
+    elements->angular_velocity[1] = mode == SYMMETRIC ? -small : small;
     if (mode == ANTISYMMETRIC) {
-        double turning = -4 * small * pieces->inertia[0] / (pieces->mass[0] * length * length);
-        pieces->velocity[1] = -0.5 * length * turning;
-        pieces->velocity[3] = 0.5 * length * turning;
+        double turning = -4 * small * elements->inertia[0] / (elements->mass[0] * length * length);
+        elements->velocity[1] = -0.5 * length * turning;
+        elements->velocity[3] = 0.5 * length * turning;
     }
 }
 
@@ -70,10 +70,10 @@ static void solve_samples(const double y[4], double h, double *frequency, double
 }
 
 /* Undamped angular frequency and decay rate expected (physics: two triangles m, J and a beam). */
-static void expect_mode(const OzScene *scene, const OzPieces *pieces, Mode mode, double *omega0,
+static void expect_mode(const OzScene *scene, const OzElements *elements, Mode mode, double *omega0,
                         double *decay)
 {
-    double m = pieces->mass[0], inertia = pieces->inertia[0], length = pieces->beam_length[0];
+    double m = elements->mass[0], inertia = elements->inertia[0], length = elements->beam_length[0];
     double bending = scene->beams.stiffness * scene->beams.second_moment;
     double damping = scene->beams.damping * scene->beams.second_moment;
     double swing = 1 + 4 * inertia / (m * length * length);
@@ -96,11 +96,11 @@ static void expect_mode(const OzScene *scene, const OzPieces *pieces, Mode mode,
 /* Gear's error at 1000 steps a period is below 1e-9. */
 static void check_mode(const char *shear, Mode mode)
 {
-    PieceRig rig;
+    ElementRig rig;
     double omega0, decay, found, found_decay, y[4];
     open_pair(&rig, shear, 1e-7);
-    push_mode(rig.grains.pieces, mode);
-    expect_mode(&rig.scene, rig.grains.pieces, mode, &omega0, &decay);
+    push_mode(rig.grains.elements, mode);
+    expect_mode(&rig.scene, rig.grains.elements, mode, &omega0, &decay);
     double frequency = sqrt(omega0 * omega0 - decay * decay);
     int64_t between = (int64_t)(2 * pi / frequency / 8 / rig.scene.step);
     rig_start(&rig);
@@ -133,7 +133,7 @@ static void test_modes(void **state)
 /* A grain of four triangles set into wild motion, bent by a tenth of a radian. */
 static void check_momentum(const char *shear, double angular_change)
 {
-    PieceRig rig;
+    ElementRig rig;
     double before[3], after[3];
     rig_read(&rig,
              "gravity: [0, 0]\nintegrator: rk4\nobserve: {ledger: true}\n"
@@ -142,16 +142,16 @@ static void check_momentum(const char *shear, double angular_change)
     rig_grains(&rig, 1, 4, 4);
     rig_square(&rig, 0, 2e-3, rest, 0.3, rest, 4);
     for (int i = 0; i < 4; i++) {
-        rig.grains.pieces->velocity[2 * i] = 0.3 * cos(3 * i);
-        rig.grains.pieces->velocity[2 * i + 1] = 0.5 * sin(2 * i + 1);
-        rig.grains.pieces->spin[i] = 600 * cos(5 * i + 1);
+        rig.grains.elements->velocity[2 * i] = 0.3 * cos(3 * i);
+        rig.grains.elements->velocity[2 * i + 1] = 0.5 * sin(2 * i + 1);
+        rig.grains.elements->angular_velocity[i] = 600 * cos(5 * i + 1);
     }
     rig_start(&rig);
     rig_momentum(&rig.now, before);
     double energy = rig_energy(&rig.now), most = 0;
     for (int64_t step = 50; step <= 2000; step += 50) {
         rig_advance(&rig, step);
-        most = fmax(most, rig.now.pieces.bend_max);
+        most = fmax(most, rig.now.elements.bend_max);
     }
     rig_momentum(&rig.now, after);
     /* 2000 additions of numbers whose largest is the momentum: 1e-13 of it is some hundred of its
@@ -165,7 +165,7 @@ static void check_momentum(const char *shear, double angular_change)
     /* rk4's error in angular momentum: 5e-13 */
     assert_true(angular_change > 0 ? change > angular_change : change < 1e-11);
     assert_true(most > 0.05);
-    OzPieceLedger l = rig.now.piece_ledger;
+    OzElementLedger l = rig.now.element_ledger;
     double lost = l.beam_axial + l.beam_bending;
     /* rk4's error, of fifth order in a step: 3e-10 */
     assert_true(fabs(rig_energy(&rig.now) + lost - energy) < 1e-9 * energy);
@@ -184,39 +184,39 @@ static void test_momentum(void **state)
 static void test_turning(void **state)
 {
     (void)state;
-    PieceRig rig;
+    ElementRig rig;
     rig_read(&rig, "gravity: [0, 0]\nintegrator: rk4\ntime: {step: 1e-6, duration: 1}");
     rig_grains(&rig, 1, 4, 4);
     rig_square(&rig, 0, 2e-3, rest, 0, rest, 4);
-    OzPieces *pieces = rig.grains.pieces;
+    OzElements *elements = rig.grains.elements;
     for (int i = 0; i < 4; i++) {
-        double x = pieces->position[2 * i], y = pieces->position[2 * i + 1], turn = 31;
-        pieces->position[2 * i] = cos(turn) * x - sin(turn) * y;
-        pieces->position[2 * i + 1] = sin(turn) * x + cos(turn) * y;
-        pieces->angle[i] += turn;
+        double x = elements->position[2 * i], y = elements->position[2 * i + 1], turn = 31;
+        elements->position[2 * i] = cos(turn) * x - sin(turn) * y;
+        elements->position[2 * i + 1] = sin(turn) * x + cos(turn) * y;
+        elements->angle[i] += turn;
     }
     rig_start(&rig);
     /* the last digit of an angle of 31 rad is 4e-15; energy goes with its square */
-    assert_true(rig.now.pieces.bend_max < 2e-14);
-    assert_true(rig.now.pieces.beam_energy < 1e-31);
+    assert_true(rig.now.elements.bend_max < 2e-14);
+    assert_true(rig.now.elements.beam_energy < 1e-31);
     rig_close(&rig);
 }
 
-/* A beam is at rest in the state that it is made in, whatever its pieces' angles there. */
+/* A beam is at rest in the state that it is made in, whatever its elements' angles there. */
 static void test_rest(void **state)
 {
     (void)state;
-    PieceRig rig;
+    ElementRig rig;
     open_pair(&rig, "balanced", 1e-7);
-    OzPieces *pieces = rig.grains.pieces;
-    pieces->angle[0] = 0.4;
-    pieces->angle[1] = -0.3;
-    pieces->position[3] = 1e-3;
-    oz_pieces_rest_beam(pieces, 0);
+    OzElements *elements = rig.grains.elements;
+    elements->angle[0] = 0.4;
+    elements->angle[1] = -0.3;
+    elements->position[3] = 1e-3;
+    oz_elements_rest_beam(elements, 0);
     rig_start(&rig);
     /* a last digit of angles below 1 rad */
-    assert_true(rig.now.pieces.bend_max < 1e-15);
-    assert_true(rig.now.pieces.stretch_max == 1 && rig.now.pieces.stretch_min == 1);
+    assert_true(rig.now.elements.bend_max < 1e-15);
+    assert_true(rig.now.elements.stretch_max == 1 && rig.now.elements.stretch_min == 1);
     rig_close(&rig);
 }
 

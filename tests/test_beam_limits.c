@@ -1,6 +1,6 @@
 /* The largest stable step of beams and contacts: fastest vibration and loss against closed forms,
  * the integrators' limits on one vibration, and a grain on either side of its limit. */
-#include "piece_rig.h"
+#include "element_rig.h"
 
 #include "model/beam_limits.h"
 
@@ -17,17 +17,17 @@ static void test_pair(void **state)
         double stiffness, second_moment; /* N/m, m^3: an axial mode first, then a bending one */
     } rows[] = {{100, 1e-12}, {100, 1e-8}};
     for (int i = 0; i < 2; i++) {
-        PieceRig rig;
+        ElementRig rig;
         OzBeamLimit limit;
         rig_read(&rig,
                  "gravity: [0, 0]\ntime: {step: 1e-6, duration: 1}\ntriangles: {stiffness: 1e-6}\n"
                  "beams: {stiffness: %g, second_moment: %g}",
                  rows[i].stiffness, rows[i].second_moment);
-        OzPieces *p = rig_grains(&rig, 1, 2, 1);
-        must(oz_pieces_set_triangle(p, 0, (double[6]){-2e-3, 0, -4e-4, -1e-3, -4e-4, 1e-3}, 4));
-        must(oz_pieces_set_triangle(p, 1, (double[6]){2e-3, 0, 4e-4, -1e-3, 4e-4, 1e-3}, 4));
+        OzElements *p = rig_grains(&rig, 1, 2, 1);
+        must(oz_elements_set_triangle(p, 0, (double[6]){-2e-3, 0, -4e-4, -1e-3, -4e-4, 1e-3}, 4));
+        must(oz_elements_set_triangle(p, 1, (double[6]){2e-3, 0, 4e-4, -1e-3, 4e-4, 1e-3}, 4));
         p->beam_b[0] = 1;
-        oz_pieces_rest_beam(p, 0);
+        oz_elements_rest_beam(p, 0);
         must(oz_beam_limits_find(&limit, &rig.scene, &rig.grains));
         double m = p->mass[0], inertia = p->inertia[0], length = p->beam_length[0];
         double swing = 1 + 4 * inertia / (m * length * length);
@@ -163,7 +163,7 @@ static void test_substeps(void **state)
     (void)state;
     double largest[2];
     for (int i = 0; i < 2; i++) {
-        PieceRig rig;
+        ElementRig rig;
         OzBeamLimit limit;
         rig_read(&rig,
                  "gravity: [0, 0]\nintegrator: velocity-verlet\ntime: {step: 1e-6, duration: 1}\n"
@@ -182,7 +182,7 @@ static void test_substeps(void **state)
  * energy than it had. */
 static bool settles(const char *integrator, double share)
 {
-    PieceRig rig;
+    ElementRig rig;
     OzBeamLimit limit;
     rig_read(&rig,
              "gravity: [0, 0]\nintegrator: %s\ntime: {step: 1e-6, duration: 1}\n"
@@ -193,12 +193,12 @@ static bool settles(const char *integrator, double share)
     must(oz_beam_limits_find(&limit, &rig.scene, &rig.grains));
     rig.scene.step = share * limit.largest_step;
     for (int i = 0; i < 4; i++) {
-        rig.grains.pieces->spin[i] = 0.1 * cos(5 * i + 1);
+        rig.grains.elements->angular_velocity[i] = 0.1 * cos(5 * i + 1);
     }
     rig_start(&rig);
     double energy = rig_energy(&rig.now);
-    bool stands = oz_piece_reference_advance(rig.reference, 1000) == OZ_OK;
-    must(oz_piece_reference_snapshot(rig.reference, &rig.now));
+    bool stands = oz_element_reference_advance(rig.reference, 1000) == OZ_OK;
+    must(oz_element_reference_snapshot(rig.reference, &rig.now));
     stands = stands && rig_energy(&rig.now) < energy;
     rig_close(&rig);
     return stands;
@@ -219,7 +219,7 @@ static void test_grain(void **state)
 static void test_dice(void **state)
 {
     (void)state;
-    PieceRig rig;
+    ElementRig rig;
     OzBeamLimit limit;
     rig_read(&rig, "gravity: [0, 0]\ntime: {step: 1e-6, duration: 1}");
     rig_grains(&rig, 2, 4, 4);

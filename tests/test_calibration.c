@@ -231,7 +231,7 @@ static double end_restitution(const char *more, double restitution, double time)
              time / 2000, time, restitution, more, 0.5e-3 + 2e-3 * 0.866025403784 + 1e-9);
     rig_start(&rig);
     rig_advance(&rig, 4000);
-    const double *u = rig.now.axis, *w = rig.now.spin;
+    const double *u = rig.now.axis, *w = rig.now.angular_velocity;
     double end = rig.now.velocity[2] - 2e-3 * (w[0] * u[1] - w[1] * u[0]); /* -(w x a).z */
     rig_close(&rig);
     return end / 0.01;

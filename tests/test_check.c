@@ -4,9 +4,9 @@
 #include "run_bed.h"
 
 #include "cli.h"
-#include "model/place.h"
+#include "command/inspect_columns.h"
+#include "model/insert.h"
 #include "observe/series.h"
-#include "study/inspect_columns.h"
 
 #include <math.h>
 
@@ -185,7 +185,7 @@ static void find_empty(const OzScene *scene, const OzGrains *grains, char names[
     oz_snapshot_turn_axes(&now);
     now.has_contacts = now.has_ledger = true;
     for (int kind = 0; kind < OZ_TOUCH_KINDS; kind++) {
-        now.pieces.touches[kind] = 1;
+        now.elements.touches[kind] = 1;
     }
     assert_int_equal(oz_series_create(&series, "probe.csv", scene, grains), OZ_OK);
     for (int row = 0; row < 3; row++) {
@@ -220,7 +220,7 @@ static void assert_columns(const char *text)
     OzGrains grains;
     char empty[NAMES_SIZE], said[NAMES_SIZE] = "", name[64];
     if (oz_scene_parse(&scene, "scene.yaml", text, NULL, 0) != OZ_OK ||
-        oz_place_grains(&grains, &scene) != OZ_OK) {
+        oz_insert_grains(&grains, &scene) != OZ_OK) {
         fail_msg("%s", oz_status_text());
     }
     find_empty(&scene, &grains, empty);

@@ -4,7 +4,7 @@
 
 #include "model/contact.h"
 
-#include "compute/dialect.h"
+#include "sim/dialect.h"
 
 static const double radius = 0.5e-3, mass = 2e-6;
 
@@ -112,7 +112,8 @@ static void test_mindlins_tangential_dashpot(void **state)
 /* Two bodies about a contact at the upper one's end: what they are as one. */
 static OzContact pair_contact(OzGrain a, OzGrain b)
 {
-    OzVec3 arm_a, arm_b, apart = oz_vec3(a.place.x - b.place.x, 0, a.place.z - b.place.z);
+    OzVec3 arm_a, arm_b,
+        apart = oz_vec3(a.position.x - b.position.x, 0, a.position.z - b.position.z);
     OzClosest at = {0, -1};
     mask crossed;
     return oz_grain_contact(a, b, apart, at, &arm_a, &arm_b, &crossed);
@@ -124,7 +125,7 @@ static void test_two_bodies_as_one(void **state)
 {
     (void)state;
     OzGrain sphere = {.radius = 1e-3, .mass = 3e-6, .inverse_inertia = 1e6};
-    OzGrain rod = {.place = {2e-3, 0, 2.99e-3}, .radius = 2e-3, .mass = 6e-6};
+    OzGrain rod = {.position = {2e-3, 0, 2.99e-3}, .radius = 2e-3, .mass = 6e-6};
     rod.half_shaft = (OzVec3){2e-3, 0, 0};
     rod.inverse_inertia = 1 / 8e-12;
     dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .at_contact = 1};
@@ -138,7 +139,7 @@ static void test_two_bodies_as_one(void **state)
     assert_true(fabs(unlike.overlap / 1e-5 - 1) < 1e-12 && fabs(unlike.normal.z - 1) < 1e-14);
     dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .equal = 1, .round = 1};
     OzGrain other = sphere;
-    other.place.z = 1.9e-3;
+    other.position.z = 1.9e-3;
     OzContact alike = pair_contact(sphere, other);
     /* rounding */
     assert_true(fabs(alike.mass / 1.5e-6 - 1) < 1e-14);
@@ -231,7 +232,7 @@ static void slide(const char *point, double *fall, double *slow, double *turn)
     rig_advance(&rig, 1);
     *fall = rig.now.velocity[2] / 1e-7;
     *slow = (1000 - rig.now.velocity[0]) / 1e-7;
-    *turn = rig.now.spin[1] / 1e-7;
+    *turn = rig.now.angular_velocity[1] / 1e-7;
     rig_close(&rig);
 }
 

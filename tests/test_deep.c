@@ -3,7 +3,7 @@
  * than a share s of that for t_c (1 - 2 asin(s) / pi). ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/advice.h"
+#include "sim/advice.h"
 
 static const double PI = 3.14159265358979323846;
 static const double radius = 1e-3, contact_time = 1e-3, step = 2e-6;

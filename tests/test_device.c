@@ -3,21 +3,22 @@
  * takes seconds to compile: tests share them. */
 #include "device_rig.h"
 
-#include "compute/settle.h"
+#include "sim/settle.h"
 
 enum { STEPS = 400 };
 
 /* A crowd thrown about in a shaken cylinder: precision, step, other keys, populations. */
-static const char crowd[] = "model: rods\n"
-                            "precision: %s\n"
-                            "time: {step: %g, duration: 1}\n"
-                            "gravity: [0.3, 0, -9.81]\n"
-                            "%s\n"
-                            "grains:\n%s\n"
-                            "walls:\n"
-                            "  - {kind: plane, motion: {frequency: 300, amplitude: 1e-4}}\n"
-                            "  - {kind: cylinder, diameter: 6e-3, contact: {restitution: 0.6}}\n"
-                            "  - {kind: plane, point: [0, 0, 0.011], normal: [0.1, 0, -1]}\n";
+static const char overlap_grid[] =
+    "model: rods\n"
+    "precision: %s\n"
+    "time: {step: %g, duration: 1}\n"
+    "gravity: [0.3, 0, -9.81]\n"
+    "%s\n"
+    "grains:\n%s\n"
+    "walls:\n"
+    "  - {kind: plane, motion: {frequency: 300, amplitude: 1e-4}}\n"
+    "  - {kind: cylinder, diameter: 6e-3, contact: {restitution: 0.6}}\n"
+    "  - {kind: plane, point: [0, 0, 0.011], normal: [0.1, 0, -1]}\n";
 
 #define RODS    "  - {kind: random, count: 61, diameter: 0.5e-3, aspect: 3, fill: 0.2}"
 #define SPHERES "  - {kind: random, count: %d, diameter: 0.8e-3, fill: 0.2}"
@@ -97,7 +98,7 @@ static void check_crowd(const char *precision, const char *keys, const char *gra
 {
     Rig rig;
     bool wide = precision[0] == 'd';
-    rig_open(&rig, crowd, precision, 1e-5, keys, grains);
+    rig_open(&rig, overlap_grid, precision, 1e-5, keys, grains);
     throw_grains(&rig.grains, 0.4, 200);
     OzSnapshot seen = state_after(&rig, shape, STEPS);
     rig_start(&rig);
@@ -147,7 +148,7 @@ static void test_few_spheres(void **state)
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
         Rig rig;
         snprintf(grains, sizeof grains, SPHERES, counts[k]);
-        rig_open(&rig, crowd, "double", 1e-5, counts[k] > 0 ? SMOOTH : PAPER, grains);
+        rig_open(&rig, overlap_grid, "double", 1e-5, counts[k] > 0 ? SMOOTH : PAPER, grains);
         throw_grains(&rig.grains, 0.4, 0);
         OzSnapshot seen = state_after(&rig, NATIVE, STEPS);
         rig_start(&rig);
@@ -166,7 +167,7 @@ static void test_work_items_give_the_same_bits(void **state)
 {
     (void)state;
     Rig rig;
-    rig_open(&rig, crowd, "double", 1e-5, VERLET, MIXTURE);
+    rig_open(&rig, overlap_grid, "double", 1e-5, VERLET, MIXTURE);
     throw_grains(&rig.grains, 0.4, 200);
     OzSnapshot one = state_after(&rig, SCALAR, STEPS), many = state_after(&rig, GROUP, STEPS);
     assert_same_bits(&one, &many);
@@ -179,7 +180,7 @@ static void test_work_items_give_the_same_bits(void **state)
 static double residual(const char *keys, const char *grains, double step, double time)
 {
     Rig rig;
-    rig_open(&rig, crowd, "double", step, keys, grains);
+    rig_open(&rig, overlap_grid, "double", step, keys, grains);
     throw_grains(&rig.grains, 0.4, 200);
     OzSnapshot start = state_after(&rig, NATIVE, 0);
     OzSnapshot end = state_after(&rig, NATIVE, llround(time / step));
@@ -221,7 +222,8 @@ static void test_ledger_starts_after_settling(void **state)
     (void)state;
     Rig rig;
     double seconds;
-    rig_open(&rig, crowd, "double", 1e-5, OTHER "\nsettle: {drag: 70, time_max: 0.1}", MIXTURE);
+    rig_open(&rig, overlap_grid, "double", 1e-5, OTHER "\nsettle: {drag: 70, time_max: 0.1}",
+             MIXTURE);
     OzSim *sim = start_sim(&rig, &rig_device);
     must(oz_settle_run(sim, &seconds, NULL, NULL));
     /* the default of settle.rest_time, which comes after the drag */
@@ -253,7 +255,7 @@ static void expect_guard(Rig *rig, const char *reason)
 
 static void open_guarded(Rig *rig)
 {
-    rig_open(rig, crowd, "float", 1e-5, PAPER, RODS);
+    rig_open(rig, overlap_grid, "float", 1e-5, PAPER, RODS);
 }
 
 static void test_guards_name_grain_step_and_time(void **state)

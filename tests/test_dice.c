@@ -2,7 +2,7 @@
  * often they hit by speed, how they spin afterwards, and what a hit without damping does to the
  * energy. Size, density, turn and offset, which the paper leaves open, are one choice that shows
  * it. */
-#include "piece_rig.h"
+#include "element_rig.h"
 
 #include "observe/hits.h"
 
@@ -10,14 +10,14 @@ static const double edge = 2e-3;
 
 typedef struct Meeting {
     OzHits hits;
-    double spin;                   /* of the first die at the end, x edge / speed    */
+    double angular_velocity;       /* of the first die at the end, x edge / speed    */
     double energy_change;          /* over the energy at the start                   */
     double residual;               /* the same with what beams took put back         */
     int64_t kinds[OZ_TOUCH_KINDS]; /* looks at which each kind was there    */
 } Meeting;
 
 /* The first die flies to the right; the other, offset upwards, rests. */
-static void open_dice(PieceRig *rig, const char *settings, const double turns[2], double speed)
+static void open_dice(ElementRig *rig, const char *settings, const double turns[2], double speed)
 {
     const double centres[2][2] = {{0, 0}, {1.45 * edge, 0.15 * edge}};
     const double velocities[2][2] = {{speed, 0}, {0, 0}};
@@ -34,13 +34,13 @@ static void open_dice(PieceRig *rig, const char *settings, const double turns[2]
 static void note_kinds(const OzSnapshot *s, Meeting *meeting)
 {
     for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
-        meeting->kinds[k] += s->pieces.touches[k] > 0;
+        meeting->kinds[k] += s->elements.touches[k] > 0;
     }
 }
 
 /* Looked at every 4 us, a hundredth of the shortest hit, until the dice could be two edges apart.
  */
-static void follow_hits(PieceRig *rig, double speed, Meeting *meeting)
+static void follow_hits(ElementRig *rig, double speed, Meeting *meeting)
 {
     int64_t each = (int64_t)(4e-6 / rig->scene.step + 0.5);
     int64_t last = (int64_t)(2.7 * edge / speed / rig->scene.step);
@@ -54,13 +54,13 @@ static void follow_hits(PieceRig *rig, double speed, Meeting *meeting)
 
 static Meeting meet(const char *settings, const double turns[2], double speed)
 {
-    PieceRig rig;
+    ElementRig rig;
     Meeting meeting = {0};
     open_dice(&rig, settings, turns, speed);
     double start = rig_energy(&rig.now);
     follow_hits(&rig, speed, &meeting);
-    OzPieceLedger ledger = rig.now.piece_ledger;
-    meeting.spin = rig.now.spin[2] * edge / speed;
+    OzElementLedger ledger = rig.now.element_ledger;
+    meeting.angular_velocity = rig.now.angular_velocity[2] * edge / speed;
     meeting.energy_change = rig_energy(&rig.now) / start - 1;
     meeting.residual = meeting.energy_change + (ledger.beam_axial + ledger.beam_bending) / start;
     rig_close(&rig);
@@ -76,20 +76,20 @@ static void test_hits_by_speed(void **state)
         double speed;
         int hits;
     } rows[] = {{0.1, 2}, {0.5, 2}, {0.6, 2}, {0.8, 1}, {1, 1}};
-    double spin[5];
+    double angular_velocity[5];
     for (int i = 0; i < 5; i++) {
         Meeting m =
             meet("integrator: gear4\ntime: {step: 1e-6, duration: 1}", both_30, rows[i].speed);
-        spin[i] = fabs(m.spin);
+        angular_velocity[i] = fabs(m.angular_velocity);
         print_message("%g m/s: %d hits; spin x edge / speed %.3f; left of the energy %.3f, "
                       "residual %.1e\n",
-                      rows[i].speed, oz_hits_count(&m.hits, OZ_HITS_SHARE), m.spin,
+                      rows[i].speed, oz_hits_count(&m.hits, OZ_HITS_SHARE), m.angular_velocity,
                       1 + m.energy_change, m.residual);
         assert_int_equal(oz_hits_count(&m.hits, OZ_HITS_SHARE), rows[i].hits);
     }
     /* 0.03 at 0.1 m/s and 0.27 at 0.5 m/s after two hits, 0.56 after one at 1 m/s */
-    assert_true(spin[0] < 0.05);
-    assert_true(spin[1] < 0.6 * spin[4]);
+    assert_true(angular_velocity[0] < 0.05);
+    assert_true(angular_velocity[1] < 0.6 * angular_velocity[4]);
 }
 
 /* Kind i has a potential: where a hit has no other, gear4's error alone changes the energy. */

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "compute/piece_dialect.h"
+#include "sim/element_dialect.h"
 
 #include <math.h>
 

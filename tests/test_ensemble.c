@@ -4,8 +4,8 @@
 
 #include "base/file.h"
 #include "base/student.h"
-#include "compute/rods_private.h"
-#include "compute/settle.h"
+#include "sim/rods_private.h"
+#include "sim/settle.h"
 
 #include <sys/stat.h>
 
@@ -155,7 +155,7 @@ static void test_students_t(void **state)
     "--seeds 1..3 --set 'movie={size: [320, 240], length: 0.2}' --set 'snapshots={taps: [1]}'"
 
 /* One launch at a time with three members, or three with one each, which share what draws. */
-static void test_courses_change_nothing(void **state)
+static void test_workers_change_nothing(void **state)
 {
     (void)state;
     run(SHOWN " --threads 1", "together", 0);
@@ -301,8 +301,8 @@ static void shrink_lists(OzSim *sim)
     tiny.inner_capacity = oz_rods_switches(sim)->lanes;
     tiny.back_capacity = 1;
     must(oz_arrays_resize(&sim->arrays, &tiny));
-    for (int m = 0; m < sim->crew.member_count; m++) {
-        oz_rods_control(sim, m)->truth = OZ_TRUTH_NONE;
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        oz_rods_control(sim, m)->truth = OZ_SPRINGS_AT_NONE;
     }
 }
 
@@ -329,7 +329,7 @@ static void test_growth_in_company(void **state)
         OzSnapshot lonely = state_at(&rigs[m], alone, 500), now;
         must(oz_snapshot_create(&now, &rigs[m].scene, &rigs[m].grains));
         must(oz_sim_advance(sim, 500));
-        must(oz_capture_snapshot(sim, m, &now, true));
+        must(oz_read_snapshot_snapshot(sim, m, &now, true));
         assert_same_bits(&now, &lonely);
         oz_snapshot_free(&now);
         oz_snapshot_free(&lonely);
@@ -348,7 +348,7 @@ int main(void)
         cmocka_unit_test(test_growth_in_company),
         cmocka_unit_test(test_company_changes_nothing),
         cmocka_unit_test(test_tables_add_up),
-        cmocka_unit_test(test_courses_change_nothing),
+        cmocka_unit_test(test_workers_change_nothing),
         cmocka_unit_test(test_failure_ends_all),
         cmocka_unit_test(test_sweep),
         cmocka_unit_test(test_grid),

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "study/report_extreme.h"
+#include "report/report_extreme.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* The orders of the reference's integrators, seen on a grain that bends and turns with damping, and
  * what Gear's start is worth. */
-#include "piece_rig.h"
+#include "element_rig.h"
 
 #define OZ_HOST
 #include "kernels/gear.h"
@@ -10,21 +10,21 @@ static const double rest[2] = {0, 0};
 /* A square whose triangles start with rates of their own, after 1 ms. */
 static void run_square(const char *integrator, double step, double place[12])
 {
-    PieceRig rig;
+    ElementRig rig;
     rig_read(&rig, "gravity: [0, 0]\nintegrator: %s\ntime: {step: %.17g, duration: 1}", integrator,
              step);
     rig_grains(&rig, 1, 4, 4);
     rig_square(&rig, 0, 2e-3, rest, 0.3, rest, 4);
     for (int i = 0; i < 4; i++) {
-        rig.grains.pieces->velocity[2 * i] = 0.2 * cos(3 * i);
-        rig.grains.pieces->velocity[2 * i + 1] = 0.2 * sin(2 * i + 1);
-        rig.grains.pieces->spin[i] = 300 * cos(5 * i + 1);
+        rig.grains.elements->velocity[2 * i] = 0.2 * cos(3 * i);
+        rig.grains.elements->velocity[2 * i + 1] = 0.2 * sin(2 * i + 1);
+        rig.grains.elements->angular_velocity[i] = 300 * cos(5 * i + 1);
     }
     rig_start(&rig);
     rig_advance(&rig, (int64_t)(1e-3 / step + 0.5));
     for (int i = 0; i < 4; i++) {
-        memcpy(&place[3 * i], &rig.now.piece_position[2 * i], 2 * sizeof(double));
-        place[3 * i + 2] = 1e-3 * rig.now.piece_angle[i];
+        memcpy(&place[3 * i], &rig.now.element_position[2 * i], 2 * sizeof(double));
+        place[3 * i + 2] = 1e-3 * rig.now.element_angle[i];
     }
     rig_close(&rig);
 }
@@ -129,22 +129,23 @@ static void test_fifth_power(void **state)
 static void test_derivatives(void **state)
 {
     (void)state;
-    PieceRig rig;
+    ElementRig rig;
     double second[6], third[6], fourth[6];
     rig_read(&rig, "gravity: [0, 0]\nintegrator: gear4\ntime: {step: 1e-6, duration: 1}");
-    OzPieces *pieces = rig_grains(&rig, 1, 2, 1);
-    must(oz_pieces_set_triangle(pieces, 0, (double[6]){-2e-3, 0, -4e-4, -1e-3, -4e-4, 1e-3}, 4));
-    must(oz_pieces_set_triangle(pieces, 1, (double[6]){2e-3, 0, 4e-4, -1e-3, 4e-4, 1e-3}, 4));
-    pieces->beam_b[0] = 1;
-    oz_pieces_rest_beam(pieces, 0);
-    pieces->velocity[2] = 0.1;
+    OzElements *elements = rig_grains(&rig, 1, 2, 1);
+    must(
+        oz_elements_set_triangle(elements, 0, (double[6]){-2e-3, 0, -4e-4, -1e-3, -4e-4, 1e-3}, 4));
+    must(oz_elements_set_triangle(elements, 1, (double[6]){2e-3, 0, 4e-4, -1e-3, 4e-4, 1e-3}, 4));
+    elements->beam_b[0] = 1;
+    oz_elements_rest_beam(elements, 0);
+    elements->velocity[2] = 0.1;
     rig_start(&rig);
-    must(oz_piece_reference_start_derivatives(&rig.now, false, second, third, fourth));
+    must(oz_element_reference_start_derivatives(&rig.now, false, second, third, fourth));
     /* relative motion: y'' = -2 d y' - w y */
-    double d = rig.scene.beams.damping / pieces->mass[1], v = 0.1;
-    double w = 2 * rig.scene.beams.stiffness / pieces->mass[1];
+    double d = rig.scene.beams.damping / elements->mass[1], v = 0.1;
+    double w = 2 * rig.scene.beams.stiffness / elements->mass[1];
     double a = -2 * d * v, j = -2 * d * a - w * v, s = -2 * d * j - w * a;
-    /* rounding; then divided by the step once and twice: 1e-11 and 2e-10; both pieces alike */
+    /* rounding; then divided by the step once and twice: 1e-11 and 2e-10; both elements alike */
     assert_true(fabs(second[3] / (a / 2) - 1) < 1e-12);
     assert_true(fabs(third[3] / (j / 2) - 1) < 1e-9);
     assert_true(fabs(fourth[3] / (s / 2) - 1) < 1e-9);

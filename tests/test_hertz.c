@@ -16,7 +16,7 @@ static void rig_load(Rig *rig, const char *name, char *const *settings, int coun
     memset(rig, 0, sizeof *rig);
     snprintf(path, sizeof path, "%s/report/%s.yaml", ORZO_SCENES, name);
     must(oz_scene_load(&rig->scene, path, settings, count));
-    must(oz_place_grains(&rig->grains, &rig->scene));
+    must(oz_insert_grains(&rig->grains, &rig->scene));
     rig_start(rig);
 }
 
@@ -113,9 +113,9 @@ static void test_chung_ooi_4(void **state)
                  -normal);
         rig_load(&rig, "chung_ooi_4", SETTINGS(velocity));
         rig_advance(&rig, 12000);
-        double lost = 0.092 * 1.98 * normal, spin = 2.5 * lost / 2.5e-3;
+        double lost = 0.092 * 1.98 * normal, angular_velocity = 2.5 * lost / 2.5e-3;
         double gain = (3.9 * sin(angle) - rig.now.velocity[0]) / lost,
-               turn = rig.now.spin[1] / spin;
+               turn = rig.now.angular_velocity[1] / angular_velocity;
         if (k >= 2) {
             /* the restitution is right to 1e-4 */
             assert_true(fabs(gain - 1) < 2e-4);

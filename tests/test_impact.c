@@ -138,10 +138,10 @@ static double oblique_error(double time)
     double impulse = (1 + exp(-b * pi / w)) * 0.1 * m / lambda;
     rig_start(&rig);
     rig_advance(&rig, 40000);
-    const double *v = rig.now.velocity, *spin = rig.now.spin;
+    const double *v = rig.now.velocity, *angular_velocity = rig.now.angular_velocity;
     double up = -0.1 + impulse / m, turn = lever * impulse / inertia; /* about y */
     double error = fmax(fabs(v[2] - up), fmax(fabs(v[0] - 0.02), fabs(v[1] - 0.01))) / 0.1;
-    error = fmax(error, fabs(spin[1] - turn) / turn);
+    error = fmax(error, fabs(angular_velocity[1] - turn) / turn);
     rig_close(&rig);
     return error;
 }

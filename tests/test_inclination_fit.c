@@ -4,8 +4,8 @@
 
 #include "base/log.h"
 #include "base/random.h"
-#include "ensemble.h"
 #include "observe/power_fit.h"
+#include "run/ensemble_tables.h"
 
 #include <math.h>
 
@@ -86,7 +86,7 @@ static void end_ensemble(const char *key, int count)
 {
     OzEnsemble *ensemble = NULL;
     assert_int_equal(OZ_OK, oz_log_open("log.txt"));
-    assert_int_equal(OZ_OK, oz_ensemble_create(&ensemble, ".", key));
+    assert_int_equal(OZ_OK, oz_ensemble_tables_create(&ensemble, ".", key));
     for (int m = 0; m < 2 * count; m++) {
         char name[32], file[64], value[32];
         double speed = speeds[m / 2];
@@ -97,9 +97,9 @@ static void end_ensemble(const char *key, int count)
         write_file(file, "step,time,tap,inclination_mean\n0,0,,1\n9,1,,%.17g\n",
                    curve(24, 0.7, 2, speed) + (m % 2 ? 3 : -3));
         OzEnsembleRow row = {name, (uint64_t)(m % 2), value, "done", true};
-        assert_int_equal(OZ_OK, oz_ensemble_add(ensemble, &row));
+        assert_int_equal(OZ_OK, oz_ensemble_tables_add(ensemble, &row));
     }
-    assert_int_equal(OZ_OK, oz_ensemble_finish(ensemble));
+    assert_int_equal(OZ_OK, oz_ensemble_tables_finish(ensemble));
     assert_int_equal(OZ_OK, oz_log_open(NULL));
 }
 

@@ -4,9 +4,9 @@
  * name. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/constants.h"
-#include "compute/resolution.h"
-#include "plan.h"
+#include "run/members.h"
+#include "sim/constants.h"
+#include "sim/resolution.h"
 
 /* A rod and a sphere of 5 mm above a slope, in an upright cylinder: one set of kernels for all
  * cases. */
@@ -68,10 +68,11 @@ static double rolling_error(const Rig *rig, const OzSnapshot *now, int64_t i, co
                             double pull)
 {
     double weight = rig->grains.mass[i] * diameter * diameter / 4;
-    double right = pull * weight / (weight + rig->grains.inertia_axis[i]) * now->time, spin[3];
-    cross3(&now->spin[3 * i], down, spin);
+    double right = pull * weight / (weight + rig->grains.inertia_axis[i]) * now->time,
+           angular_velocity[3];
+    cross3(&now->angular_velocity[3 * i], down, angular_velocity);
     double slow = dot3(&now->velocity[3 * i], down) / right - 1;
-    double lazy = sqrt(dot3(spin, spin)) * diameter / 2 / right - 1;
+    double lazy = sqrt(dot3(angular_velocity, angular_velocity)) * diameter / 2 / right - 1;
     return fmax(fabs(slow), fabs(lazy));
 }
 
@@ -202,14 +203,14 @@ static void test_refusals(void **state)
         Rig rig;
         rig_open(&rig, bed, 0.0, -cases[k].gravity, cases[k].step, cases[k].duration,
                  cases[k].contact_time, cases[k].height, 0.0, 1.0);
-        OzStatus status = oz_plan_judge(&rig.scene, &rig.grains, false);
+        OzStatus status = oz_members_judge(&rig.scene, &rig.grains, false);
         assert_int_equal(status, cases[k].reason ? OZ_ERR_INPUT : OZ_OK);
         if (cases[k].reason) {
             assert_non_null(strstr(oz_status_text(), cases[k].reason));
             assert_non_null(strstr(oz_status_text(), "precision: double"));
-            assert_int_equal(oz_plan_judge(&rig.scene, &rig.grains, true), OZ_OK);
+            assert_int_equal(oz_members_judge(&rig.scene, &rig.grains, true), OZ_OK);
             rig.scene.precision = OZ_PRECISION_DOUBLE;
-            assert_int_equal(oz_plan_judge(&rig.scene, &rig.grains, false), OZ_OK);
+            assert_int_equal(oz_members_judge(&rig.scene, &rig.grains, false), OZ_OK);
         }
         rig_close(&rig);
     }

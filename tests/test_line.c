@@ -3,9 +3,9 @@
  * skew ones; energy over a slow turn and in collisions. */
 #include "rig.h"
 
-#include "study/report_parallel.h"
+#include "report/report_parallel.h"
 
-#include "compute/dialect.h"
+#include "sim/dialect.h"
 
 static const double radius = 0.5e-3, half = 2e-3;
 static const OzLawConstants elastic = {.stiffness = 1e8};
@@ -229,23 +229,23 @@ static void test_skew_shafts_touch_once(void **state)
 }
 
 /* Work around a loop in the two angles that encloses the parallel, over the stored energy: none.
- * The trapezoidal rule on 4000 pieces of a periodic function of bounded slope leaves far less than
- * 1e-4; the single contact's force is a gradient as well but for its jumps, so only the first
+ * The trapezoidal rule on 4000 elements of a periodic function of bounded slope leaves far less
+ * than 1e-4; the single contact's force is a gradient as well but for its jumps, so only the first
  * assertion can tell. */
 static void test_a_slow_loop_gives_no_energy(void **state)
 {
     (void)state;
-    enum { PIECES = 4000 };
+    enum { ELEMENTS = 4000 };
     double work = 0;
     use_line(1);
-    for (int i = 0; i < PIECES; i++) {
-        double phase = 2 * 3.14159265358979 * (i + 0.5) / PIECES;
+    for (int i = 0; i < ELEMENTS; i++) {
+        double phase = 2 * 3.14159265358979 * (i + 0.5) / ELEMENTS;
         Pose pose = {{0, 0, 0.3e-3}, {0}, {2e-3 * cos(phase), 2e-3 * sin(phase), 0}, half, half};
         Pose next = pose, before = pose;
-        next.turn_b[0] = 2e-3 * cos(phase + 3.14159265358979 / PIECES);
-        next.turn_b[1] = 2e-3 * sin(phase + 3.14159265358979 / PIECES);
-        before.turn_b[0] = 2e-3 * cos(phase - 3.14159265358979 / PIECES);
-        before.turn_b[1] = 2e-3 * sin(phase - 3.14159265358979 / PIECES);
+        next.turn_b[0] = 2e-3 * cos(phase + 3.14159265358979 / ELEMENTS);
+        next.turn_b[1] = 2e-3 * sin(phase + 3.14159265358979 / ELEMENTS);
+        before.turn_b[0] = 2e-3 * cos(phase - 3.14159265358979 / ELEMENTS);
+        before.turn_b[1] = 2e-3 * sin(phase - 3.14159265358979 / ELEMENTS);
         OzVec3 u = turned(oz_vec3(0, 0, 1), before.turn_b),
                v = turned(oz_vec3(0, 0, 1), next.turn_b);
         work += oz_dot(touch(&pose, elastic).torque_b, oz_cross(u, v));
@@ -267,7 +267,7 @@ static void test_power_of_dashpots(void **state)
     for (int n = 1; n < 50; n++) {
         OzVec3 u = turned(oz_vec3(0, 0, half), (double[3]){0, 0.002 * spread(n, 0), 0}), none = {0};
         OzGrain a = {.half_shaft = {0, 0, half}, .radius = radius, .mass = 2e-6};
-        OzGrain b = {.place = {1.97 * radius, 0, 1e-3 * spread(n, 1)}, .half_shaft = u};
+        OzGrain b = {.position = {1.97 * radius, 0, 1e-3 * spread(n, 1)}, .half_shaft = u};
         b.radius = radius;
         b.mass = 2e-6;
         b.velocity = oz_vec3(0.01 * spread(n, 2), 0.01 * spread(n, 3), 0);

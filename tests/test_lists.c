@@ -3,7 +3,7 @@
  * way of large scenes, in which grains change places. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/rods_private.h"
+#include "sim/rods_private.h"
 
 enum { STEPS = 2000, GRAINS = 61 };
 
@@ -144,7 +144,7 @@ static void shrink_lists(OzSim *sim)
     tiny.inner_capacity = oz_rods_switches(sim)->lanes;
     tiny.back_capacity = 1;
     must(oz_arrays_resize(&sim->arrays, &tiny));
-    oz_rods_control(sim, 0)->truth = OZ_TRUTH_NONE;
+    oz_rods_control(sim, 0)->truth = OZ_SPRINGS_AT_NONE;
 }
 
 static void check_growth(const char *broadphase, const OzDevice *device)

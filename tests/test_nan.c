@@ -2,10 +2,10 @@
  * precisions and in the host reference, and is never written as a result. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/piece_reference.h"
-#include "compute/sim.h"
 #include "hand_bed.h"
 #include "observe/final.h"
+#include "sim/element_reference.h"
+#include "sim/sim.h"
 
 /* The features of test_scale.c's beds, whose kernels serve here too. */
 static const char rods[] =
@@ -20,7 +20,7 @@ static const char rods[] =
     "walls:\n"
     "  - {kind: plane}\n";
 
-static const char pieces[] =
+static const char elements[] =
     "model: trigrains\n"
     "precision: %s\n"
     "gravity: [0, 0]\n"
@@ -38,15 +38,15 @@ static const char *const precisions[] = {"float", "double"};
  * and cannot be none. */
 static double *rod_word(OzGrains *grains, int k, bool is_float)
 {
-    double *const words[] = {grains->velocity,       grains->spin,     grains->quaternion,
-                             grains->quaternion + 3, grains->position, NULL};
+    double *const words[] = {grains->velocity,       grains->angular_velocity, grains->quaternion,
+                             grains->quaternion + 3, grains->position,         NULL};
     return k == 4 && is_float ? NULL : words[k];
 }
 
-static double *piece_word(OzGrains *grains, int k, bool is_float)
+static double *element_word(OzGrains *grains, int k, bool is_float)
 {
-    double *const words[] = {grains->pieces->velocity, grains->pieces->spin, grains->pieces->angle,
-                             grains->pieces->position + 1, NULL};
+    double *const words[] = {grains->elements->velocity, grains->elements->angular_velocity,
+                             grains->elements->angle, grains->elements->position + 1, NULL};
     (void)is_float;
     return words[k];
 }
@@ -73,12 +73,12 @@ static void assert_rods_reference_stops(Rig *rig)
     oz_reference_free(reference);
 }
 
-static void assert_pieces_reference_stops(Rig *rig)
+static void assert_elements_reference_stops(Rig *rig)
 {
-    OzPieceReference *reference;
-    must(oz_piece_reference_create(&reference, &rig->scene, &rig->grains));
-    assert_int_equal(oz_piece_reference_advance(reference, 2), OZ_ERR_BLOWUP);
-    oz_piece_reference_free(reference);
+    OzElementReference *reference;
+    must(oz_element_reference_create(&reference, &rig->scene, &rig->grains));
+    assert_int_equal(oz_element_reference_advance(reference, 2), OZ_ERR_BLOWUP);
+    oz_element_reference_free(reference);
 }
 
 /* Puts a NaN into one word after the other. */
@@ -111,7 +111,7 @@ static void test_rods(void **state)
 static void test_trigrains(void **state)
 {
     (void)state;
-    try_words(pieces, piece_word, assert_pieces_reference_stops);
+    try_words(elements, element_word, assert_elements_reference_stops);
 }
 
 /* No file is left, under either name. */
@@ -121,7 +121,7 @@ static void test_never_written(void **state)
     (void)state;
     bed_create(&bed, 3, 1e-3, 2e-3);
     fill_randomly(&bed);
-    bed.snapshot.spin[4] = NAN;
+    bed.snapshot.angular_velocity[4] = NAN;
     assert_int_equal(oz_final_write(&bed.snapshot, in_folder("final.csv")), OZ_ERR_BLOWUP);
     assert_non_null(strstr(oz_status_text(), "grain 1"));
     assert_null(fopen(in_folder("final.csv"), "r"));

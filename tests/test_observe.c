@@ -223,7 +223,7 @@ static void test_energies(void **state)
     bed.scene.observe.ledger = true;
     put(&bed, 0, 2e-3, 0.6, 0, 0.8);
     memcpy(bed.snapshot.velocity, (double[]){3, 0, 4}, 3 * sizeof(double));
-    memcpy(bed.snapshot.spin, (double[]){0.6 * 20, 5, 0.8 * 20}, 3 * sizeof(double));
+    memcpy(bed.snapshot.angular_velocity, (double[]){0.6 * 20, 5, 0.8 * 20}, 3 * sizeof(double));
     bed.snapshot.has_contacts = bed.snapshot.has_ledger = true;
     bed.snapshot.contacts = (OzContactSums){3, 1, 2e-5, 4e-5};
     double m = *bed.grains.mass, i_axis = *bed.grains.inertia_axis, i_across = *bed.grains.inertia;

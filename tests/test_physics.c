@@ -64,7 +64,7 @@ static void test_sliding_sphere_ends_rolling(void **state)
     rig_advance(&rig, (int64_t)(2 * rolls / 3e-6));
     /* the overlap, 1e-5 of the lever */
     assert_true(fabs(rig.now.velocity[0] / (5.0 / 7 * v0) - 1) < 2e-5);
-    assert_true(fabs(rig.now.spin[1] * 0.5e-3 / rig.now.velocity[0] - 1) < 2e-5);
+    assert_true(fabs(rig.now.angular_velocity[1] * 0.5e-3 / rig.now.velocity[0] - 1) < 2e-5);
     rig_close(&rig);
 }
 
@@ -166,7 +166,7 @@ static void test_orientation_follows_the_spin(void **state)
         cross3(&q[1], &p[1], turned);
         for (int c = 0; c < 3; c++) { /* the vector of p times q inverse, twice over dt */
             double rate = 2 / 1e-5 * (q[0] * p[1 + c] - p[0] * q[1 + c] + turned[c]);
-            double mean = 0.5 * (rig.grains.spin[c] + rig.now.spin[c]);
+            double mean = 0.5 * (rig.grains.angular_velocity[c] + rig.now.angular_velocity[c]);
             assert_true(fabs(rate - mean) < 2e-6 * 374); /* |spin|; a twelfth of that square */
         }
         rig_close(&rig);
@@ -180,13 +180,13 @@ static void test_free_rotation_of_the_paper(void **state)
     Rig rig;
     open_spinning(&rig, "false");
     rig_start(&rig);
-    double start = angle_between(rig.now.axis, rig.now.spin);
+    double start = angle_between(rig.now.axis, rig.now.angular_velocity);
     rig_advance(&rig, 5000);
     for (int c = 0; c < 3; c++) {
-        assert_true(rig.now.spin[c] == rig.grains.spin[c]);
+        assert_true(rig.now.angular_velocity[c] == rig.grains.angular_velocity[c]);
     }
     /* rounding of 5000 steps */
-    assert_true(fabs(angle_between(rig.now.axis, rig.now.spin) - start) < 1e-13);
+    assert_true(fabs(angle_between(rig.now.axis, rig.now.angular_velocity) - start) < 1e-13);
     rig_close(&rig);
 }
 

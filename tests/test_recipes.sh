@@ -67,7 +67,7 @@ refuses OZ_LAWS host/model/contact.c constants_brake
 refuses OZ_LAWS host/model/predict.c repulsion_brake
 refuses OZ_INTEGRATORS host/model/predict.c step_mean_euler
 refuses OZ_INTEGRATORS host/model/calibrate.c invert_mean_euler
-refuses OZ_WALLS host/model/column.c bound_by_cone
+refuses OZ_WALLS host/model/fill_region.c bound_by_cone
 refuses OZ_WALLS host/scene/wall_shape.c oz_wall_cone
 refuses OZ_SHAPES host/model/shape.c make_rhombus
 refuses columns host/observe/observables.c lowest
@@ -171,7 +171,7 @@ static void shape_cone(OzWallShape *shape, const OzWall *wall)
     shape->normal[2] = sin(wall->half_angle);
 }
 CODE
-put before host/model/column.c '#define ROW(NAME' <<'CODE'
+put before host/model/fill_region.c '#define ROW(NAME' <<'CODE'
 static void bound_by_cone(OzColumn *column, const OzWall *wall)
 {
     column->low[2] = fmax(column->low[2], wall->point[2]);

@@ -1,9 +1,9 @@
 /* `orzo draw`: what is asked for is drawn from the nearest stored frame, or refused by name. */
 #include "program.h"
 
-#include "model/place.h"
+#include "command/redraw_plan.h"
+#include "model/insert.h"
 #include "observe/frames.h"
-#include "study/redraw_plan.h"
 
 #include <math.h>
 
@@ -40,7 +40,7 @@ static void make_run(void)
     assert_int_equal(mkdir("run", 0777), 0);
     write_file("run/scene.yaml", "%s", text);
     must(oz_scene_parse(&scene, "scene.yaml", text, NULL, 0));
-    must(oz_place_grains(&grains, &scene));
+    must(oz_insert_grains(&grains, &scene));
     must(oz_snapshot_create(&now, &scene, &grains));
     must(oz_frames_create(&frames, "run/frames.bin", &scene, &grains));
     for (int k = 0; k < FRAMES; k++) {

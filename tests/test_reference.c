@@ -4,8 +4,8 @@
 
 #include "base/random.h"
 #include "brute.h"
-#include "compute/near.h"
 #include "model/contact.h"
+#include "sim/pair_list.h"
 
 #include <stdlib.h>
 
@@ -54,7 +54,7 @@ static bool comes_first(const OzGrains *grains, int a, int b)
 static void test_sort_axis_lists_every_near_pair_in_order(void **state)
 {
     (void)state;
-    OzPairList list = {0};
+    OzPairs list = {0};
     double axis[3 * CROWD];
     for (uint64_t seed = 0; seed < 6; seed++) {
         OzGrains grains;
@@ -83,7 +83,7 @@ static void test_sort_axis_lists_every_near_pair_in_order(void **state)
 static void test_sort_axis_of_few(void **state)
 {
     (void)state;
-    OzPairList list = {0};
+    OzPairs list = {0};
     for (int64_t count = 0; count < 2; count++) {
         OzGrains grains;
         double axis[3] = {0, 0, 1};
@@ -99,27 +99,27 @@ static void test_sort_axis_of_few(void **state)
 static void test_springs_outlive_the_list(void **state)
 {
     (void)state;
-    OzNear near = {0};
+    OzPairList near = {0};
     OzGrains grains;
     bool renewed;
     double position[9] = {0, 0, 0, 0, 0, 1, 0, 0, 3}, axis[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
     must(oz_grains_create(&grains, 3));
     grains.diameter[0] = grains.diameter[1] = grains.diameter[2] = 1;
-    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
     assert_true(renewed && near.pairs.count == 1);
     near.spring[0] = oz_vec3(1, 2, 3);
     position[0] = 0.4 * near.skin;
-    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
     assert_false(renewed);
     position[8] = -1; /* now before the pair that touched, by ids */
-    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
     assert_true(renewed && near.pairs.count == 2);
     assert_true(near.pairs.pair[0].b == 1 && near.spring[0].y == 2);
     assert_true(near.pairs.pair[1].b == 2 && near.spring[1].y == 0);
     position[5] = 2; /* parted */
-    must(oz_near_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
     assert_true(renewed && near.pairs.count == 1 && near.spring[0].y == 0);
-    oz_near_free(&near);
+    oz_pair_list_free(&near);
     oz_grains_free(&grains);
 }
 
@@ -279,7 +279,7 @@ static void test_steps_are_absolute(void **state)
     rig_advance(&twice, 700);
     size_t bytes = 3 * (size_t)once.now.count * sizeof(double);
     assert_memory_equal(once.now.position, twice.now.position, bytes);
-    assert_memory_equal(once.now.spin, twice.now.spin, bytes);
+    assert_memory_equal(once.now.angular_velocity, twice.now.angular_velocity, bytes);
     assert_true(once.now.ledger.dissipated == twice.now.ledger.dissipated);
     rig_close(&once);
     rig_close(&twice);
@@ -288,7 +288,7 @@ static void test_steps_are_absolute(void **state)
 static void test_free_of_nothing(void **state)
 {
     (void)state;
-    OzPairList list = {0};
+    OzPairs list = {0};
     oz_reference_free(NULL);
     oz_sort_axis_free(&list);
 }

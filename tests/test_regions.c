@@ -1,9 +1,9 @@
 /* The regions that grains are put into at random, columns of rods and basins of trigrains, against
  * plain geometry: how large they are, what they draw, what they hold. */
-#include "model/basin.h"
-#include "model/column.h"
-#include "model/piece_walls.h"
-#include "model/place.h"
+#include "model/element_walls.h"
+#include "model/fill_region.h"
+#include "model/fill_region_flat.h"
+#include "model/insert.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -36,22 +36,22 @@ static void test_columns_have_the_volume(void **state)
                       {.kind = OZ_WALL_PLANE, .normal = {0, 0, -1}, .point = {0, 0, 2.5}},
                       {.kind = OZ_WALL_CYLINDER, .diameter = 0.4}};
     OzScene open = scene_with(walls, 0), layer = scene_with(walls, 2), tube = open;
-    OzColumn column = oz_column_make(&open, 0.027, 0.1);
+    OzFillRegion fill_region = oz_fill_region_make(&open, 0.027, 0.1);
     for (int k = 0; k < 3; k++) {
-        assert_near(column.high[k] - column.low[k], 0.3);
-        assert_near(column.high[k], 0.15);
+        assert_near(fill_region.high[k] - fill_region.low[k], 0.3);
+        assert_near(fill_region.high[k], 0.15);
     }
-    column = oz_column_make(&layer, 18, 0.1);
-    assert_near(column.high[0] - column.low[0], 3);
-    assert_near(column.high[1], 1.5);
-    assert_true(column.low[2] == 0.5 && column.high[2] == 2.5);
+    fill_region = oz_fill_region_make(&layer, 18, 0.1);
+    assert_near(fill_region.high[0] - fill_region.low[0], 3);
+    assert_near(fill_region.high[1], 1.5);
+    assert_true(fill_region.low[2] == 0.5 && fill_region.high[2] == 2.5);
     tube.walls = &walls[2];
     tube.wall_count = 1;
-    column = oz_column_make(&tube, 0.02, 0.1);
-    assert_true(column.low[2] == 0);
-    assert_near(column.high[2], 0.02 / (pi / 4 * 0.16));
-    assert_near(column.high[0], 0.2);
-    assert_near(oz_column_make(&tube, 1e-6, 0.7).high[2], 0.7); /* room for the longest */
+    fill_region = oz_fill_region_make(&tube, 0.02, 0.1);
+    assert_true(fill_region.low[2] == 0);
+    assert_near(fill_region.high[2], 0.02 / (pi / 4 * 0.16));
+    assert_near(fill_region.high[0], 0.2);
+    assert_near(oz_fill_region_make(&tube, 1e-6, 0.7).high[2], 0.7); /* room for the longest */
 }
 
 /* A tenth more of volume, whatever the number of open sides. */
@@ -62,14 +62,14 @@ static void test_columns_grow_by_a_tenth(void **state)
                       {.kind = OZ_WALL_PLANE, .normal = {0, 0, -1}, .point = {0, 0, 2}}};
     for (int count = 0; count <= 2; count++) {
         OzScene scene = scene_with(walls, count);
-        OzColumn column = oz_column_make(&scene, 3, 0.1), before = column;
+        OzFillRegion fill_region = oz_fill_region_make(&scene, 3, 0.1), before = fill_region;
         double grown = 1;
-        assert_true(oz_column_raise(&column));
+        assert_true(oz_fill_region_raise(&fill_region));
         for (int k = 0; k < 3; k++) {
-            grown *= (column.high[k] - column.low[k]) / (before.high[k] - before.low[k]);
+            grown *= (fill_region.high[k] - fill_region.low[k]) / (before.high[k] - before.low[k]);
         }
         assert_near(grown, 1.1);
-        assert_true(count == 0 || column.low[2] == 0);
+        assert_true(count == 0 || fill_region.low[2] == 0);
     }
 }
 
@@ -78,12 +78,12 @@ static void test_columns_draw_whole_capsules(void **state)
 {
     (void)state;
     OzScene scene = scene_with(NULL, 0);
-    OzColumn column = oz_column_make(&scene, 1, 0.1);
+    OzFillRegion fill_region = oz_fill_region_make(&scene, 1, 0.1);
     OzCapsule capsule = {.half_shaft = {0.1, -0.2, 0.05}, .radius = 0.03};
     OzRandom random = oz_random_stream(5, 1);
     double least[3] = {1, 1, 1}, most[3] = {-1, -1, -1};
     for (int n = 0; n < 2000; n++) {
-        oz_column_draw(&column, &random, &capsule);
+        oz_fill_region_draw(&fill_region, &random, &capsule);
         for (int k = 0; k < 3; k++) {
             double extent = fabs(capsule.half_shaft[k]) + capsule.radius;
             least[k] = fmin(least[k], capsule.centre[k] - extent);
@@ -95,14 +95,15 @@ static void test_columns_draw_whole_capsules(void **state)
     }
 }
 
-/* Whether a basin holds a circle at `out` (a unit vector) from a point of the container's boundary
+/* Whether a region holds a circle at `out` (a unit vector) from a point of the container's boundary
  * at a distance of radius and tooth, within rounding of it on either side. */
-static void check_edge(const OzBasin *basin, const double at[2], const double out[2], double radius)
+static void check_edge(const OzFillRegionFlat *fill_region, const double at[2], const double out[2],
+                       double radius)
 {
     for (int side = -1; side <= 1; side += 2) {
-        double away = radius + basin->container->tooth_depth + side * 1e-9;
+        double away = radius + fill_region->container->tooth_depth + side * 1e-9;
         double centre[2] = {at[0] + away * out[0], at[1] + away * out[1]};
-        assert_int_equal(oz_basin_holds(basin, centre, radius), side > 0);
+        assert_int_equal(oz_fill_region_flat_holds(fill_region, centre, radius), side > 0);
     }
 }
 
@@ -119,15 +120,15 @@ static void test_basins_keep_off_their_container(void **state)
                      .slope = slope,
                      .tooth_depth = 1e-3,
                      .point = {0.01, 0.02}};
-    OzBasin basin = {.container = &drum};
+    OzFillRegionFlat fill_region = {.container = &drum};
     for (double angle = 0; angle < 6; angle += 0.7) {
-        check_edge(&basin, (double[2]){x + 0.03 * cos(angle), y + 0.03 * sin(angle)},
+        check_edge(&fill_region, (double[2]){x + 0.03 * cos(angle), y + 0.03 * sin(angle)},
                    (double[2]){-cos(angle), -sin(angle)}, 2e-3);
     }
-    basin.container = &hopper;
+    fill_region.container = &hopper;
     for (int side = -1; side <= 1; side += 2) {
         for (double up = 0.005; up < 0.03; up += 0.005) { /* along the slope, from its lip */
-            check_edge(&basin, (double[2]){x + side * (0.005 + up * c), y + up * s},
+            check_edge(&fill_region, (double[2]){x + side * (0.005 + up * c), y + up * s},
                        (double[2]){-side * s, c}, 2e-3);
         }
     }
@@ -140,17 +141,18 @@ static void test_basins_keep_off_walls(void **state)
     (void)state;
     OzWall wall = {
         .kind = OZ_WALL_SEGMENT, .from = {-1, 0}, .to = {1, 0}, .thickness = 0.1, .until = 0};
-    OzPatch patch;
-    OzBasin basin = {.walls = &patch, .wall_count = 1, .low = {-1, -1}, .high = {1, 1}};
-    assert_int_equal(oz_piece_walls_make(&patch, &wall, 0.1), OZ_OK);
+    OzTriangleSet triangle_set;
+    OzFillRegionFlat fill_region = {
+        .walls = &triangle_set, .wall_count = 1, .low = {-1, -1}, .high = {1, 1}};
+    assert_int_equal(oz_element_walls_make(&triangle_set, &wall, 0.1), OZ_OK);
     for (int side = -1; side <= 1; side += 2) {
         double above[2] = {0.2, 0.05 + 1e-9 * side}, below[2] = {0.2, -0.15 - 1e-9 * side};
         double beyond[2] = {0.2, 0.95 - 1e-9 * side};
-        assert_int_equal(oz_basin_holds(&basin, above, 0.05), side > 0);
-        assert_int_equal(oz_basin_holds(&basin, below, 0.05), side > 0);
-        assert_int_equal(oz_basin_holds(&basin, beyond, 0.05), side > 0);
+        assert_int_equal(oz_fill_region_flat_holds(&fill_region, above, 0.05), side > 0);
+        assert_int_equal(oz_fill_region_flat_holds(&fill_region, below, 0.05), side > 0);
+        assert_int_equal(oz_fill_region_flat_holds(&fill_region, beyond, 0.05), side > 0);
     }
-    oz_patch_free(&patch);
+    oz_triangle_set_free(&triangle_set);
 }
 
 /* Circles around the grains fill the share asked of a vessel's column, wherever they lie in it. */
@@ -165,7 +167,7 @@ static void test_basins_are_as_high_as_asked(void **state)
         "  - {kind: random, shape: disc, radius: 1e-3, density: 4, count: 200, fill: 0.2}\n"
         "walls: [{kind: vessel, width: 0.04, height: 0.2}]\n";
     if (oz_scene_parse(&scene, "made.yaml", text, NULL, 0) != OZ_OK ||
-        oz_place_grains(&grains, &scene) != OZ_OK) {
+        oz_insert_grains(&grains, &scene) != OZ_OK) {
         fail_msg("%s", oz_status_text());
     }
     double height = 200 * pi * 1e-6 / 0.2 / 0.04, top = 0;

@@ -7,13 +7,13 @@
 
 #include <cmocka.h>
 
-#include "compute/stiffness.h"
 #include "model/contact.h"
-#include "model/place.h"
-#include "study/report_ensemble_table.h"
-#include "study/report_map.h"
-#include "study/report_point.h"
-#include "study/report_table.h"
+#include "model/insert.h"
+#include "report/report_ensemble_table.h"
+#include "report/report_map.h"
+#include "report/report_point.h"
+#include "report/report_table.h"
+#include "sim/stiffness.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -121,9 +121,9 @@ static void test_reference_meets_the_slanted_rod(void **state)
     double arm = 0.5 * l * sqrt(0.5), share = 1 + mass * arm * arm / inertia;
     double half_damping = -k * share, squared = (pi * pi + k * k) * share;
     double e = exp(-pi * half_damping / sqrt(squared - half_damping * half_damping));
-    double spin = mass / share * (1 + e) * 0.1 * arm / inertia;
+    double angular_velocity = mass / share * (1 + e) * 0.1 * arm / inertia;
     /* the turning of 0.4 degrees: 1.5e-3 */
-    assert_true(fabs(truth_of("oblique_smooth") / spin - 1) < 3e-3);
+    assert_true(fabs(truth_of("oblique_smooth") / angular_velocity - 1) < 3e-3);
 }
 
 /* symplectic-euler's restitution depends on where in a step the hit begins: without phases, the
@@ -222,7 +222,7 @@ static void test_an_end_is_stiffer_than_a_centre(void **state)
     OzSnapshot now = {0};
     OzStiffness bed;
     assert_int_equal(OZ_OK, oz_scene_parse(&scene, "bed", text, NULL, 0));
-    assert_int_equal(OZ_OK, oz_place_grains(&grains, &scene));
+    assert_int_equal(OZ_OK, oz_insert_grains(&grains, &scene));
     assert_int_equal(OZ_OK, oz_snapshot_create(&now, &scene, &grains));
     memcpy(now.position, grains.position, 3 * sizeof(double));
     memcpy(now.quaternion, grains.quaternion, 4 * sizeof(double));
@@ -377,7 +377,7 @@ static void test_a_member_counts_its_later_half(void **state)
                   "0,0,0.9,80,9,7\n1,2,0.5,20,3,10\n2,4,0.6,30,5,16\n");
     fclose(file);
     assert_int_equal(OZ_OK, oz_scene_parse(&scene, "two", text, NULL, 0));
-    assert_int_equal(OZ_OK, oz_place_grains(&grains, &scene));
+    assert_int_equal(OZ_OK, oz_insert_grains(&grains, &scene));
     assert_int_equal(OZ_OK, oz_report_member_read(values, path, &scene, &grains));
     lift = 2 * grains.mass[0] * 9.81 * 5e-3;
     const double expected[] = {0.55, 25, 4, 3 / lift};

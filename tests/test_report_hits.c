@@ -1,7 +1,7 @@
 /* Counting hits: spans of touching by hand, and `orzo report --hits` on dice at a coarse step. */
 #include "program.h"
 
-#include "study/report_hits.h"
+#include "report/report_hits.h"
 
 #include <math.h>
 
@@ -20,7 +20,7 @@ static void look(OzHits *hits, bool touching, double speed)
     double velocity[6] = {speed + 1, -9 * (double)hits->looks, 0, 1, -9 * (double)hits->looks, 0};
     OzGrains grains = {.count = 2, .mass = mass};
     OzSnapshot snapshot = {.grains = &grains, .velocity = velocity, .has_contacts = true};
-    snapshot.pieces.grain_pairs = touching;
+    snapshot.elements.grain_pairs = touching;
     oz_hits_look(hits, &snapshot);
 }
 
@@ -79,7 +79,7 @@ static void test_many_grazes(void **state)
 static void test_command(void **state)
 {
     (void)state;
-    double speed, spin[2][2];
+    double speed, angular_velocity[2][2];
     int hits[2], touching[2];
     write_file("dice.yaml", DICE, "1", "sweep: {grains.0.velocity.0: [0.2, 1.0]}\n");
     expect(0, "hits change from 2 to 1 between grains.0.velocity.0 = 0.2 and 1.0",
@@ -90,7 +90,7 @@ static void test_command(void **state)
     char *row = strchr(text, '\n') + 1;
     for (int i = 0; i < 2; i++, row = strchr(row, '\n') + 1) {
         assert_int_equal(sscanf(strchr(row, ',') + 1, "1,%lf,%d,%d,%lf,%lf", &speed, &hits[i],
-                                &touching[i], &spin[i][0], &spin[i][1]),
+                                &touching[i], &angular_velocity[i][0], &angular_velocity[i][1]),
                          5);
         /* as it was written, in some digits */
         assert_true(fabs(speed - (i ? 1 : 0.2)) < 1e-12);
@@ -100,8 +100,8 @@ static void test_command(void **state)
     assert_int_equal(hits[0], 2);
     assert_int_equal(hits[1], 1);
     /* spins in edges over speeds: 0.017 after two hits, 0.56 after one */
-    assert_true(fabs(spin[0][0]) < 0.05 && fabs(spin[1][0]) > 0.3);
-    assert_true(fabs(spin[0][1]) < 0.05 && fabs(spin[1][1]) > 0.3);
+    assert_true(fabs(angular_velocity[0][0]) < 0.05 && fabs(angular_velocity[1][0]) > 0.3);
+    assert_true(fabs(angular_velocity[0][1]) < 0.05 && fabs(angular_velocity[1][1]) > 0.3);
 }
 
 /* Slow dice share the impulse of two hits as 5 to 3 or so: counted from 45 % on only one is left.

@@ -2,7 +2,7 @@
  * choice, its last sentence. ORZO_NEEDS_DEVICE. */
 #include "program.h"
 
-#include "study/report_own.h"
+#include "report/report_own.h"
 
 #include <math.h>
 

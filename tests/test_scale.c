@@ -4,8 +4,8 @@
  * it. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/capture.h"
-#include "compute/sim.h"
+#include "sim/read_snapshot.h"
+#include "sim/sim.h"
 
 /* Of lengths, 2^exponent, from grains of 1.4 nm to a vessel of 3 km; a metre is first, and the
  * others are compared with it. */
@@ -28,7 +28,7 @@ static const char rods[] =
     "  - {kind: cylinder, diameter: %.17g}\n";
 
 /* Squares and polygons on a shaken floor: what they are made of is the paper's, scaled. */
-static const char pieces[] =
+static const char elements[] =
     "model: trigrains\n"
     "seed: 3\n"
     "precision: %s\n"
@@ -59,12 +59,12 @@ static OzSnapshot scaled_state(Rig *rig, int64_t step, double length, double tim
     OzSim *sim = start_sim_of(rig);
     must(oz_sim_advance(sim, step));
     must(oz_snapshot_create(&now, &rig->scene, &rig->grains));
-    must(oz_capture_snapshot(sim, 0, &now, false));
+    must(oz_read_snapshot_snapshot(sim, 0, &now, false));
     oz_sim_free(sim);
     for (int64_t k = 0; k < 3 * now.count; k++) {
         now.position[k] /= length;
         now.velocity[k] /= length / time;
-        now.spin[k] *= time;
+        now.angular_velocity[k] *= time;
     }
     return now;
 }
@@ -77,9 +77,9 @@ static void open_rods(Rig *rig, double s, double t, const char *precision)
 }
 
 /* A thousand times the paper's lengths at the metre; times by the root of that. */
-static void open_pieces(Rig *rig, double s, double t, const char *precision)
+static void open_elements(Rig *rig, double s, double t, const char *precision)
 {
-    rig_open(rig, pieces, precision, 6e-5 * t, 10 * t, 2e6, 1e5 * s, 0.05 * s * s * s,
+    rig_open(rig, elements, precision, 6e-5 * t, 10 * t, 2e6, 1e5 * s, 0.05 * s * s * s,
              284 * s * s / t, 0.6 * s, 0.4 * s * s, 1.8 * s, 2.5 * s, 1.5 * s, 20 * s, 40 * s,
              0.5 / t, 0.25 * s);
 }
@@ -88,7 +88,8 @@ static void assert_same_motion(const OzSnapshot *a, const OzSnapshot *b)
 {
     assert_memory_equal(a->position, b->position, 3 * (size_t)a->count * sizeof(double));
     assert_memory_equal(a->velocity, b->velocity, 3 * (size_t)a->count * sizeof(double));
-    assert_memory_equal(a->spin, b->spin, 3 * (size_t)a->count * sizeof(double));
+    assert_memory_equal(a->angular_velocity, b->angular_velocity,
+                        3 * (size_t)a->count * sizeof(double));
 }
 
 static void compare_scales(void (*open)(Rig *rig, double s, double t, const char *precision),
@@ -122,8 +123,8 @@ static void test_rods(void **state)
 static void test_trigrains(void **state)
 {
     (void)state;
-    compare_scales(open_pieces, "double");
-    compare_scales(open_pieces, "float");
+    compare_scales(open_elements, "double");
+    compare_scales(open_elements, "float");
 }
 
 /* Half a radius is the most that an end may go in a step; this one goes 16. */
@@ -134,12 +135,12 @@ static void test_fast_turns_are_seen(void **state)
         Rig rig;
         double s = ldexp(1, exponents[k]), t = ldexp(1, exponents[k] / 2);
         open_rods(&rig, s, t, "float");
-        double *spin = rig.grains.spin, radius = rig.grains.diameter[0] / 2;
+        double *angular_velocity = rig.grains.angular_velocity, radius = rig.grains.diameter[0] / 2;
         double rate = 16 * radius / (rig.grains.length[0] / 2) / rig.scene.step, axis[3];
         oz_grains_axis(rig.grains.quaternion, axis);
-        spin[0] = rate * axis[1]; /* across the shaft, about a level line */
-        spin[1] = -rate * axis[0];
-        spin[2] = 0;
+        angular_velocity[0] = rate * axis[1]; /* across the shaft, about a level line */
+        angular_velocity[1] = -rate * axis[0];
+        angular_velocity[2] = 0;
         OzSim *sim = start_sim_of(&rig);
         assert_int_equal(oz_sim_advance(sim, 10), OZ_ERR_BLOWUP);
         assert_non_null(strstr(oz_status_text(), "step 1,"));

@@ -104,7 +104,7 @@ static void assert_same_population(const OzPopulation *a, const OzPopulation *b)
     SAME(position);
     SAME(axis);
     SAME(velocity);
-    SAME(spin);
+    SAME(angular_velocity);
     SAME(shape);
     SAME(edge);
     SAME(radius);
@@ -289,7 +289,7 @@ static void writes_trigrains(void **state)
         SETTINGS("snapshots.strobe=1/7", "beams.substeps=3", "integrator=velocity-verlet",
                  "beams.damping_shear=balanced", "triangles.force_point=midpoint"));
     assert_true(scene.observe.has_outlet && scene.gravity[1] == -9.81 && scene.gravity[2] == 0);
-    assert_true(scene.populations[1].spin[2] == -3 && scene.populations[2].count == 6);
+    assert_true(scene.populations[1].angular_velocity[2] == -3 && scene.populations[2].count == 6);
     /* degrees to rad: a product's rounding */
     assert_true(fabs(scene.walls[1].slope - 33.3 * acos(-1) / 180) < 1e-15);
     assert_true(scene.walls[2].contact.contact_time == 1e-4);

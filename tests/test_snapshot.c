@@ -1,4 +1,4 @@
-/* What a state tells of bodies made of pieces, of walls that move, and what rows of a drum add up
+/* What a state tells of bodies made of elements, of walls that move, and what rows of a drum add up
  * to. */
 #include "hand_bed.h"
 #include "hand_heap.h"
@@ -9,7 +9,7 @@
 static const double PI = 3.14159265358979323846;
 
 /* A square turned as a rigid body: half the angle about z, and the centre's motion. */
-static void test_grains_of_their_pieces(void **state)
+static void test_grains_of_their_elements(void **state)
 {
     (void)state;
     Heap heap;
@@ -24,7 +24,7 @@ static void test_grains_of_their_pieces(void **state)
     assert_near(s->quaternion[3], sin(0.4), 1e-15);
     assert_near(s->position[0], 4e-3, 1e-16);
     assert_near(s->velocity[1], -0.5, 1e-15);
-    assert_near(s->spin[2], 8, 1e-13);
+    assert_near(s->angular_velocity[2], 8, 1e-13);
     heap_free(&heap);
 }
 
@@ -113,7 +113,7 @@ static void test_rows_of_a_drum(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grains_of_their_pieces),
+        cmocka_unit_test(test_grains_of_their_elements),
         cmocka_unit_test(test_walls_swing),
         cmocka_unit_test(test_slope_of_a_bed_on_one_side),
         cmocka_unit_test(test_rows_of_a_drum),

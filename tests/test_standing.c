@@ -3,7 +3,7 @@
  * floor, with springs at walls and between grains. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
-#include "compute/phases.h"
+#include "sim/stage_timing.h"
 
 /* The floor has gone far from where the last launch began, and every launch ends between samples.
  */
@@ -39,8 +39,8 @@ static OzSnapshot run_bed(const Rig *rig, const OzDevice *device, bool measured)
     assert_true(there.contacts.pair_count > 0);
     assert_true(there.contacts.wall_count > 0);
     if (measured) {
-        OzPhases phases;
-        must(oz_phases_measure(&phases, sim, NULL));
+        OzStageTiming phases;
+        must(oz_stage_timing_measure(&phases, sim, NULL));
         assert_true(phases.pairs > 0);
         assert_true(phases.grains > 0);
     }

@@ -2,7 +2,7 @@
 #include "hand_bed.h"
 
 #include "base/file.h"
-#include "model/bed.h"
+#include "model/restart_csv.h"
 #include "observe/final.h"
 #include "observe/frames.h"
 
@@ -23,12 +23,12 @@ static void test_final_comes_back(void **state)
     fill_randomly(&bed);
     assert_int_equal(oz_final_write(&bed.snapshot, in_folder("final.csv")), OZ_OK);
     assert_false(oz_file_exists(in_folder("final.csv.part")));
-    assert_int_equal(oz_bed_read(&back, in_folder("final.csv")), OZ_OK);
+    assert_int_equal(oz_restart_csv_read(&back, in_folder("final.csv")), OZ_OK);
     assert_int_equal(back.count, 50);
     assert_memory_equal(back.position, bed.snapshot.position, 150 * sizeof(double));
     assert_memory_equal(back.quaternion, bed.snapshot.quaternion, 200 * sizeof(double));
     assert_memory_equal(back.velocity, bed.snapshot.velocity, 150 * sizeof(double));
-    assert_memory_equal(back.spin, bed.snapshot.spin, 150 * sizeof(double));
+    assert_memory_equal(back.angular_velocity, bed.snapshot.angular_velocity, 150 * sizeof(double));
     assert_memory_equal(back.mass, bed.grains.mass, 50 * sizeof(double));
     assert_memory_equal(back.length, bed.grains.length, 50 * sizeof(double));
     /* Inertia from mass / volume: two more roundings than the original. */
@@ -63,9 +63,9 @@ static void test_bed_refuses(void **state)
     OzGrains grains;
     char text[512];
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        snprintf(text, sizeof text, "%s\n%s", OZ_BED_HEADER, bad[k].rows);
+        snprintf(text, sizeof text, "%s\n%s", OZ_RESTART_CSV_HEADER, bad[k].rows);
         write_text(in_folder("bed.csv"), text);
-        assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_ERR_INPUT);
+        assert_int_equal(oz_restart_csv_read(&grains, in_folder("bed.csv")), OZ_ERR_INPUT);
         if (!strstr(oz_status_text(), bad[k].text)) {
             fail_msg("%s lacks %s", oz_status_text(), bad[k].text);
         }
@@ -76,21 +76,22 @@ static void test_bed_refuses(void **state)
     } headers[] = {
         {"id,x\n0,1\n", "bed.csv:1: without the column y"},
         {"position\n0,1\n", "bed.csv:1: this is no final.csv"},
-        {OZ_BED_HEADER ",colour\n", "bed.csv:1: no such column: colour"},
-        {OZ_BED_HEADER ",x\n", "bed.csv:1: twice the column x"},
-        {OZ_BED_HEADER "\n", "bed.csv:1: no grain"},
+        {OZ_RESTART_CSV_HEADER ",colour\n", "bed.csv:1: no such column: colour"},
+        {OZ_RESTART_CSV_HEADER ",x\n", "bed.csv:1: twice the column x"},
+        {OZ_RESTART_CSV_HEADER "\n", "bed.csv:1: no grain"},
         {"", "bed.csv:1: this is no final.csv"},
     };
     for (size_t k = 0; k < sizeof headers / sizeof *headers; k++) {
         write_text(in_folder("bed.csv"), headers[k].file);
-        assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_ERR_INPUT);
+        assert_int_equal(oz_restart_csv_read(&grains, in_folder("bed.csv")), OZ_ERR_INPUT);
         if (!strstr(oz_status_text(), headers[k].text)) {
             fail_msg("%s lacks %s", oz_status_text(), headers[k].text);
         }
     }
-    assert_int_equal(oz_bed_read(&grains, in_folder("none.csv")), OZ_ERR_FILE);
-    write_text(in_folder("bed.csv"), OZ_BED_HEADER "\r\n1" STATE "1,2,3\r\n\r\n0" STATE "4,5,6");
-    assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_OK);
+    assert_int_equal(oz_restart_csv_read(&grains, in_folder("none.csv")), OZ_ERR_FILE);
+    write_text(in_folder("bed.csv"),
+               OZ_RESTART_CSV_HEADER "\r\n1" STATE "1,2,3\r\n\r\n0" STATE "4,5,6");
+    assert_int_equal(oz_restart_csv_read(&grains, in_folder("bed.csv")), OZ_OK);
     assert_int_equal(grains.count, 2);
     assert_near(grains.diameter[0], 4, 0);
     oz_grains_free(&grains);
@@ -105,7 +106,7 @@ static void test_bed_as_others_write_it(void **state)
     write_text(in_folder("bed.csv"), "\xef\xbb\xbf\"mass\", \"id\",x,y,z "
                                      ",qw,qx,qy,qz,ux,uy,uz,vx,vy,vz,wx,wy,wz,diameter,length\r\n"
                                      "3,0, 7 ,8,9,1,0,0,0,0,0,1,0,0,\"4\",0,0,0,1,2\r\n");
-    assert_int_equal(oz_bed_read(&grains, in_folder("bed.csv")), OZ_OK);
+    assert_int_equal(oz_restart_csv_read(&grains, in_folder("bed.csv")), OZ_OK);
     assert_int_equal(grains.count, 1);
     assert_near(grains.mass[0], 3, 0);
     assert_near(grains.position[0], 7, 0);

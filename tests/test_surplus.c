@@ -103,7 +103,7 @@ static void test_leaves_rounding_alone(void **state)
             must(oz_snapshot_create(&rig.now, &rig.scene, &rig.grains));
             rig.now.has_contacts = true;
             must(oz_surplus_check(&surplus, &rig.now));
-            *(k ? rig.now.piece_velocity : rig.now.velocity) = fast ? 1e-4 : 1e-8;
+            *(k ? rig.now.element_velocity : rig.now.velocity) = fast ? 1e-4 : 1e-8;
             assert_int_equal(oz_surplus_check(&surplus, &rig.now), fast ? OZ_ERR_BLOWUP : OZ_OK);
             rig_close(&rig);
         }

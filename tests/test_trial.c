@@ -1,8 +1,8 @@
 /* How far beams go in a hit: against what energy allows, and what `check` makes of it. */
 #include "rig.h"
 
-#include "compute/trial.h"
-#include "study/inspect_pieces.h"
+#include "command/inspect_elements.h"
+#include "sim/trial.h"
 
 #include <glob.h>
 #include <stdlib.h>
@@ -33,7 +33,7 @@ static void test_bending_is_what_energy_allows(void **state)
     (void)state;
     Rig rig;
     rig_open(&rig, ells, 1e-10, 0.0);
-    const OzPieces *p = rig.grains.pieces;
+    const OzElements *p = rig.grains.elements;
     double longest = 0, shortest = INFINITY, speed = 0.2, mass = rig.grains.mass[0];
     for (int64_t k = 0; k < p->beam_count; k++) {
         longest = fmax(longest, p->beam_length[k]);
@@ -73,8 +73,8 @@ static char *print_check(const Rig *rig)
     size_t length = 0;
     FILE *file = open_memstream(&text, &length);
     assert_non_null(file);
-    must(oz_inspect_pieces_warn(file, &rig->scene, &rig->grains));
-    must(oz_inspect_pieces_print(file, &rig->scene, &rig->grains));
+    must(oz_inspect_elements_warn(file, &rig->scene, &rig->grains));
+    must(oz_inspect_elements_print(file, &rig->scene, &rig->grains));
     assert_int_equal(fclose(file), 0);
     return text;
 }
@@ -109,7 +109,7 @@ static void test_no_word_about_the_scenes_that_run(void **state)
         Rig rig = {0};
         must(oz_scene_load(&rig.scene, found.gl_pathv[k], NULL, 0));
         if (rig.scene.model == OZ_MODEL_TRIGRAINS) {
-            must(oz_place_grains(&rig.grains, &rig.scene));
+            must(oz_insert_grains(&rig.grains, &rig.scene));
             char *text = print_check(&rig);
             if (strstr(text, "too soft")) {
                 fail_msg("%s: %s", found.gl_pathv[k], strstr(text, "beams are"));

@@ -28,10 +28,10 @@ static double shoelace(const double *p, int n)
     return sum;
 }
 
-static bool holds(const OzPatch *patch, int t, double x, double y)
+static bool holds(const OzTriangleSet *triangle_set, int t, double x, double y)
 {
     double c[6];
-    oz_patch_corners(patch, t, c);
+    oz_triangle_set_corners(triangle_set, t, c);
     for (int k = 0; k < 3; k++) {
         const double *a = c + 2 * k, *b = c + 2 * ((k + 1) % 3);
         if ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1]) <= 0) {
@@ -42,14 +42,14 @@ static bool holds(const OzPatch *patch, int t, double x, double y)
 }
 
 /* No point is in two triangles; with equal areas that makes a tiling. */
-static void check_tiling(const OzPatch *patch)
+static void check_tiling(const OzTriangleSet *triangle_set)
 {
     OzRandom random = oz_random_stream(3, 0);
     for (int i = 0; i < 500; i++) {
         double x = oz_random_uniform(&random, -10, 10), y = oz_random_uniform(&random, -1, 7);
         int count = 0;
-        for (int t = 0; t < patch->triangle_count; t++) {
-            count += holds(patch, t, x, y);
+        for (int t = 0; t < triangle_set->triangle_count; t++) {
+            count += holds(triangle_set, t, x, y);
         }
         assert_true(count <= 1);
     }
@@ -65,17 +65,18 @@ static void cuts_awkward_polygons(void **state)
             memcpy(turned + 2 * k, awkward[i].corners + 2 * (n - 1 - k), 2 * sizeof(double));
         }
         for (int way = 0; way < 2; way++) {
-            OzPatch patch;
+            OzTriangleSet triangle_set;
             assert_int_equal(
-                oz_triangulation_make(&patch, way ? turned : awkward[i].corners, n, "here"), OZ_OK);
-            assert_int_equal(patch.triangle_count, n - 2);
-            assert_int_equal(patch.joint_count, n - 3);
-            assert_int_equal(patch.outline_count, n);
-            close_to(patch.area, fabs(shoelace(awkward[i].corners, n)));
+                oz_triangulation_make(&triangle_set, way ? turned : awkward[i].corners, n, "here"),
+                OZ_OK);
+            assert_int_equal(triangle_set.triangle_count, n - 2);
+            assert_int_equal(triangle_set.joint_count, n - 3);
+            assert_int_equal(triangle_set.outline_count, n);
+            close_to(triangle_set.area, fabs(shoelace(awkward[i].corners, n)));
             double gap[2];
-            close_to(outline_area(&patch, gap), patch.area);
-            check_tiling(&patch);
-            oz_patch_free(&patch);
+            close_to(outline_area(&triangle_set, gap), triangle_set.area);
+            check_tiling(&triangle_set);
+            oz_triangle_set_free(&triangle_set);
         }
     }
 }
@@ -84,34 +85,36 @@ static void cuts_awkward_polygons(void **state)
 static void cuts_across_the_short_way(void **state)
 {
     (void)state;
-    OzPatch patch;
-    assert_int_equal(oz_triangulation_make(&patch, KITE, 4, "here"), OZ_OK);
-    close_to(oz_patch_joint_length(&patch, 0), 20.0 / 3);
-    oz_patch_free(&patch);
+    OzTriangleSet triangle_set;
+    assert_int_equal(oz_triangulation_make(&triangle_set, KITE, 4, "here"), OZ_OK);
+    close_to(oz_triangle_set_joint_length(&triangle_set, 0), 20.0 / 3);
+    oz_triangle_set_free(&triangle_set);
 }
 
 /* The angle at a triangle's corner that the other one has not. */
-static double angle_across(const OzPatch *patch, int t, int other)
+static double angle_across(const OzTriangleSet *triangle_set, int t, int other)
 {
-    const int *own = patch->triangle + 3 * t, *its = patch->triangle + 3 * other;
+    const int *own = triangle_set->triangle + 3 * t, *its = triangle_set->triangle + 3 * other;
     int k = 0;
     while (k < 2 && (own[k] == its[0] || own[k] == its[1] || own[k] == its[2])) {
         k++;
     }
-    const double *a = patch->vertex + 2 * own[k], *b = patch->vertex + 2 * own[(k + 1) % 3],
-                 *c = patch->vertex + 2 * own[(k + 2) % 3];
+    const double *a = triangle_set->vertex + 2 * own[k],
+                 *b = triangle_set->vertex + 2 * own[(k + 1) % 3],
+                 *c = triangle_set->vertex + 2 * own[(k + 2) % 3];
     double sine = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     double cosine = (b[0] - a[0]) * (c[0] - a[0]) + (b[1] - a[1]) * (c[1] - a[1]);
     return atan2(sine, cosine);
 }
 
 /* Angles across an edge add up to half a turn at most, or the other diagonal would be better. */
-static void check_delaunay(const OzPatch *patch)
+static void check_delaunay(const OzTriangleSet *triangle_set)
 {
-    for (int k = 0; k < patch->joint_count; k++) {
-        int a = patch->joint[2 * k], b = patch->joint[2 * k + 1];
+    for (int k = 0; k < triangle_set->joint_count; k++) {
+        int a = triangle_set->joint[2 * k], b = triangle_set->joint[2 * k + 1];
         /* four corners on a circle may go either way: rounding of pi */
-        assert_true(angle_across(patch, a, b) + angle_across(patch, b, a) <= PI + 1e-14);
+        assert_true(angle_across(triangle_set, a, b) + angle_across(triangle_set, b, a) <=
+                    PI + 1e-14);
     }
 }
 
@@ -128,22 +131,23 @@ static void cuts_random_polygons(void **state)
             corners[2 * i] = radius * cos(2 * PI * i / n);
             corners[2 * i + 1] = radius * sin(2 * PI * i / n);
         }
-        OzPatch patch;
-        assert_int_equal(oz_triangulation_make(&patch, corners, n, "here"), OZ_OK);
+        OzTriangleSet triangle_set;
+        assert_int_equal(oz_triangulation_make(&triangle_set, corners, n, "here"), OZ_OK);
         /* rounding of a sum of n products */
-        assert_true(fabs(patch.area - shoelace(corners, n)) <= ROUNDING * n);
-        assert_int_equal(patch.joint_count, n - 3);
-        check_delaunay(&patch);
-        oz_patch_free(&patch);
+        assert_true(fabs(triangle_set.area - shoelace(corners, n)) <= ROUNDING * n);
+        assert_int_equal(triangle_set.joint_count, n - 3);
+        check_delaunay(&triangle_set);
+        oz_triangle_set_free(&triangle_set);
     }
 }
 
 static void refuse_corners(const double *corners, int count, const char *text)
 {
-    OzPatch patch;
-    assert_int_equal(oz_triangulation_make(&patch, corners, count, "grains.yaml:7"), OZ_ERR_INPUT);
+    OzTriangleSet triangle_set;
+    assert_int_equal(oz_triangulation_make(&triangle_set, corners, count, "grains.yaml:7"),
+                     OZ_ERR_INPUT);
     assert_string_equal(oz_status_text(), text);
-    assert_null(patch.vertex);
+    assert_null(triangle_set.vertex);
 }
 
 static void refuses_what_is_no_simple_polygon(void **state)

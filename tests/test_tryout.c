@@ -3,7 +3,7 @@
 #include "program.h"
 
 #include "draw/tryout.h"
-#include "model/place.h"
+#include "model/insert.h"
 #include "observe/frames.h"
 
 #include <sys/resource.h>
@@ -82,7 +82,7 @@ static void make_run(void)
     assert_int_equal(mkdir("run", 0777), 0);
     write_file("run/scene.yaml", "%s", text);
     assert_int_equal(oz_scene_parse(&scene, "scene.yaml", text, NULL, 0), OZ_OK);
-    assert_int_equal(oz_place_grains(&grains, &scene), OZ_OK);
+    assert_int_equal(oz_insert_grains(&grains, &scene), OZ_OK);
     assert_int_equal(oz_snapshot_create(&now, &scene, &grains), OZ_OK);
     now.quaternion[0] = 1;
     now.position[2] = 2e-3;

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "compute/dialect.h"
+#include "sim/dialect.h"
 
 #include "kernels/turn.h"
 
@@ -65,10 +65,10 @@ static void test_turning_keeps_its_length(void **state)
     OzShape sphere = {.inverse_inertia = 2, .inverse_inertia_axis = 2};
     for (int gyroscopic = 0; gyroscopic < 2; gyroscopic++) {
         OzBody body = {.turn = {0, 0, 0, 1}};
-        OzVec3 spin = {0.6, 0, 0.8};
+        OzVec3 angular_velocity = {0.6, 0, 0.8};
         dialect = (OzSwitches){.gyroscopic = gyroscopic};
         for (int i = 0; i < 10000; i++) {
-            oz_body_turn(&body, spin, sphere, gyroscopic ? 0.5 : 1);
+            oz_body_turn(&body, angular_velocity, sphere, gyroscopic ? 0.5 : 1);
             /* the series' error at 1 rad */
             assert_true(fabs(length_of(body.turn) - 1) < 1e-8);
         }

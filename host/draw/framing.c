@@ -180,7 +180,7 @@ static void frame_standing(OzLook *look, const OzScene *scene, const OzSnapshot 
 
 OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
 {
-    bool flat = snapshot->grains->pieces != NULL;
+    bool flat = snapshot->grains->elements != NULL;
     OzLook look = {.width = 1280,
                    .height = 720,
                    .views = {OZ_VIEW_LATERAL, OZ_VIEW_CUT},

@@ -31,15 +31,15 @@ static void add_triangle(double sums[3], const double corners[6], const double c
 
 double oz_long_axis_find(const OzSnapshot *snapshot, int64_t grain, double *strength)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
+    const OzElements *elements = snapshot->grains->elements;
     double sums[3] = {0, 0, 0};
-    for (int64_t i = pieces->first[grain]; i < pieces->first[grain + 1]; i++) {
+    for (int64_t i = elements->first[grain]; i < elements->first[grain + 1]; i++) {
         double corners[6];
-        if (pieces->radius[i] > 0) {
+        if (elements->radius[i] > 0) {
             continue;
         }
-        oz_pieces_corners(pieces, i, snapshot->piece_position + 2 * i, snapshot->piece_angle[i],
-                          corners);
+        oz_elements_corners(elements, i, snapshot->element_position + 2 * i,
+                            snapshot->element_angle[i], corners);
         add_triangle(sums, corners, snapshot->position + 3 * grain);
     }
     *strength = sums[2] > 0 ? hypot(sums[0], sums[1]) / sums[2] : 0;

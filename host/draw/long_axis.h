@@ -1,7 +1,7 @@
 /* The direction in which a flat grain is longest. */
 #pragma once
 
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
 /* rad, from 0 to pi counter-clockwise from x: the principal axis of the grain's area as it lies
  * now, about which its second moment is least. *strength receives how far that axis stands out,

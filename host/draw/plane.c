@@ -20,9 +20,9 @@ static void take_point(Room *room, const double point[2], double reach)
 
 static void take_grains(Room *room, const OzSnapshot *snapshot)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
-    for (int64_t i = 0; i < pieces->free_count; i++) {
-        take_point(room, snapshot->piece_position + 2 * i, pieces->reach[i]);
+    const OzElements *elements = snapshot->grains->elements;
+    for (int64_t i = 0; i < elements->free_count; i++) {
+        take_point(room, snapshot->element_position + 2 * i, elements->reach[i]);
     }
 }
 
@@ -42,13 +42,13 @@ static void take_wall_point(Room *room, const OzWall *wall, const double point[2
 
 static void take_walls(Room *room, const OzScene *scene, const OzSnapshot *snapshot)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
-    for (int64_t i = pieces->free_count; i < pieces->count; i++) {
+    const OzElements *elements = snapshot->grains->elements;
+    for (int64_t i = elements->free_count; i < elements->count; i++) {
         double corners[6];
-        oz_pieces_corners(pieces, i, snapshot->piece_position + 2 * i, snapshot->piece_angle[i],
-                          corners);
+        oz_elements_corners(elements, i, snapshot->element_position + 2 * i,
+                            snapshot->element_angle[i], corners);
         for (int c = 0; c < 3; c++) {
-            take_wall_point(room, &scene->walls[pieces->body[i] - pieces->grain_count],
+            take_wall_point(room, &scene->walls[elements->body[i] - elements->grain_count],
                             corners + 2 * c);
         }
     }

@@ -1,5 +1,5 @@
 /* Triangles of flat grains, gathered on the host. Knows nothing of how a grain is put together
- * beyond its pieces, outlines and beams. */
+ * beyond its elements, outlines and beams. */
 #include "draw/polygons.h"
 
 #include "base/memory.h"
@@ -15,21 +15,21 @@ static const float WALL[4] = {0.74f, 0.755f, 0.78f, 1.0f};
 static const float BEAM[3] = {0.85f, 0.20f, 0.12f};
 
 enum {
-    FAR = 10000,            /* pixels: an edge without outline is never near             */
-    SECTORS_LEAST = 12,     /* of a disc, however small                                   */
-    SECTORS_MOST = 180,     /* and however large: a tenth of a pixel from round at 600    */
-    MARKED_PIECES_MOST = 4, /* grains of more pieces turn visibly without a darker one     */
+    FAR = 10000,              /* pixels: an edge without outline is never near             */
+    SECTORS_LEAST = 12,       /* of a disc, however small                                   */
+    SECTORS_MOST = 180,       /* and however large: a tenth of a pixel from round at 600    */
+    MARKED_ELEMENTS_MOST = 4, /* grains of more elements turn visibly without a darker one     */
     EVERY_EDGE = 7
 };
 
-/* One piece about to be added. */
-typedef struct Piece {
+/* One element about to be added. */
+typedef struct Element {
     const OzSnapshot *snapshot;
     const OzCamera *camera;
     int64_t index;
     int edges; /* bits: of 0..2, those with an outline */
     float rgba[4], ink[3];
-} Piece;
+} Element;
 
 static void describe_corners(const OzGl *gl)
 {
@@ -145,9 +145,10 @@ static int sectors_of(double radius_pixels)
 }
 
 /* A fan with the disc's area. */
-static void add_fan(OzPolygons *polygons, const Piece *piece, const double centre[2], double radius)
+static void add_fan(OzPolygons *polygons, const Element *element, const double centre[2],
+                    double radius)
 {
-    int sectors = sectors_of(radius * piece->camera->scale);
+    int sectors = sectors_of(radius * element->camera->scale);
     double turn = 2 * PI / sectors, reach = radius * sqrt(turn / sin(turn));
     for (int i = 0; i < sectors; i++) {
         const double view[6] = {centre[0],
@@ -156,7 +157,7 @@ static void add_fan(OzPolygons *polygons, const Piece *piece, const double centr
                                 centre[1] + reach * sin(turn * i),
                                 centre[0] + reach * cos(turn * (i + 1)),
                                 centre[1] + reach * sin(turn * (i + 1))};
-        add_triangle(polygons, view, piece->rgba, piece->ink, 1 << 1, piece->camera);
+        add_triangle(polygons, view, element->rgba, element->ink, 1 << 1, element->camera);
     }
 }
 
@@ -165,43 +166,44 @@ static double line_width(const OzCamera *camera)
     return fmax(1.0, 0.002 * fmax(camera->content_width, camera->content_height));
 }
 
-static void add_disc(OzPolygons *polygons, const Piece *piece)
+static void add_disc(OzPolygons *polygons, const Element *element)
 {
-    const OzSnapshot *s = piece->snapshot;
-    const double *centre = s->piece_position + 2 * piece->index;
-    double radius = s->grains->pieces->radius[piece->index], angle = s->piece_angle[piece->index];
-    double view[2], width = line_width(piece->camera);
-    double end = radius - 0.5 * width * piece->camera->unit / piece->camera->scale;
+    const OzSnapshot *s = element->snapshot;
+    const double *centre = s->element_position + 2 * element->index;
+    double radius = s->grains->elements->radius[element->index],
+           angle = s->element_angle[element->index];
+    double view[2], width = line_width(element->camera);
+    double end = radius - 0.5 * width * element->camera->unit / element->camera->scale;
     double rim[2] = {centre[0] + end * cos(angle), centre[1] + end * sin(angle)};
-    float ink[4] = {piece->ink[0], piece->ink[1], piece->ink[2], piece->rgba[3]};
-    see(piece->camera, centre, view);
-    add_fan(polygons, piece, view, radius / piece->camera->unit);
-    add_line(polygons, piece->camera, centre, rim, 1.5 * width, ink);
+    float ink[4] = {element->ink[0], element->ink[1], element->ink[2], element->rgba[3]};
+    see(element->camera, centre, view);
+    add_fan(polygons, element, view, radius / element->camera->unit);
+    add_line(polygons, element->camera, centre, rim, 1.5 * width, ink);
 }
 
-static void add_piece(OzPolygons *polygons, const Piece *piece)
+static void add_element(OzPolygons *polygons, const Element *element)
 {
-    const OzSnapshot *s = piece->snapshot;
-    const OzPieces *pieces = s->grains->pieces;
-    int64_t i = piece->index;
+    const OzSnapshot *s = element->snapshot;
+    const OzElements *elements = s->grains->elements;
+    int64_t i = element->index;
     double corners[6], view[6];
-    if (pieces->radius[i] > 0) {
-        add_disc(polygons, piece);
+    if (elements->radius[i] > 0) {
+        add_disc(polygons, element);
         return;
     }
-    oz_pieces_corners(pieces, i, s->piece_position + 2 * i, s->piece_angle[i], corners);
+    oz_elements_corners(elements, i, s->element_position + 2 * i, s->element_angle[i], corners);
     for (int k = 0; k < 3; k++) {
-        see(piece->camera, corners + 2 * k, view + 2 * k);
+        see(element->camera, corners + 2 * k, view + 2 * k);
     }
-    add_triangle(polygons, view, piece->rgba, piece->ink, piece->edges, piece->camera);
+    add_triangle(polygons, view, element->rgba, element->ink, element->edges, element->camera);
 }
 
-/* The outlined edges of piece i; *next moves on over the list, which is in order of pieces. */
-static int edges_of(const OzPieces *pieces, int64_t i, int64_t *next)
+/* The outlined edges of element i; *next moves on over the list, which is in order of elements. */
+static int edges_of(const OzElements *elements, int64_t i, int64_t *next)
 {
     int edges = 0;
-    for (; *next < pieces->outline_count && pieces->outline_piece[*next] <= i; ++*next) {
-        edges |= pieces->outline_piece[*next] == i ? 1 << pieces->outline_edge[*next] : 0;
+    for (; *next < elements->outline_count && elements->outline_element[*next] <= i; ++*next) {
+        edges |= elements->outline_element[*next] == i ? 1 << elements->outline_edge[*next] : 0;
     }
     return edges & EVERY_EDGE;
 }
@@ -222,18 +224,19 @@ static bool wall_is_gone(const OzSnapshot *snapshot, int64_t wall)
     return until > 0 && snapshot->time >= until;
 }
 
-/* Lines along the outer edges of a wall's piece, to both sides. */
-static void add_edges(OzPolygons *polygons, const Piece *piece)
+/* Lines along the outer edges of a wall's element, to both sides. */
+static void add_edges(OzPolygons *polygons, const Element *element)
 {
-    const OzSnapshot *s = piece->snapshot;
-    int64_t i = piece->index;
+    const OzSnapshot *s = element->snapshot;
+    int64_t i = element->index;
     double corners[6];
-    float ink[4] = {piece->ink[0], piece->ink[1], piece->ink[2], 1};
-    oz_pieces_corners(s->grains->pieces, i, s->piece_position + 2 * i, s->piece_angle[i], corners);
+    float ink[4] = {element->ink[0], element->ink[1], element->ink[2], 1};
+    oz_elements_corners(s->grains->elements, i, s->element_position + 2 * i, s->element_angle[i],
+                        corners);
     for (int e = 0; e < 3; e++) {
-        if (piece->edges & 1 << e) {
-            add_line(polygons, piece->camera, corners + 2 * e, corners + 2 * ((e + 1) % 3),
-                     2 * line_width(piece->camera), ink);
+        if (element->edges & 1 << e) {
+            add_line(polygons, element->camera, corners + 2 * e, corners + 2 * ((e + 1) % 3),
+                     2 * line_width(element->camera), ink);
         }
     }
 }
@@ -242,17 +245,17 @@ static void add_edges(OzPolygons *polygons, const Piece *piece)
 void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
                            const OzCamera *camera)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
-    Piece piece = {.snapshot = snapshot, .camera = camera};
-    memcpy(piece.rgba, WALL, sizeof piece.rgba);
-    choose_ink(WALL, piece.ink);
+    const OzElements *elements = snapshot->grains->elements;
+    Element element = {.snapshot = snapshot, .camera = camera};
+    memcpy(element.rgba, WALL, sizeof element.rgba);
+    choose_ink(WALL, element.ink);
     for (int fill = look->outlines ? 0 : 1; fill < 2; fill++) {
         int64_t next = 0;
-        for (int64_t i = pieces->free_count; i < pieces->count; i++) {
-            piece.index = i;
-            piece.edges = fill ? 0 : edges_of(pieces, i, &next);
-            if (!wall_is_gone(snapshot, pieces->body[i] - pieces->grain_count)) {
-                (fill ? add_piece : add_edges)(polygons, &piece);
+        for (int64_t i = elements->free_count; i < elements->count; i++) {
+            element.index = i;
+            element.edges = fill ? 0 : edges_of(elements, i, &next);
+            if (!wall_is_gone(snapshot, elements->body[i] - elements->grain_count)) {
+                (fill ? add_element : add_edges)(polygons, &element);
             }
         }
     }
@@ -261,39 +264,40 @@ void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, con
 static void add_beams(OzPolygons *polygons, const OzSnapshot *snapshot, const OzCamera *camera,
                       double presence)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
+    const OzElements *elements = snapshot->grains->elements;
     const float rgba[4] = {BEAM[0], BEAM[1], BEAM[2], (float)presence};
-    for (int64_t k = 0; k < pieces->beam_count; k++) {
-        add_line(polygons, camera, snapshot->piece_position + 2 * pieces->beam_a[k],
-                 snapshot->piece_position + 2 * pieces->beam_b[k], 1.4 * line_width(camera), rgba);
+    for (int64_t k = 0; k < elements->beam_count; k++) {
+        add_line(polygons, camera, snapshot->element_position + 2 * elements->beam_a[k],
+                 snapshot->element_position + 2 * elements->beam_b[k], 1.4 * line_width(camera),
+                 rgba);
     }
 }
 
-/* Whether a piece shows by its darker colour how its grain has turned. */
-static bool is_mark(const OzPieces *pieces, int64_t grain, int64_t i)
+/* Whether an element shows by its darker colour how its grain has turned. */
+static bool is_mark(const OzElements *elements, int64_t grain, int64_t i)
 {
-    int64_t count = pieces->first[grain + 1] - pieces->first[grain];
-    return i == pieces->first[grain] && count > 1 && count <= MARKED_PIECES_MOST;
+    int64_t count = elements->first[grain + 1] - elements->first[grain];
+    return i == elements->first[grain] && count > 1 && count <= MARKED_ELEMENTS_MOST;
 }
 
 void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
                             const OzCamera *camera, double presence)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
-    Piece piece = {.snapshot = snapshot, .camera = camera, .rgba = {0, 0, 0, (float)presence}};
+    const OzElements *elements = snapshot->grains->elements;
+    Element element = {.snapshot = snapshot, .camera = camera, .rgba = {0, 0, 0, (float)presence}};
     int64_t next = 0;
-    for (int64_t g = 0; g < pieces->grain_count; g++) {
+    for (int64_t g = 0; g < elements->grain_count; g++) {
         float rgb[3];
         oz_palette_grain(snapshot, look, g, rgb);
-        choose_ink(rgb, piece.ink);
-        for (int64_t i = pieces->first[g]; i < pieces->first[g + 1]; i++) {
-            float shade = is_mark(pieces, g, i) ? 0.6f : 1.0f;
+        choose_ink(rgb, element.ink);
+        for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
+            float shade = is_mark(elements, g, i) ? 0.6f : 1.0f;
             for (int k = 0; k < 3; k++) {
-                piece.rgba[k] = shade * rgb[k];
+                element.rgba[k] = shade * rgb[k];
             }
-            piece.index = i;
-            piece.edges = edges_of(pieces, i, &next);
-            add_piece(polygons, &piece);
+            element.index = i;
+            element.edges = edges_of(elements, i, &next);
+            add_element(polygons, &element);
         }
     }
     if (look->beams) {

@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 #include "draw/image.h"
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The quotient then is within a hundredth of the largest eigenvalue for grains of tens of pieces.
+/* The quotient then is within a hundredth of the largest eigenvalue for grains of tens of elements.
  */
 enum { ITERATIONS = 200 };
 
@@ -40,22 +40,22 @@ typedef struct Strain {
     double elongation, bend_a, bend_b;
 } Strain;
 
-static void move_of(const OzPieces *pieces, int i, const double *scaled, double move[3])
+static void move_of(const OzElements *elements, int i, const double *scaled, double move[3])
 {
-    move[0] = scaled[0] / sqrt(pieces->mass[i]);
-    move[1] = scaled[1] / sqrt(pieces->mass[i]);
-    move[2] = scaled[2] / sqrt(pieces->inertia[i]);
+    move[0] = scaled[0] / sqrt(elements->mass[i]);
+    move[1] = scaled[1] / sqrt(elements->mass[i]);
+    move[2] = scaled[2] / sqrt(elements->inertia[i]);
 }
 
-static Strain strain_of(const OzPieces *pieces, int64_t k, int64_t first, const double *q)
+static Strain strain_of(const OzElements *elements, int64_t k, int64_t first, const double *q)
 {
-    int a = pieces->beam_a[k], b = pieces->beam_b[k];
-    const double *x = pieces->position;
-    double at_a[3], at_b[3], length = pieces->beam_length[k];
+    int a = elements->beam_a[k], b = elements->beam_b[k];
+    const double *x = elements->position;
+    double at_a[3], at_b[3], length = elements->beam_length[k];
     Strain s = {
         {(x[2 * b] - x[2 * a]) / length, (x[2 * b + 1] - x[2 * a + 1]) / length}, length, 0, 0, 0};
-    move_of(pieces, a, q + 3 * (a - first), at_a);
-    move_of(pieces, b, q + 3 * (b - first), at_b);
+    move_of(elements, a, q + 3 * (a - first), at_a);
+    move_of(elements, b, q + 3 * (b - first), at_b);
     double apart[2] = {at_b[0] - at_a[0], at_b[1] - at_a[1]};
     double turn = (s.axis[0] * apart[1] - s.axis[1] * apart[0]) / length;
     s.elongation = s.axis[0] * apart[0] + s.axis[1] * apart[1];
@@ -65,25 +65,25 @@ static Strain strain_of(const OzPieces *pieces, int64_t k, int64_t first, const 
 }
 
 /* Adds what a pull and two moments that resist the strain give to the ends' scaled coordinates. */
-static void add_ends(const OzPieces *pieces, int64_t k, int64_t first, const Strain *s, double pull,
-                     double moment_a, double moment_b, double *out)
+static void add_ends(const OzElements *elements, int64_t k, int64_t first, const Strain *s,
+                     double pull, double moment_a, double moment_b, double *out)
 {
-    int ends[2] = {pieces->beam_a[k], pieces->beam_b[k]};
+    int ends[2] = {elements->beam_a[k], elements->beam_b[k]};
     double moments[2] = {moment_a, moment_b}, shear = (moment_a + moment_b) / s->length;
     for (int e = 0; e < 2; e++) {
         double sign = e == 0 ? -1 : 1, *o = out + 3 * (ends[e] - first);
-        double root = sqrt(pieces->mass[ends[e]]);
+        double root = sqrt(elements->mass[ends[e]]);
         o[0] += sign * (pull * s->axis[0] + shear * s->axis[1]) / root;
         o[1] += sign * (pull * s->axis[1] - shear * s->axis[0]) / root;
-        o[2] += moments[e] / sqrt(pieces->inertia[ends[e]]);
+        o[2] += moments[e] / sqrt(elements->inertia[ends[e]]);
     }
 }
 
-/* A grain's beams: those between its pieces. */
+/* A grain's beams: those between its elements. */
 typedef struct Network {
-    const OzPieces *pieces;
+    const OzElements *elements;
     const OzBeamValues *beams;
-    int64_t first, count;     /* pieces                    */
+    int64_t first, count;     /* elements                    */
     int64_t beam, beam_count; /* the grain's first, and all */
 } Network;
 
@@ -96,7 +96,7 @@ static int64_t apply(const Network *n, int damping, const double *q, double *out
         out[c] = 0;
     }
     for (int64_t k = n->beam; k < n->beam + n->beam_count; k++) {
-        Strain s = strain_of(n->pieces, k, n->first, q);
+        Strain s = strain_of(n->elements, k, n->first, q);
         double per_length = n->beams->second_moment / s.length;
         double bend = (damping ? gamma : 4 * stiffness) * per_length;
         double cross = damping ? 0 : 2 * stiffness * per_length;
@@ -104,7 +104,7 @@ static int64_t apply(const Network *n, int damping, const double *q, double *out
         double moment_a = bend * s.bend_a + cross * s.bend_b;
         double moment_b = cross * s.bend_a + bend * s.bend_b;
         double energy = pull * s.elongation + moment_a * s.bend_a + moment_b * s.bend_b;
-        add_ends(n->pieces, k, n->first, &s, pull, moment_a, moment_b, out);
+        add_ends(n->elements, k, n->first, &s, pull, moment_a, moment_b, out);
         most = energy > greatest ? k : most;
         greatest = fmax(energy, greatest);
     }
@@ -143,17 +143,17 @@ static double longest_edge(const double corner[6])
     return longest;
 }
 
-/* Squared angular frequency of a piece pressed to another alike, and *damping. A triangle whose
+/* Squared angular frequency of an element pressed to another alike, and *damping. A triangle whose
  * edge l lies in the other moves against Y l and turns against Y l^3 / 12. */
-static double contact_rate2(const OzScene *scene, const OzPieces *pieces, int64_t i,
+static double contact_rate2(const OzScene *scene, const OzElements *elements, int64_t i,
                             double *damping)
 {
-    double mass = pieces->mass[i], radius = pieces->radius[i];
+    double mass = elements->mass[i], radius = elements->radius[i];
     *damping = 0;
     if (radius <= 0) {
-        double edge = longest_edge(pieces->corner + 6 * i);
+        double edge = longest_edge(elements->corner + 6 * i);
         return 2 * scene->triangles.stiffness *
-               fmax(edge / mass, edge * edge * edge / (12 * pieces->inertia[i]));
+               fmax(edge / mass, edge * edge * edge / (12 * elements->inertia[i]));
     }
     OzContactConstants constants = oz_contact_constants_of(&scene->contact, &scene->contact);
     *damping = constants.damping;
@@ -169,7 +169,7 @@ static OzBeamLimit limit_of(const OzScene *scene, const Network *n, int64_t grai
     double touch = 0, touch_damping = 0, one;
     int64_t unused;
     for (int64_t i = n->first; i < n->first + n->count; i++) {
-        touch = fmax(touch, contact_rate2(scene, n->pieces, i, &one));
+        touch = fmax(touch, contact_rate2(scene, n->elements, i, &one));
         touch_damping = fmax(touch_damping, one);
     }
     double hold = largest(n, 0, scratch, scratch + 3 * n->count, &limit.beam);
@@ -192,20 +192,23 @@ static OzBeamLimit limit_of(const OzScene *scene, const Network *n, int64_t grai
 OzStatus oz_beam_limits_find(OzBeamLimit *limit, const OzScene *scene, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
-    const OzPieces *pieces = grains->pieces;
+    const OzElements *elements = grains->elements;
     double *scratch = NULL;
     int64_t most = 1, beam = 0;
     *limit = (OzBeamLimit){.grain = -1, .beam = -1, .largest_step = INFINITY};
-    for (int64_t g = 0; g < pieces->grain_count; g++) {
-        int64_t count = pieces->first[g + 1] - pieces->first[g];
+    for (int64_t g = 0; g < elements->grain_count; g++) {
+        int64_t count = elements->first[g + 1] - elements->first[g];
         most = count > most ? count : most;
     }
     OZ_TRY(OZ_NEW(&scratch, 6 * most));
-    for (int64_t g = 0; g < pieces->grain_count; g++) {
-        Network n = {
-            pieces, &scene->beams, pieces->first[g], pieces->first[g + 1] - pieces->first[g], beam,
-            0};
-        while (beam < pieces->beam_count && pieces->body[pieces->beam_a[beam]] == g) {
+    for (int64_t g = 0; g < elements->grain_count; g++) {
+        Network n = {elements,
+                     &scene->beams,
+                     elements->first[g],
+                     elements->first[g + 1] - elements->first[g],
+                     beam,
+                     0};
+        while (beam < elements->beam_count && elements->body[elements->beam_a[beam]] == g) {
             beam++;
         }
         n.beam_count = beam - n.beam;

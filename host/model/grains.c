@@ -24,7 +24,7 @@ OzStatus oz_grains_create(OzGrains *grains, int64_t count)
     OZ_TRY(OZ_NEW(&grains->position, 3 * count));
     OZ_TRY(OZ_NEW(&grains->quaternion, 4 * count));
     OZ_TRY(OZ_NEW(&grains->velocity, 3 * count));
-    OZ_TRY(OZ_NEW(&grains->spin, 3 * count));
+    OZ_TRY(OZ_NEW(&grains->angular_velocity, 3 * count));
 done:
     if (status != OZ_OK) {
         oz_grains_free(grains);
@@ -43,8 +43,8 @@ void oz_grains_free(OzGrains *grains)
     free(grains->position);
     free(grains->quaternion);
     free(grains->velocity);
-    free(grains->spin);
-    oz_pieces_free(grains->pieces);
+    free(grains->angular_velocity);
+    oz_elements_free(grains->elements);
     memset(grains, 0, sizeof *grains);
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/status.h"
-#include "model/pieces.h"
+#include "model/elements.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -11,19 +11,19 @@
 
 typedef struct OzGrains {
     int64_t count;
-    double *diameter;     /* m                                                     */
-    double *length;       /* m, shaft: aspect x diameter                           */
-    double *mass;         /* kg                                                    */
-    double *inertia;      /* kg m^2, about an axis across the shaft (P eq. 10)     */
-    double *inertia_axis; /* kg m^2, about the shaft                             */
-    int *population;      /* row of the scene's grains list                        */
-    double *position;     /* 3 x count: x y z of grain 0, then of grain 1, ...     */
-    double *quaternion;   /* 4 x count: w x y z; turns body z into the shaft axis  */
-    double *velocity;     /* 3 x count, m/s                                        */
-    double *spin;         /* 3 x count, rad/s, world frame                         */
-    OzPieces *pieces;     /* owned: what trigrains and their walls are made of; NULL for rods.
-                           * Grains then lie in the plane z = 0, turn about z, and diameter is
-                           * that of the smallest circle about the centre of mass; length is 0 */
+    double *diameter;         /* m                                                     */
+    double *length;           /* m, shaft: aspect x diameter                           */
+    double *mass;             /* kg                                                    */
+    double *inertia;          /* kg m^2, about an axis across the shaft (P eq. 10)     */
+    double *inertia_axis;     /* kg m^2, about the shaft                             */
+    int *population;          /* row of the scene's grains list                        */
+    double *position;         /* 3 x count: x y z of grain 0, then of grain 1, ...     */
+    double *quaternion;       /* 4 x count: w x y z; turns body z into the shaft axis  */
+    double *velocity;         /* 3 x count, m/s                                        */
+    double *angular_velocity; /* 3 x count, rad/s, world frame                         */
+    OzElements *elements;     /* owned: what trigrains and their walls are made of; NULL for rods.
+                               * Grains then lie in the plane z = 0, turn about z, and diameter is
+                               * that of the smallest circle about the centre of mass; length is 0 */
 } OzGrains;
 
 /* Allocates count zeroed grains; the caller frees with oz_grains_free. */
@@ -43,5 +43,6 @@ void oz_grains_quaternion(const double axis[3], double quaternion[4]);
 /* Volume of a spherocylinder, m^3. */
 double oz_grains_volume(double diameter, double length);
 
-/* Refuses, with OZ_ERR_INPUT, more grains than this machine's memory holds whatever else the scene asks for. */
+/* Refuses, with OZ_ERR_INPUT, more grains than this machine's memory holds whatever else the scene
+ * asks for. */
 OzStatus oz_grains_check_memory(const char *scene_path, int64_t count);

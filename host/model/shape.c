@@ -28,66 +28,66 @@ static int draw_whole(OzRandom *random, const OzRange *range)
 
 /* A triangle on each edge of the polygon that is in the first vertices, about the last vertex;
  * joined, the centre of mass in the origin. */
-static OzStatus fan(OzPatch *patch)
+static OzStatus fan(OzTriangleSet *triangle_set)
 {
-    int n = patch->triangle_count;
+    int n = triangle_set->triangle_count;
     for (int i = 0; i < n; i++) {
-        patch->triangle[3 * i] = n;
-        patch->triangle[3 * i + 1] = i;
-        patch->triangle[3 * i + 2] = (i + 1) % n;
+        triangle_set->triangle[3 * i] = n;
+        triangle_set->triangle[3 * i + 1] = i;
+        triangle_set->triangle[3 * i + 2] = (i + 1) % n;
     }
-    OzStatus status = oz_patch_join(patch);
+    OzStatus status = oz_triangle_set_join(triangle_set);
     if (status == OZ_OK) {
-        oz_patch_centre(patch);
+        oz_triangle_set_centre(triangle_set);
     }
     return status;
 }
 
-static void put(OzPatch *patch, int vertex, double angle, double radius)
+static void put(OzTriangleSet *triangle_set, int vertex, double angle, double radius)
 {
-    patch->vertex[2 * vertex] = radius * cos(angle);
-    patch->vertex[2 * vertex + 1] = radius * sin(angle);
+    triangle_set->vertex[2 * vertex] = radius * cos(angle);
+    triangle_set->vertex[2 * vertex + 1] = radius * sin(angle);
 }
 
-static OzStatus make_square(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
-                            OzRandom *random)
+static OzStatus make_square(OzTriangleSet *triangle_set, const OzScene *scene,
+                            const OzPopulation *population, OzRandom *random)
 {
     (void)scene;
     double edge = draw(random, &population->edge);
-    OzStatus status = oz_patch_create(patch, 5, 4);
+    OzStatus status = oz_triangle_set_create(triangle_set, 5, 4);
     for (int i = 0; status == OZ_OK && i < 4; i++) {
-        patch->vertex[2 * i] = i == 0 || i == 3 ? -edge / 2 : edge / 2;
-        patch->vertex[2 * i + 1] = i < 2 ? -edge / 2 : edge / 2;
+        triangle_set->vertex[2 * i] = i == 0 || i == 3 ? -edge / 2 : edge / 2;
+        triangle_set->vertex[2 * i + 1] = i < 2 ? -edge / 2 : edge / 2;
     }
-    return status == OZ_OK ? fan(patch) : status;
+    return status == OZ_OK ? fan(triangle_set) : status;
 }
 
-static OzStatus make_polygon(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
-                             OzRandom *random)
+static OzStatus make_polygon(OzTriangleSet *triangle_set, const OzScene *scene,
+                             const OzPopulation *population, OzRandom *random)
 {
     (void)scene;
     int n = draw_whole(random, &population->corners);
     double radius = draw(random, &population->radius), q = population->irregularity;
-    OzStatus status = oz_patch_create(patch, n + 1, n);
+    OzStatus status = oz_triangle_set_create(triangle_set, n + 1, n);
     for (int i = 0; status == OZ_OK && i < n; i++) {
         double turn = 0.4 * q * PI / n * oz_random_uniform(random, -1, 1);
         double inward = 0.5 * q * oz_random_uniform(random, 0, 1);
-        put(patch, i, 2 * PI * i / n + turn, radius * (1 - inward));
+        put(triangle_set, i, 2 * PI * i / n + turn, radius * (1 - inward));
     }
-    return status == OZ_OK ? fan(patch) : status;
+    return status == OZ_OK ? fan(triangle_set) : status;
 }
 
-static OzStatus make_star(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
-                          OzRandom *random)
+static OzStatus make_star(OzTriangleSet *triangle_set, const OzScene *scene,
+                          const OzPopulation *population, OzRandom *random)
 {
     (void)scene;
     int n = 2 * draw_whole(random, &population->corners);
     double radius = draw(random, &population->radius);
-    OzStatus status = oz_patch_create(patch, n + 1, n);
+    OzStatus status = oz_triangle_set_create(triangle_set, n + 1, n);
     for (int i = 0; status == OZ_OK && i < n; i++) {
-        put(patch, i, 2 * PI * i / n, i % 2 ? population->depth * radius : radius);
+        put(triangle_set, i, 2 * PI * i / n, i % 2 ? population->depth * radius : radius);
     }
-    return status == OZ_OK ? fan(patch) : status;
+    return status == OZ_OK ? fan(triangle_set) : status;
 }
 
 /* What a grain has least of. */
@@ -95,14 +95,14 @@ typedef struct Least {
     double length, area; /* m, m^2 */
 } Least;
 
-static Least least_of(const OzPatch *patch)
+static Least least_of(const OzTriangleSet *triangle_set)
 {
     Least least = {INFINITY, INFINITY};
-    for (int k = 0; k < patch->joint_count; k++) {
-        least.length = fmin(least.length, oz_patch_joint_length(patch, k));
+    for (int k = 0; k < triangle_set->joint_count; k++) {
+        least.length = fmin(least.length, oz_triangle_set_joint_length(triangle_set, k));
     }
-    for (int t = 0; t < patch->triangle_count; t++) {
-        least.area = fmin(least.area, oz_patch_area(patch, t));
+    for (int t = 0; t < triangle_set->triangle_count; t++) {
+        least.area = fmin(least.area, oz_triangle_set_area(triangle_set, t));
     }
     return least;
 }
@@ -115,10 +115,10 @@ static bool is_within(const Least *least, const OzBeamValues *limits)
 }
 
 /* The outline of a cut polygon with a triangle on each edge about its centre of mass, which keeps
- * every symmetry. *made stays false where that centre does not see all edges, or a piece would be
- * below the limits. */
-static OzStatus cut_about_centre(OzPatch *patch, const OzPatch *cut, const OzBeamValues *limits,
-                                 bool *made)
+ * every symmetry. *made stays false where that centre does not see all edges, or an element would
+ * be below the limits. */
+static OzStatus cut_about_centre(OzTriangleSet *triangle_set, const OzTriangleSet *cut,
+                                 const OzBeamValues *limits, bool *made)
 {
     int n = cut->vertex_count;
     *made = true;
@@ -129,60 +129,62 @@ static OzStatus cut_about_centre(OzPatch *patch, const OzPatch *cut, const OzBea
     if (!*made) {
         return OZ_OK;
     }
-    OZ_PASS(oz_patch_create(patch, n + 1, n));
-    memcpy(patch->vertex, cut->vertex, (size_t)(2 * n) * sizeof *cut->vertex);
-    OZ_PASS(fan(patch));
-    Least least = least_of(patch);
+    OZ_PASS(oz_triangle_set_create(triangle_set, n + 1, n));
+    memcpy(triangle_set->vertex, cut->vertex, (size_t)(2 * n) * sizeof *cut->vertex);
+    OZ_PASS(fan(triangle_set));
+    Least least = least_of(triangle_set);
     *made = is_within(&least, limits);
     return OZ_OK;
 }
 
 /* Into as few triangles as there can be, or where those are less symmetric than the outline about
  * its middle if that can be. */
-static OzStatus make_vertices(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
-                              OzRandom *random)
+static OzStatus make_vertices(OzTriangleSet *triangle_set, const OzScene *scene,
+                              const OzPopulation *population, OzRandom *random)
 {
     (void)random;
     OzStatus status = OZ_OK;
-    OzPatch about = {0};
+    OzTriangleSet about = {0};
     bool made = false;
     char where[1024];
     snprintf(where, sizeof where, "%s:%d", scene->path, population->line);
-    OZ_TRY(oz_triangulation_make(patch, population->vertices, population->vertex_count / 2, where));
-    oz_patch_centre(patch);
-    if (!oz_symmetry_is_kept(patch)) {
-        OZ_TRY(cut_about_centre(&about, patch, &scene->beams, &made));
+    OZ_TRY(oz_triangulation_make(triangle_set, population->vertices, population->vertex_count / 2,
+                                 where));
+    oz_triangle_set_centre(triangle_set);
+    if (!oz_symmetry_is_kept(triangle_set)) {
+        OZ_TRY(cut_about_centre(&about, triangle_set, &scene->beams, &made));
     }
     if (made) {
-        oz_patch_free(patch);
-        *patch = about;
-        about = (OzPatch){0};
+        oz_triangle_set_free(triangle_set);
+        *triangle_set = about;
+        about = (OzTriangleSet){0};
     }
 done:
-    oz_patch_free(&about);
+    oz_triangle_set_free(&about);
     return status;
 }
 
 bool oz_shape_keeps_symmetry(const OzScene *scene, const OzPopulation *population)
 {
-    OzPatch patch = {0};
+    OzTriangleSet triangle_set = {0};
     bool kept = population->shape != OZ_SHAPE_VERTICES ||
-                make_vertices(&patch, scene, population, NULL) != OZ_OK ||
-                patch.vertex_count > population->vertex_count / 2 || oz_symmetry_is_kept(&patch);
-    oz_patch_free(&patch);
+                make_vertices(&triangle_set, scene, population, NULL) != OZ_OK ||
+                triangle_set.vertex_count > population->vertex_count / 2 ||
+                oz_symmetry_is_kept(&triangle_set);
+    oz_triangle_set_free(&triangle_set);
     return kept;
 }
 
-static OzStatus make_disc(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
-                          OzRandom *random)
+static OzStatus make_disc(OzTriangleSet *triangle_set, const OzScene *scene,
+                          const OzPopulation *population, OzRandom *random)
 {
     (void)scene;
-    oz_patch_set_disc(patch, draw(random, &population->radius));
+    oz_triangle_set_set_disc(triangle_set, draw(random, &population->radius));
     return OZ_OK;
 }
 
 #define ROW(NAME, name, choice) [OZ_SHAPE_##NAME] = make_##name,
-static OzStatus (*const makers[])(OzPatch *patch, const OzScene *scene,
+static OzStatus (*const makers[])(OzTriangleSet *triangle_set, const OzScene *scene,
                                   const OzPopulation *population,
                                   OzRandom *random) = {OZ_SHAPES(ROW)};
 #undef ROW
@@ -214,27 +216,27 @@ static OzStatus refuse(const OzScene *scene, const OzPopulation *population, con
     return oz_status_fail(
         OZ_ERR_INPUT,
         "%s:%d: a grain%s has a triangle of %.3g m^2, below beams.area_min %g m^2: so light a "
-        "piece would need tiny steps; expected larger grains, fewer corners, or a lower "
+        "element would need tiny steps; expected larger grains, fewer corners, or a lower "
         "beams.area_min",
         scene->path, population->line, draws, least->area, limits->area_min);
 }
 
-OzStatus oz_shape_make(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
-                       OzRandom *random)
+OzStatus oz_shape_make(OzTriangleSet *triangle_set, const OzScene *scene,
+                       const OzPopulation *population, OzRandom *random)
 {
     OzStatus status = OZ_OK;
     Least least = {0, 0};
     for (int i = 0; i < (is_open(population) ? DRAW_LIMIT : 1); i++) {
-        *patch = (OzPatch){0};
-        OZ_TRY(makers[population->shape](patch, scene, population, random));
-        least = least_of(patch);
+        *triangle_set = (OzTriangleSet){0};
+        OZ_TRY(makers[population->shape](triangle_set, scene, population, random));
+        least = least_of(triangle_set);
         if (is_within(&least, &scene->beams)) {
             return OZ_OK;
         }
-        oz_patch_free(patch);
+        oz_triangle_set_free(triangle_set);
     }
     status = refuse(scene, population, &least);
 done:
-    oz_patch_free(patch);
+    oz_triangle_set_free(triangle_set);
     return status;
 }

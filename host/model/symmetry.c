@@ -18,54 +18,55 @@ static int image(const Map *map, int corner)
     return (to % map->count + map->count) % map->count;
 }
 
-static double distance(const OzPatch *patch, int a, int b)
+static double distance(const OzTriangleSet *triangle_set, int a, int b)
 {
-    const double *p = patch->vertex + 2 * a, *q = patch->vertex + 2 * b;
+    const double *p = triangle_set->vertex + 2 * a, *q = triangle_set->vertex + 2 * b;
     return hypot(p[0] - q[0], p[1] - q[1]);
 }
 
 /* Twice the area of three corners, counter-clockwise positive. */
-static double cross(const OzPatch *patch, const int corner[3])
+static double cross(const OzTriangleSet *triangle_set, const int corner[3])
 {
-    const double *a = patch->vertex + 2 * corner[0], *b = patch->vertex + 2 * corner[1],
-                 *c = patch->vertex + 2 * corner[2];
+    const double *a = triangle_set->vertex + 2 * corner[0],
+                 *b = triangle_set->vertex + 2 * corner[1],
+                 *c = triangle_set->vertex + 2 * corner[2];
     return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
 }
 
 /* Edges and turns in a row determine a polygon: those of a corner and of its image are the same. */
-static bool agrees_at(const OzPatch *patch, const Map *map, int i, double size)
+static bool agrees_at(const OzTriangleSet *triangle_set, const Map *map, int i, double size)
 {
     const int here[3] = {i, (i + 1) % map->count, (i + 2) % map->count};
     int there[3];
     for (int k = 0; k < 3; k++) {
         there[k] = image(map, here[k]);
     }
-    double turn = cross(patch, there) * (map->mirrored ? -1 : 1);
-    return fabs(distance(patch, here[0], here[1]) - distance(patch, there[0], there[1])) <=
-               TOLERANCE * size &&
-           fabs(distance(patch, here[0], here[2]) - distance(patch, there[0], there[2])) <=
-               TOLERANCE * size &&
-           fabs(cross(patch, here) - turn) <= TOLERANCE * size * size;
+    double turn = cross(triangle_set, there) * (map->mirrored ? -1 : 1);
+    return fabs(distance(triangle_set, here[0], here[1]) -
+                distance(triangle_set, there[0], there[1])) <= TOLERANCE * size &&
+           fabs(distance(triangle_set, here[0], here[2]) -
+                distance(triangle_set, there[0], there[2])) <= TOLERANCE * size &&
+           fabs(cross(triangle_set, here) - turn) <= TOLERANCE * size * size;
 }
 
-static bool maps_outline(const OzPatch *patch, const Map *map)
+static bool maps_outline(const OzTriangleSet *triangle_set, const Map *map)
 {
     double size = 0;
     for (int i = 0; i < map->count; i++) {
-        size = fmax(size, distance(patch, 0, i));
+        size = fmax(size, distance(triangle_set, 0, i));
     }
     for (int i = 0; i < map->count; i++) {
-        if (!agrees_at(patch, map, i, size)) {
+        if (!agrees_at(triangle_set, map, i, size)) {
             return false;
         }
     }
     return true;
 }
 
-static bool has_triangle(const OzPatch *patch, const int corner[3])
+static bool has_triangle(const OzTriangleSet *triangle_set, const int corner[3])
 {
-    for (int t = 0; t < patch->triangle_count; t++) {
-        const int *own = patch->triangle + 3 * t;
+    for (int t = 0; t < triangle_set->triangle_count; t++) {
+        const int *own = triangle_set->triangle + 3 * t;
         int same = 0;
         for (int k = 0; k < 9; k++) {
             same += own[k / 3] == corner[k % 3];
@@ -77,25 +78,25 @@ static bool has_triangle(const OzPatch *patch, const int corner[3])
     return false;
 }
 
-static bool maps_triangles(const OzPatch *patch, const Map *map)
+static bool maps_triangles(const OzTriangleSet *triangle_set, const Map *map)
 {
-    for (int t = 0; t < patch->triangle_count; t++) {
+    for (int t = 0; t < triangle_set->triangle_count; t++) {
         int corner[3];
         for (int k = 0; k < 3; k++) {
-            corner[k] = image(map, patch->triangle[3 * t + k]);
+            corner[k] = image(map, triangle_set->triangle[3 * t + k]);
         }
-        if (!has_triangle(patch, corner)) {
+        if (!has_triangle(triangle_set, corner)) {
             return false;
         }
     }
     return true;
 }
 
-bool oz_symmetry_is_kept(const OzPatch *patch)
+bool oz_symmetry_is_kept(const OzTriangleSet *triangle_set)
 {
-    for (int k = 0; k < 2 * patch->vertex_count; k++) {
-        Map map = {k / 2, patch->vertex_count, k % 2};
-        if (maps_outline(patch, &map) && !maps_triangles(patch, &map)) {
+    for (int k = 0; k < 2 * triangle_set->vertex_count; k++) {
+        Map map = {k / 2, triangle_set->vertex_count, k % 2};
+        if (maps_outline(triangle_set, &map) && !maps_triangles(triangle_set, &map)) {
             return false;
         }
     }

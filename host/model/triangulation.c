@@ -132,9 +132,9 @@ static double ear_quality(const Ring *ring, int i)
     return quality(a, b, c);
 }
 
-static OzStatus clip_ears(OzPatch *patch, Ring *ring, const char *where)
+static OzStatus clip_ears(OzTriangleSet *triangle_set, Ring *ring, const char *where)
 {
-    for (int t = 0; t < patch->triangle_count; t++) {
+    for (int t = 0; t < triangle_set->triangle_count; t++) {
         int best = 0;
         double most = -1;
         for (int i = 0; i < ring->count; i++) {
@@ -151,9 +151,9 @@ static OzStatus clip_ears(OzPatch *patch, Ring *ring, const char *where)
                                   where);
         }
         int n = ring->count--;
-        patch->triangle[3 * t] = ring->corner[(best + n - 1) % n];
-        patch->triangle[3 * t + 1] = ring->corner[best];
-        patch->triangle[3 * t + 2] = ring->corner[(best + 1) % n];
+        triangle_set->triangle[3 * t] = ring->corner[(best + n - 1) % n];
+        triangle_set->triangle[3 * t + 1] = ring->corner[best];
+        triangle_set->triangle[3 * t + 2] = ring->corner[(best + 1) % n];
         for (int i = best; i < ring->count; i++) {
             ring->corner[i] = ring->corner[i + 1];
         }
@@ -162,23 +162,23 @@ static OzStatus clip_ears(OzPatch *patch, Ring *ring, const char *where)
 }
 
 /* The corner of triangle t that follows `side` places after its first. */
-static int corner_at(const OzPatch *patch, int t, int side)
+static int corner_at(const OzTriangleSet *triangle_set, int t, int side)
 {
-    return patch->triangle[3 * t + side % 3];
+    return triangle_set->triangle[3 * t + side % 3];
 }
 
 /* Flips the edge `side` of s with t's across, when both have it and the other diagonal is better.
  * Of the two diagonals of a convex quadrilateral the one whose opposite angles sum to less than
  * half a turn is Delaunay's: sin of that sum > 0. */
-static bool flip(OzPatch *patch, int s, int t, int side, int across)
+static bool flip(OzTriangleSet *triangle_set, int s, int t, int side, int across)
 {
-    int a = corner_at(patch, s, side), b = corner_at(patch, s, side + 1);
-    if (corner_at(patch, t, across) != b || corner_at(patch, t, across + 1) != a) {
+    int a = corner_at(triangle_set, s, side), b = corner_at(triangle_set, s, side + 1);
+    if (corner_at(triangle_set, t, across) != b || corner_at(triangle_set, t, across + 1) != a) {
         return false;
     }
-    int c = corner_at(patch, s, side + 2), d = corner_at(patch, t, across + 2);
-    const double *A = patch->vertex + 2 * a, *B = patch->vertex + 2 * b, *C = patch->vertex + 2 * c,
-                 *D = patch->vertex + 2 * d;
+    int c = corner_at(triangle_set, s, side + 2), d = corner_at(triangle_set, t, across + 2);
+    const double *A = triangle_set->vertex + 2 * a, *B = triangle_set->vertex + 2 * b,
+                 *C = triangle_set->vertex + 2 * c, *D = triangle_set->vertex + 2 * d;
     double cos_c = (A[0] - C[0]) * (B[0] - C[0]) + (A[1] - C[1]) * (B[1] - C[1]);
     double cos_d = (B[0] - D[0]) * (A[0] - D[0]) + (B[1] - D[1]) * (A[1] - D[1]);
     double sin_c = cross(C, A, B), sin_d = cross(D, B, A);
@@ -188,17 +188,17 @@ static bool flip(OzPatch *patch, int s, int t, int side, int across)
     if (!convex || sin_c * cos_d + cos_c * sin_d >= -1e-12 * scale) {
         return false;
     }
-    int *first = patch->triangle + 3 * s, *second = patch->triangle + 3 * t;
+    int *first = triangle_set->triangle + 3 * s, *second = triangle_set->triangle + 3 * t;
     first[0] = c, first[1] = a, first[2] = d;
     second[0] = d, second[1] = b, second[2] = c;
     return true;
 }
 
-static bool flip_any(OzPatch *patch, int s)
+static bool flip_any(OzTriangleSet *triangle_set, int s)
 {
-    for (int t = s + 1; t < patch->triangle_count; t++) {
+    for (int t = s + 1; t < triangle_set->triangle_count; t++) {
         for (int pair = 0; pair < 9; pair++) {
-            if (flip(patch, s, t, pair / 3, pair % 3)) {
+            if (flip(triangle_set, s, t, pair / 3, pair % 3)) {
                 return true;
             }
         }
@@ -206,37 +206,37 @@ static bool flip_any(OzPatch *patch, int s)
     return false;
 }
 
-static void flip_all(OzPatch *patch)
+static void flip_all(OzTriangleSet *triangle_set)
 {
     /* Every flip lowers the surface over the paraboloid, so this ends; a bound guards rounding. */
-    int left = patch->triangle_count * patch->triangle_count;
-    for (int s = 0; s < patch->triangle_count && left > 0; s++) {
-        if (flip_any(patch, s)) {
+    int left = triangle_set->triangle_count * triangle_set->triangle_count;
+    for (int s = 0; s < triangle_set->triangle_count && left > 0; s++) {
+        if (flip_any(triangle_set, s)) {
             s = -1;
             left--;
         }
     }
 }
 
-static void fill_ring(Ring *ring, OzPatch *patch, const double *corners, bool reversed)
+static void fill_ring(Ring *ring, OzTriangleSet *triangle_set, const double *corners, bool reversed)
 {
-    int n = patch->vertex_count;
+    int n = triangle_set->vertex_count;
     for (int i = 0; i < n; i++) {
         int from = reversed ? n - 1 - i : i;
-        patch->vertex[2 * i] = corners[2 * from];
-        patch->vertex[2 * i + 1] = corners[2 * from + 1];
+        triangle_set->vertex[2 * i] = corners[2 * from];
+        triangle_set->vertex[2 * i + 1] = corners[2 * from + 1];
         ring->corner[i] = i;
     }
-    ring->p = patch->vertex;
+    ring->p = triangle_set->vertex;
     ring->count = n;
 }
 
-OzStatus oz_triangulation_make(OzPatch *patch, const double *corners, int corner_count,
+OzStatus oz_triangulation_make(OzTriangleSet *triangle_set, const double *corners, int corner_count,
                                const char *where)
 {
     OzStatus status = OZ_OK;
     Ring ring = {0};
-    *patch = (OzPatch){0};
+    *triangle_set = (OzTriangleSet){0};
     if (corner_count < 3 || corner_count > OZ_CORNERS_MAX) {
         return oz_status_fail(OZ_ERR_INPUT, "%s: a grain of %d corners; expected 3 to %d", where,
                               corner_count, OZ_CORNERS_MAX);
@@ -245,15 +245,15 @@ OzStatus oz_triangulation_make(OzPatch *patch, const double *corners, int corner
     OZ_TRY(check_corners(corners, corner_count, where));
     OZ_TRY(check_edges(corners, corner_count, where));
     OZ_TRY(OZ_NEW(&ring.corner, corner_count));
-    OZ_TRY(oz_patch_create(patch, corner_count, corner_count - 2));
-    fill_ring(&ring, patch, corners, polygon_area(corners, corner_count) < 0);
-    OZ_TRY(clip_ears(patch, &ring, where));
-    flip_all(patch);
-    OZ_TRY(oz_patch_join(patch));
+    OZ_TRY(oz_triangle_set_create(triangle_set, corner_count, corner_count - 2));
+    fill_ring(&ring, triangle_set, corners, polygon_area(corners, corner_count) < 0);
+    OZ_TRY(clip_ears(triangle_set, &ring, where));
+    flip_all(triangle_set);
+    OZ_TRY(oz_triangle_set_join(triangle_set));
 done:
     free(ring.corner);
     if (status != OZ_OK) {
-        oz_patch_free(patch);
+        oz_triangle_set_free(triangle_set);
     }
     return status;
 }

@@ -17,26 +17,27 @@ OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest)
         pose.rise = motion->amplitude * sin(rate * time);
         pose.speed = motion->amplitude * rate * cos(rate * time);
         pose.turn = motion->angular_velocity * time;
-        pose.spin = motion->angular_velocity;
+        pose.angular_velocity = motion->angular_velocity;
     }
     return pose;
 }
 
-void oz_wall_motion_place(const OzPieces *pieces, const OzScene *scene, double time, bool at_rest,
-                          double *position, double *angle, double *velocity, double *spin)
+void oz_wall_motion_place(const OzElements *elements, const OzScene *scene, double time,
+                          bool at_rest, double *position, double *angle, double *velocity,
+                          double *angular_velocity)
 {
-    for (int64_t i = pieces->free_count; i < pieces->count; i++) {
-        const OzWall *wall = &scene->walls[pieces->body[i] - pieces->grain_count];
+    for (int64_t i = elements->free_count; i < elements->count; i++) {
+        const OzWall *wall = &scene->walls[elements->body[i] - elements->grain_count];
         OzWallPose pose = oz_wall_motion_pose(wall, time, at_rest);
         double c = cos(pose.turn), s = sin(pose.turn);
-        double x = pieces->position[2 * i] - wall->point[0];
-        double y = pieces->position[2 * i + 1] - wall->point[1];
+        double x = elements->position[2 * i] - wall->point[0];
+        double y = elements->position[2 * i + 1] - wall->point[1];
         double turned_x = c * x - s * y, turned_y = s * x + c * y;
         position[2 * i] = wall->point[0] + turned_x;
         position[2 * i + 1] = wall->point[1] + turned_y + pose.rise;
-        angle[i] = pieces->angle[i] + pose.turn;
-        velocity[2 * i] = -pose.spin * turned_y;
-        velocity[2 * i + 1] = pose.spin * turned_x + pose.speed;
-        spin[i] = pose.spin;
+        angle[i] = elements->angle[i] + pose.turn;
+        velocity[2 * i] = -pose.angular_velocity * turned_y;
+        velocity[2 * i + 1] = pose.angular_velocity * turned_x + pose.speed;
+        angular_velocity[i] = pose.angular_velocity;
     }
 }

@@ -1,16 +1,16 @@
-/* Where the walls of trigrains are at a time: bodies of pieces that move as a whole, up and down or
- * about their point, until they are taken away. */
+/* Where the walls of trigrains are at a time: bodies of elements that move as a whole, up and down
+ * or about their point, until they are taken away. */
 #ifndef OZ_MODEL_WALL_MOTION_H
 #define OZ_MODEL_WALL_MOTION_H
 
-#include "model/pieces.h"
+#include "model/elements.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
 
 typedef struct OzWallPose {
-    double rise, speed; /* m, m/s along y                           */
-    double turn, spin;  /* rad, rad/s about the wall's point at rest */
+    double rise, speed;            /* m, m/s along y                           */
+    double turn, angular_velocity; /* rad, rad/s about the wall's point at rest */
 } OzWallPose;
 
 /* Whether the wall has not been taken away yet; at rest (while settling) none has. */
@@ -19,10 +19,11 @@ bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest);
 /* At rest: where it was built, without speed. */
 OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest);
 
-/* Writes position (2 x), angle, velocity (2 x) and spin of every wall's pieces into arrays over all
- * pieces; the entries of grains' pieces are left alone. A wall that has been taken away keeps its last
- * pose. */
-void oz_wall_motion_place(const OzPieces *pieces, const OzScene *scene, double time, bool at_rest,
-                          double *position, double *angle, double *velocity, double *spin);
+/* Writes position (2 x), angle, velocity (2 x) and spin of every wall's elements into arrays over
+ * all elements; the entries of grains' elements are left alone. A wall that has been taken away
+ * keeps its last pose. */
+void oz_wall_motion_place(const OzElements *elements, const OzScene *scene, double time,
+                          bool at_rest, double *position, double *angle, double *velocity,
+                          double *angular_velocity);
 
 #endif

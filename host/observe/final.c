@@ -1,8 +1,9 @@
-/* Writes final.csv. Reading it back belongs to the model (model/bed.h), which spells its columns.
+/* Writes final.csv. Reading it back belongs to the model (model/restart_csv.h), which spells its
+ * columns.
  */
 #include "observe/final.h"
 
-#include "model/bed.h"
+#include "model/restart_csv.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,7 +20,7 @@ static void fill_row(const OzSnapshot *snapshot, int64_t i, double row[OZ_BED_CO
     memcpy(&row[OZ_BED_QUATERNION], &snapshot->quaternion[4 * i], 4 * sizeof(double));
     memcpy(&row[OZ_BED_AXIS], &snapshot->axis[3 * i], 3 * sizeof(double));
     memcpy(&row[OZ_BED_VELOCITY], &snapshot->velocity[3 * i], 3 * sizeof(double));
-    memcpy(&row[OZ_BED_SPIN], &snapshot->spin[3 * i], 3 * sizeof(double));
+    memcpy(&row[OZ_BED_SPIN], &snapshot->angular_velocity[3 * i], 3 * sizeof(double));
     row[OZ_BED_DIAMETER] = snapshot->grains->diameter[i];
     row[OZ_BED_LENGTH] = snapshot->grains->length[i];
     row[OZ_BED_MASS] = snapshot->grains->mass[i];
@@ -38,13 +39,13 @@ static bool is_rod_sound(const OzSnapshot *snapshot, int64_t i)
 
 static bool is_flat_sound(const OzSnapshot *s, int64_t g)
 {
-    const OzPieces *pieces = s->grains->pieces;
+    const OzElements *elements = s->grains->elements;
     bool sound = true;
-    for (int64_t i = pieces->first[g]; i < pieces->first[g + 1]; i++) {
+    for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
         for (int64_t k = 2 * i; k < 2 * i + 2; k++) {
-            sound &= isfinite(s->piece_position[k]) && isfinite(s->piece_velocity[k]);
+            sound &= isfinite(s->element_position[k]) && isfinite(s->element_velocity[k]);
         }
-        sound &= isfinite(s->piece_angle[i]) && isfinite(s->piece_spin[i]);
+        sound &= isfinite(s->element_angle[i]) && isfinite(s->element_angular_velocity[i]);
     }
     return sound;
 }
@@ -53,7 +54,7 @@ static bool is_flat_sound(const OzSnapshot *s, int64_t g)
 static int64_t find_unsound(const OzSnapshot *s)
 {
     int64_t i = 0;
-    while (i < s->count && (s->grains->pieces ? is_flat_sound : is_rod_sound)(s, i)) {
+    while (i < s->count && (s->grains->elements ? is_flat_sound : is_rod_sound)(s, i)) {
         i++;
     }
     return i;
@@ -62,7 +63,7 @@ static int64_t find_unsound(const OzSnapshot *s)
 static void write_rows(const OzSnapshot *snapshot, FILE *file)
 {
     double row[OZ_BED_COLUMNS];
-    fputs(OZ_BED_HEADER "\n", file);
+    fputs(OZ_RESTART_CSV_HEADER "\n", file);
     for (int64_t i = 0; i < snapshot->count; i++) {
         fill_row(snapshot, i, row);
         for (int k = 0; k < OZ_BED_COLUMNS; k++) {
@@ -72,33 +73,34 @@ static void write_rows(const OzSnapshot *snapshot, FILE *file)
     }
 }
 
-/* Sums over a flat grain's pieces. */
+/* Sums over a flat grain's elements. */
 typedef struct Sums {
     double area, mass, turn; /* turn: weighted by mass */
 } Sums;
 
-static Sums sum_pieces(const OzSnapshot *snapshot, int64_t g)
+static Sums sum_elements(const OzSnapshot *snapshot, int64_t g)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
+    const OzElements *elements = snapshot->grains->elements;
     Sums sums = {0};
-    for (int64_t i = pieces->first[g]; i < pieces->first[g + 1]; i++) {
-        sums.area += pieces->area[i];
-        sums.mass += pieces->mass[i];
-        sums.turn += pieces->mass[i] * (snapshot->piece_angle[i] - pieces->angle[i]);
+    for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
+        sums.area += elements->area[i];
+        sums.mass += elements->mass[i];
+        sums.turn += elements->mass[i] * (snapshot->element_angle[i] - elements->angle[i]);
     }
     return sums;
 }
 
 static void write_flat_rows(const OzSnapshot *snapshot, FILE *file)
 {
-    const OzPieces *pieces = snapshot->grains->pieces;
+    const OzElements *elements = snapshot->grains->elements;
     fputs(OZ_FINAL_FLAT_HEADER "\n", file);
     for (int64_t g = 0; g < snapshot->count; g++) {
         const double *x = &snapshot->position[3 * g], *v = &snapshot->velocity[3 * g];
-        Sums sums = sum_pieces(snapshot, g);
+        Sums sums = sum_elements(snapshot, g);
         fprintf(file, "%lld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%.17g,%.17g\n", (long long)g,
-                x[0], x[1], sums.turn / sums.mass, v[0], v[1], snapshot->spin[3 * g + 2],
-                (long long)(pieces->first[g + 1] - pieces->first[g]), sums.area, sums.mass);
+                x[0], x[1], sums.turn / sums.mass, v[0], v[1],
+                snapshot->angular_velocity[3 * g + 2],
+                (long long)(elements->first[g + 1] - elements->first[g]), sums.area, sums.mass);
     }
 }
 
@@ -168,7 +170,7 @@ OzStatus oz_final_write(const OzSnapshot *snapshot, const char *path)
     file = file ? file : fopen(part, "w");
     bool good = file != NULL;
     if (file) {
-        (snapshot->grains->pieces ? write_flat_rows : write_rows)(snapshot, file);
+        (snapshot->grains->elements ? write_flat_rows : write_rows)(snapshot, file);
         good = finish(file);
     }
     if (!good || rename(part, path) != 0) {

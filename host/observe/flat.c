@@ -21,7 +21,7 @@ bool oz_flat_spin_mean(const OzObservation *observation, double *value)
     const OzSnapshot *s = observation->snapshot;
     double sum = 0;
     for (int64_t g = 0; g < s->count; g++) {
-        sum += fabs(s->spin[3 * g + 2]);
+        sum += fabs(s->angular_velocity[3 * g + 2]);
     }
     *value = sum / fmax((double)s->count, 1);
     return s->count > 0;
@@ -31,26 +31,26 @@ bool oz_flat_spin(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
     bool there = observation->index < s->count;
-    *value = there ? s->spin[3 * observation->index + 2] : 0;
+    *value = there ? s->angular_velocity[3 * observation->index + 2] : 0;
     return there;
 }
 
 bool oz_flat_contact_number(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
-    *value = 2 * (double)s->pieces.grain_pairs / fmax((double)s->count, 1);
+    *value = 2 * (double)s->elements.grain_pairs / fmax((double)s->count, 1);
     return s->has_contacts && s->count > 0;
 }
 
 bool oz_flat_wall_touches(const OzObservation *observation, double *value)
 {
-    *value = (double)observation->snapshot->pieces.wall_touches;
+    *value = (double)observation->snapshot->elements.wall_touches;
     return observation->snapshot->has_contacts;
 }
 
 bool oz_flat_touches(const OzObservation *observation, double *value)
 {
-    *value = (double)observation->snapshot->pieces.touches[observation->index];
+    *value = (double)observation->snapshot->elements.touches[observation->index];
     return observation->snapshot->has_contacts;
 }
 
@@ -58,7 +58,7 @@ static double triangle_touches(const OzSnapshot *snapshot)
 {
     int64_t sum = 0;
     for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
-        sum += k == OZ_TOUCH_DISC ? 0 : snapshot->pieces.touches[k];
+        sum += k == OZ_TOUCH_DISC ? 0 : snapshot->elements.touches[k];
     }
     return (double)sum;
 }
@@ -67,42 +67,42 @@ bool oz_flat_touch_share(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
     double all = triangle_touches(s);
-    *value = (double)s->pieces.touches[observation->index] / fmax(all, 1);
+    *value = (double)s->elements.touches[observation->index] / fmax(all, 1);
     return s->has_contacts && all > 0;
 }
 
 bool oz_flat_overlap_max(const OzObservation *observation, double *value)
 {
-    *value = observation->snapshot->pieces.overlap_max;
+    *value = observation->snapshot->elements.overlap_max;
     return observation->snapshot->has_contacts;
 }
 
 bool oz_flat_overlap_mean(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
-    *value = s->pieces.overlap_sum / fmax(triangle_touches(s), 1);
+    *value = s->elements.overlap_sum / fmax(triangle_touches(s), 1);
     return s->has_contacts;
 }
 
 bool oz_flat_beams(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
-    const double values[] = {s->pieces.stretch_min, s->pieces.stretch_max,
-                             DEGREES * s->pieces.bend_max};
+    const double values[] = {s->elements.stretch_min, s->elements.stretch_max,
+                             DEGREES * s->elements.bend_max};
     *value = values[observation->index];
-    return s->has_contacts && s->grains->pieces->beam_count > 0;
+    return s->has_contacts && s->grains->elements->beam_count > 0;
 }
 
 bool oz_flat_stored(const OzObservation *observation, double *value)
 {
-    const OzPieceSums *sums = &observation->snapshot->pieces;
+    const OzElementSums *sums = &observation->snapshot->elements;
     *value = observation->index == 0 ? sums->contact_energy : sums->beam_energy;
     return observation->snapshot->has_contacts;
 }
 
 bool oz_flat_ledger(const OzObservation *observation, double *value)
 {
-    const OzPieceLedger *l = &observation->snapshot->piece_ledger;
+    const OzElementLedger *l = &observation->snapshot->element_ledger;
     const double values[] = {l->beam_axial, l->beam_bending, l->disc_damping, l->disc_friction};
     *value = values[observation->index];
     return observation->snapshot->has_ledger;

@@ -3,10 +3,10 @@
  * states. */
 #pragma once
 
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
-/* The least fall of a bed's centre of mass that is called an avalanche, degrees. A single grain of 500
- * that rolls right across the drum lets it fall by 0.3 or less. */
+/* The least fall of a bed's centre of mass that is called an avalanche, degrees. A single grain of
+ * 500 that rolls right across the drum lets it fall by 0.3 or less. */
 #define OZ_FLOW_AVALANCHE 0.5
 
 /* One evenly spaced sample of a drum's bed, degrees. */

@@ -4,7 +4,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "observe/frame_pieces.h"
+#include "observe/frame_elements.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -33,7 +33,7 @@ struct OzFrames {
     int64_t count;
     int wall_count;
     bool is_flat;
-    OzPieceCounts pieces; /* zero for rods */
+    OzElementCounts elements; /* zero for rods */
     size_t frame_bytes;
     unsigned char *frame; /* room for one frame                            */
     size_t left;          /* reading: bytes of the file not yet read       */
@@ -64,18 +64,18 @@ static bool is_sealed(const unsigned char *block, size_t bytes)
 
 static size_t head_bytes(const OzFrames *frames)
 {
-    return HEAD_BYTES + (frames->is_flat ? OZ_FRAME_PIECES_HEAD : 0);
+    return HEAD_BYTES + (frames->is_flat ? OZ_FRAME_ELEMENTS_HEAD : 0);
 }
 
 static size_t static_bytes(const OzFrames *frames)
 {
-    size_t pieces = frames->is_flat ? oz_frame_pieces_static_bytes(&frames->pieces) : 0;
-    return head_bytes(frames) + (size_t)frames->count * GRAIN_BYTES + pieces + CHECKSUM_BYTES;
+    size_t elements = frames->is_flat ? oz_frame_elements_static_bytes(&frames->elements) : 0;
+    return head_bytes(frames) + (size_t)frames->count * GRAIN_BYTES + elements + CHECKSUM_BYTES;
 }
 
 static size_t frame_bytes(const OzFrames *frames)
 {
-    size_t state = frames->is_flat ? oz_frame_pieces_bytes(&frames->pieces)
+    size_t state = frames->is_flat ? oz_frame_elements_bytes(&frames->elements)
                                    : (size_t)frames->count * FRAME_GRAIN_BYTES;
     return FRAME_HEAD_BYTES + state + (size_t)frames->wall_count * FRAME_WALL_BYTES +
            CHECKSUM_BYTES;
@@ -108,7 +108,7 @@ static OzStatus write_static(OzFrames *frames, const OzGrains *grains)
     oz_bytes_pack(&at, &frames->count, sizeof frames->count);
     oz_bytes_pack(&at, walls, sizeof walls);
     if (frames->is_flat) {
-        oz_frame_pieces_pack_head(&at, &frames->pieces);
+        oz_frame_elements_pack_head(&at, &frames->elements);
     }
     oz_bytes_pack(&at, grains->diameter, column);
     oz_bytes_pack(&at, grains->length, column);
@@ -118,7 +118,7 @@ static OzStatus write_static(OzFrames *frames, const OzGrains *grains)
         oz_bytes_pack(&at, &population, sizeof population);
     }
     if (frames->is_flat) {
-        oz_frame_pieces_pack_static(&at, grains->pieces);
+        oz_frame_elements_pack_static(&at, grains->elements);
     }
     OZ_TRY(write_block(frames, block, bytes));
 done:
@@ -147,9 +147,9 @@ OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *sc
     OZ_TRY(open_file(frames, path, "wb"));
     (*frames)->count = grains->count;
     (*frames)->wall_count = scene->wall_count;
-    (*frames)->is_flat = grains->pieces != NULL;
-    if (grains->pieces) {
-        (*frames)->pieces = oz_frame_pieces_count(grains->pieces);
+    (*frames)->is_flat = grains->elements != NULL;
+    if (grains->elements) {
+        (*frames)->elements = oz_frame_elements_count(grains->elements);
     }
     (*frames)->frame_bytes = frame_bytes(*frames);
     OZ_TRY(OZ_NEW(&(*frames)->frame, (*frames)->frame_bytes));
@@ -174,7 +174,7 @@ OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose
     oz_bytes_pack_floats(&at, snapshot->wall_offset, frames->wall_count);
     oz_bytes_pack_floats(&at, snapshot->wall_velocity, frames->wall_count);
     if (frames->is_flat) {
-        oz_frame_pieces_pack(&at, snapshot);
+        oz_frame_elements_pack(&at, snapshot);
     } else {
         oz_bytes_pack_floats(&at, snapshot->position, 3 * frames->count);
         oz_bytes_pack_floats(&at, snapshot->quaternion, 4 * frames->count);
@@ -223,9 +223,9 @@ static OzStatus measure_file(OzFrames *frames)
 
 static bool counts_are_possible(const OzFrames *frames)
 {
-    const OzPieceCounts *p = &frames->pieces;
-    const int64_t counts[] = {frames->count, p->walls,       p->beams,
-                              p->outlines,   p->free_pieces, p->wall_pieces};
+    const OzElementCounts *p = &frames->elements;
+    const int64_t counts[] = {frames->count, p->walls,         p->beams,
+                              p->outlines,   p->free_elements, p->wall_elements};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (counts[i] < 0 || counts[i] > COUNT_MAX) {
             return false;
@@ -254,8 +254,8 @@ static OzStatus read_common_head(OzFrames *frames, unsigned char *block)
         status = refuse(frames, "another version of the format");
     }
     frames->is_flat = marks[1] == FLAT_VERSION;
-    frames->pieces.grains = frames->count;
-    frames->pieces.walls = walls[0];
+    frames->elements.grains = frames->count;
+    frames->elements.walls = walls[0];
     frames->wall_count = walls[0] > COUNT_MAX ? COUNT_MAX : (int)walls[0];
 done:
     return status;
@@ -267,14 +267,14 @@ static OzStatus read_head(OzFrames *frames, unsigned char *block)
     OzStatus status = OZ_OK;
     size_t size = frames->left;
     OZ_TRY(read_common_head(frames, block));
-    if (frames->is_flat && frames->left < OZ_FRAME_PIECES_HEAD) {
+    if (frames->is_flat && frames->left < OZ_FRAME_ELEMENTS_HEAD) {
         status = refuse(frames, "too short");
         goto done;
     }
     if (frames->is_flat) {
         OzBytes at = block + HEAD_BYTES;
-        OZ_TRY(read_block(frames, at, OZ_FRAME_PIECES_HEAD));
-        oz_frame_pieces_unpack_head(&at, &frames->pieces);
+        OZ_TRY(read_block(frames, at, OZ_FRAME_ELEMENTS_HEAD));
+        oz_frame_elements_unpack_head(&at, &frames->elements);
     }
     if (!counts_are_possible(frames)) {
         status = refuse(frames, "damaged: impossible number of grains or walls");
@@ -318,12 +318,12 @@ done:
     return status;
 }
 
-static OzStatus unpack_pieces(const OzFrames *frames, OzGrains *grains, OzBytes *from)
+static OzStatus unpack_elements(const OzFrames *frames, OzGrains *grains, OzBytes *from)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_pieces_create(&grains->pieces, &frames->pieces));
-    if (!oz_frame_pieces_unpack_static(from, grains->pieces)) {
-        status = refuse(frames, "damaged: impossible pieces of grains or walls");
+    OZ_TRY(oz_elements_create(&grains->elements, &frames->elements));
+    if (!oz_frame_elements_unpack_static(from, grains->elements)) {
+        status = refuse(frames, "damaged: impossible elements of grains or walls");
     }
 done:
     return status;
@@ -332,7 +332,7 @@ done:
 static OzStatus read_static(OzFrames *frames, OzGrains *grains)
 {
     OzStatus status = OZ_OK;
-    unsigned char head[HEAD_BYTES + OZ_FRAME_PIECES_HEAD], *block = NULL;
+    unsigned char head[HEAD_BYTES + OZ_FRAME_ELEMENTS_HEAD], *block = NULL;
     OZ_TRY(read_head(frames, head));
     size_t bytes = static_bytes(frames), known = head_bytes(frames);
     OZ_TRY(OZ_NEW(&block, bytes));
@@ -345,7 +345,7 @@ static OzStatus read_static(OzFrames *frames, OzGrains *grains)
     OzBytes at = block + known;
     OZ_TRY(unpack_grains(frames, grains, &at));
     if (frames->is_flat) {
-        OZ_TRY(unpack_pieces(frames, grains, &at));
+        OZ_TRY(unpack_elements(frames, grains, &at));
     }
 done:
     free(block);
@@ -378,7 +378,8 @@ static void unpack_standing(OzBytes *at, OzSnapshot *snapshot)
     oz_bytes_unpack_floats(at, snapshot->position, 3 * snapshot->count);
     oz_bytes_unpack_floats(at, snapshot->quaternion, 4 * snapshot->count);
     oz_bytes_unpack_floats(at, snapshot->velocity, 3 * snapshot->count);
-    memset(snapshot->spin, 0, (size_t)(3 * snapshot->count) * sizeof *snapshot->spin);
+    memset(snapshot->angular_velocity, 0,
+           (size_t)(3 * snapshot->count) * sizeof *snapshot->angular_velocity);
     oz_snapshot_turn_axes(snapshot);
 }
 
@@ -392,7 +393,7 @@ static void unpack_frame(const OzFrames *frames, OzSnapshot *snapshot, int *purp
     oz_bytes_unpack_floats(&at, snapshot->wall_offset, frames->wall_count);
     oz_bytes_unpack_floats(&at, snapshot->wall_velocity, frames->wall_count);
     if (frames->is_flat) {
-        oz_frame_pieces_unpack(&at, snapshot);
+        oz_frame_elements_unpack(&at, snapshot);
     } else {
         unpack_standing(&at, snapshot);
     }
@@ -405,15 +406,16 @@ OzStatus oz_frames_next(OzFrames *frames, OzSnapshot *snapshot, int *purpose, bo
     OzStatus status = OZ_OK;
     uint64_t bytes = 0;
     *more = false;
-    int64_t pieces = frames->pieces.free_pieces + frames->pieces.wall_pieces;
+    int64_t elements = frames->elements.free_elements + frames->elements.wall_elements;
     if (snapshot->count != frames->count || snapshot->scene->wall_count != frames->wall_count ||
-        snapshot->piece_count != pieces) {
-        return oz_status_fail(OZ_ERR_INPUT,
-                              "%s holds %lld grains, %d walls and %lld pieces, the scene %lld, %d "
-                              "and %lld",
-                              frames->path, (long long)frames->count, frames->wall_count,
-                              (long long)pieces, (long long)snapshot->count,
-                              snapshot->scene->wall_count, (long long)snapshot->piece_count);
+        snapshot->element_count != elements) {
+        return oz_status_fail(
+            OZ_ERR_INPUT,
+            "%s holds %lld grains, %d walls and %lld elements, the scene %lld, %d "
+            "and %lld",
+            frames->path, (long long)frames->count, frames->wall_count, (long long)elements,
+            (long long)snapshot->count, snapshot->scene->wall_count,
+            (long long)snapshot->element_count);
     }
     if (frames->frame_bytes > frames->left) {
         return OZ_OK;

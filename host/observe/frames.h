@@ -11,16 +11,16 @@
  *           u64 checksum of this frame
  *   ...     further frames to the end of the file
  * Version 2, of trigrains, differs thus:
- *   head    followed by i64 pieces of grains; i64 of walls; i64 beam_count; i64 outline_count
- *   grains  followed by i32 first[count + wall_count + 1]; for all pieces f64 radius, corner x 6,
- *           area, mass, inertia, angle (array after array); i32 beam_a, beam_b, outline_piece,
+ *   head    followed by i64 elements of grains; i64 of walls; i64 beam_count; i64 outline_count
+ *   grains  followed by i32 first[count + wall_count + 1]; for all elements f64 radius, corner x 6,
+ *           area, mass, inertia, angle (array after array); i32 beam_a, beam_b, outline_element,
  *           outline_edge (array after array)
- *   frame   f32 piece_position[2 pieces]; f32 piece_angle[pieces]; f32 piece_velocity[2 pieces] in
- *           the place of position, quaternion and velocity
- * SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
+ *   frame   f32 element_position[2 elements]; f32 element_angle[elements]; f32 element_velocity[2
+ * elements] in the place of position, quaternion and velocity SI units; quaternions w x y z; a
+ * checksum is FNV-1a, 64 bits, of all bytes before it. */
 #pragma once
 
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
 typedef struct OzFrames OzFrames;
 
@@ -38,7 +38,7 @@ OzStatus
 oz_frames_finish(OzFrames *frames); /* closes and frees, also after reading; NULL is fine */
 
 /* Opens for reading: *grains receives geometry, mass, inertia and population, at the origin and
- * upright, and trigrains' pieces (the caller frees). A damaged or foreign file is refused by name
+ * upright, and trigrains' elements (the caller frees). A damaged or foreign file is refused by name
  * with OZ_ERR_INPUT; a file cut short by a crash gives its whole frames. Nothing larger than the
  * file is ever allocated.
  */

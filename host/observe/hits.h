@@ -2,11 +2,12 @@
  * it has a fair share of the impulse of all of them. Grazes are spans too, and do not count. */
 #pragma once
 
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
-/* The share of the impulse of all spans that a hit has at least, unless the user says otherwise. The
- * second hit of two dice has a share that falls with their speed from three tenths to nothing, so this
- * number decides at which speed it is no longer counted. Grazes have hundred-thousandths. */
+/* The share of the impulse of all spans that a hit has at least, unless the user says otherwise.
+ * The second hit of two dice has a share that falls with their speed from three tenths to nothing,
+ * so this number decides at which speed it is no longer counted. Grazes have hundred-thousandths.
+ */
 #define OZ_HITS_SHARE 0.05
 
 /* No more than 1 / share spans can count: keeping so many greatest loses none at shares from

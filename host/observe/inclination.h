@@ -3,7 +3,7 @@
  * rest or turning counter-clockwise). */
 #pragma once
 
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
 /* Whether there is a drum, flat grains and gravity: without, the others give false. */
 bool oz_inclination_applies(const OzScene *scene);

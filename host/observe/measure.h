@@ -2,7 +2,7 @@
  * so it can be taken many times a period. */
 #pragma once
 
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
 enum { OZ_MEASURE_LAYERS = 4 };
 

@@ -2,8 +2,8 @@
  * Knows nothing of files and of tap means, which it is handed. */
 #include "observe/observables.h"
 
+#include "observe/element_energy.h"
 #include "observe/flat.h"
-#include "observe/piece_energy.h"
 
 #include <math.h>
 
@@ -93,13 +93,13 @@ OzTapSample oz_observables_sample(OzMeasure *measure, const OzSnapshot *snapshot
 
 static bool is_flat(const OzSnapshot *snapshot)
 {
-    return snapshot->grains->pieces != NULL;
+    return snapshot->grains->elements != NULL;
 }
 
 static bool contact_count(const OzObservation *o, double *value)
 {
     const OzSnapshot *s = o->snapshot;
-    *value = (double)(is_flat(s) ? s->pieces.grain_pairs : s->contacts.pair_count);
+    *value = (double)(is_flat(s) ? s->elements.grain_pairs : s->contacts.pair_count);
     return o->snapshot->has_contacts;
 }
 
@@ -141,7 +141,7 @@ static bool speed_max(const OzObservation *o, double *value)
 
 static double kinetic_energy(const OzSnapshot *s)
 {
-    double sum = is_flat(s) ? oz_piece_energy_translational(s) : 0;
+    double sum = is_flat(s) ? oz_element_energy_translational(s) : 0;
     for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
         sum += s->grains->mass[i] / 2 * dot(&s->velocity[3 * i], &s->velocity[3 * i]);
     }
@@ -150,9 +150,9 @@ static double kinetic_energy(const OzSnapshot *s)
 
 static double rotational_energy(const OzSnapshot *s)
 {
-    double sum = is_flat(s) ? oz_piece_energy_rotational(s) : 0;
+    double sum = is_flat(s) ? oz_element_energy_rotational(s) : 0;
     for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
-        const double *w = &s->spin[3 * i];
+        const double *w = &s->angular_velocity[3 * i];
         double along = dot(w, &s->axis[3 * i]);
         double across = dot(w, w) - along * along;
         sum += (s->grains->inertia[i] * across + s->grains->inertia_axis[i] * along * along) / 2;
@@ -162,7 +162,7 @@ static double rotational_energy(const OzSnapshot *s)
 
 static double potential_energy(const OzSnapshot *s)
 {
-    double sum = is_flat(s) ? oz_piece_energy_potential(s) : 0;
+    double sum = is_flat(s) ? oz_element_energy_potential(s) : 0;
     for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
         sum -= s->grains->mass[i] * dot(s->scene->gravity, &s->position[3 * i]);
     }
@@ -171,21 +171,21 @@ static double potential_energy(const OzSnapshot *s)
 
 static double work_of_walls(const OzSnapshot *s)
 {
-    return is_flat(s) ? s->piece_ledger.work_walls : s->ledger.work_walls;
+    return is_flat(s) ? s->element_ledger.work_walls : s->ledger.work_walls;
 }
 
 double oz_observables_lost(const OzSnapshot *snapshot)
 {
     const OzLedger *ledger = &snapshot->ledger;
-    double lost =
-        is_flat(snapshot) ? oz_piece_energy_lost(snapshot) : ledger->dissipated + ledger->friction;
+    double lost = is_flat(snapshot) ? oz_element_energy_lost(snapshot)
+                                    : ledger->dissipated + ledger->friction;
     return snapshot->has_ledger ? lost : 0;
 }
 
 static double flat_energy(const OzSnapshot *snapshot)
 {
     return kinetic_energy(snapshot) + rotational_energy(snapshot) + potential_energy(snapshot) +
-           oz_piece_energy_stored(snapshot) + oz_observables_lost(snapshot) -
+           oz_element_energy_stored(snapshot) + oz_observables_lost(snapshot) -
            work_of_walls(snapshot);
 }
 
@@ -284,13 +284,13 @@ static const OzColumn list[] = {
      oz_flat_spin_mean, 0},
     {"spin_0", "rad/s", "spin of the first grain", FLAT, ALWAYS, false, oz_flat_spin, 0},
     {"spin_1", "rad/s", "spin of the second grain", FLAT, ALWAYS, false, oz_flat_spin, 1},
-    {"kinetic", "J", "kinetic energy of the centres (trigrains: of their pieces')", ALL, ALWAYS, false, kinetic, 0},
-    {"rotational", "J", "kinetic energy of the spins (trigrains: of their pieces')", ALL, ALWAYS, false, rotational, 0},
+    {"kinetic", "J", "kinetic energy of the centres (trigrains: of their elements')", ALL, ALWAYS, false, kinetic, 0},
+    {"rotational", "J", "kinetic energy of the spins (trigrains: of their elements')", ALL, ALWAYS, false, rotational, 0},
     {"energy_contact", "J", "stored in overlaps now", FLAT, ALWAYS, false, oz_flat_stored, 0},
     {"energy_beam", "J", "stored in beams now", FLAT, ALWAYS, false, oz_flat_stored, 1},
     {"contact_number", "1", "grains that a grain touches, on average", FLAT, ALWAYS, false,
      oz_flat_contact_number, 0},
-    {"wall_touches", "1", "contacts of pieces with walls", FLAT, ALWAYS, true, oz_flat_wall_touches, 0},
+    {"wall_touches", "1", "contacts of elements with walls", FLAT, ALWAYS, true, oz_flat_wall_touches, 0},
     {"touches_i", "1", "contacts of triangles, kind i: two crossings on one edge", FLAT, ALWAYS, true,
      oz_flat_touches, OZ_TOUCH_I},
     {"touches_ii", "1", "two crossings on different edges of both", FLAT, ALWAYS, true,

@@ -69,10 +69,10 @@ static double rounding(const OzSnapshot *snapshot)
         double way = share * g->diameter[i];
         sum += is_linear ? 0.5 * g->mass[i] * linear * way * way
                          : 0.4 * g->mass[i] * hertz * way * way * sqrt(way);
-        sum += g->pieces ? 0.5 * scene->triangles.stiffness * g->diameter[i] * way * way : 0;
+        sum += g->elements ? 0.5 * scene->triangles.stiffness * g->diameter[i] * way * way : 0;
     }
-    for (int64_t k = 0; g->pieces && k < g->pieces->beam_count; k++) {
-        double length = g->pieces->beam_length[k], way = share * length;
+    for (int64_t k = 0; g->elements && k < g->elements->beam_count; k++) {
+        double length = g->elements->beam_length[k], way = share * length;
         sum += 0.5 * scene->beams.stiffness * way * way;
         sum += length > 0 ? 2 * scene->beams.stiffness * scene->beams.second_moment / length *
                                 share * share

@@ -3,7 +3,7 @@
  * the grains a row. */
 #pragma once
 
-#include "observe/snapshot.h"
+#include "model/snapshot.h"
 
 /* Zeroed is valid: nothing seen yet. */
 typedef struct OzSurplus {
@@ -12,10 +12,11 @@ typedef struct OzSurplus {
     double scale; /* J, the gain that is too much                                      */
 } OzSurplus;
 
-/* Fails with OZ_ERR_BLOWUP, naming step and time, when the mechanical energy is no number or has grown
- * too much. Too much is more than the sum of what grains and springs held at first sight, m g d of
- * every grain, and what rounding may hold in contacts and beams: an integrator that gains a little is
- * left alone, a bed that heats up is not. What friction gives back with `slip: scale` is not counted:
- * it is the law's doing and not the step's. Nothing is judged in snapshots without contacts (their
- * springs are unknown), nor without a ledger where walls move or with `slip: scale`. */
+/* Fails with OZ_ERR_BLOWUP, naming step and time, when the mechanical energy is no number or has
+ * grown too much. Too much is more than the sum of what grains and springs held at first sight, m g
+ * d of every grain, and what rounding may hold in contacts and beams: an integrator that gains a
+ * little is left alone, a bed that heats up is not. What friction gives back with `slip: scale` is
+ * not counted: it is the law's doing and not the step's. Nothing is judged in snapshots without
+ * contacts (their springs are unknown), nor without a ledger where walls move or with `slip:
+ * scale`. */
 OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot);

@@ -131,8 +131,8 @@ static void print_owners(const OzKey *key, FILE *file)
     print_bits(key->kinds, wall ? "walls[].kind" : "grains[].kind", "; kind ", file);
     print_bits(key->shapes, "grains[].shape", "; shape ", file);
     print_bits(key->laws, "contact.law", "; law ", file);
-    bool of_pieces = !key->models || (key->models >> OZ_MODEL_TRIGRAINS & 1);
-    if (of_pieces && strncmp(key->path, "contact.", strlen("contact.")) == 0) {
+    bool of_elements = !key->models || (key->models >> OZ_MODEL_TRIGRAINS & 1);
+    if (of_elements && strncmp(key->path, "contact.", strlen("contact.")) == 0) {
         fprintf(file, "; trigrains: discs only");
     }
 }

@@ -200,8 +200,9 @@ static const OzKey KEYS[] = {
     {"grains[].radius", RANGE(1e-9, 1e3, "m"), GRAIN(radius), .kinds = MADE,
      .shapes = POLYGON | STAR | DISC, REQUIRED, FLAT,
      .help = "of the disc, or to the outer corners"},
-    {"grains[].corners", RANGE(3, OZ_CORNERS_MAX, ""), GRAIN(corners), .kinds = MADE, .shapes = POLYGON | STAR,
-     REQUIRED, FLAT, .help = "of the polygon, points of the star; whole numbers"},
+    {"grains[].corners", RANGE(3, OZ_CORNERS_MAX, ""), GRAIN(corners), .kinds = MADE,
+     .shapes = POLYGON | STAR, REQUIRED, FLAT,
+     .help = "of the polygon, points of the star; whole numbers"},
     {"grains[].irregularity", FRACTION, GRAIN(irregularity), .kinds = MADE, .shapes = POLYGON,
      DEFAULT("0"), FLAT, .help = "how far corners are moved at random; 0 is a regular polygon"},
     {"grains[].depth", NUMBER(0.05, 0.95, ""), GRAIN(depth), .kinds = MADE, .shapes = STAR,
@@ -241,10 +242,11 @@ static const OzKey KEYS[] = {
      DEFAULT("[0, 0, 0]"), SOLID, .help = "at the start"},
     {"grains[].velocity", PAIR(1e6, "m/s"), GRAIN(velocity), .kinds = SINGLE | LATTICE,
      DEFAULT("[0, 0]"), FLAT, .help = "at the start"},
-    {"grains[].spin", VECTOR(1e9, "rad/s"), GRAIN(spin), .kinds = SINGLE | LATTICE,
+    {"grains[].spin", VECTOR(1e9, "rad/s"), GRAIN(angular_velocity), .kinds = SINGLE | LATTICE,
      DEFAULT("[0, 0, 0]"), SOLID, .help = "angular velocity at the start, world frame"},
-    {"grains[].spin", NUMBER(-1e9, 1e9, "rad/s"), GRAIN(spin[2]), .kinds = SINGLE | LATTICE,
-     DEFAULT("0"), FLAT, .help = "angular velocity at the start, counter-clockwise"},
+    {"grains[].spin", NUMBER(-1e9, 1e9, "rad/s"), GRAIN(angular_velocity[2]),
+     .kinds = SINGLE | LATTICE, DEFAULT("0"), FLAT,
+     .help = "angular velocity at the start, counter-clockwise"},
     {"grains[].path", OF(FILE), GRAIN(path), .kinds = FROM_FILE, REQUIRED, SOLID,
      .write = OZ_WRITE_NONZERO, .help = "a final.csv, relative to the scene file"},
 
@@ -349,7 +351,8 @@ static const OzKey KEYS[] = {
      .help = "contacts with more than this part of a triangle inside another, or of a disc's "
              "diameter, are counted in deep_count, and the first is said"},
     {"guards.overlap.stop", NUMBER(1e-6, 0.5, ""), AT(guards.overlap_stop), DEFAULT("0.5"), FLAT,
-     .help = "more than this ends the run; beyond a half the law does not know inside from outside"},
+     .help =
+         "more than this ends the run; beyond a half the law does not know inside from outside"},
 
     {"observe.interval", NUMBER(1e-12, 1e9, "s"), AT(observe.interval), .reload = APPLY,
      .rival = "interval_taps", .write = OZ_WRITE_UNLESS_RIVAL,
@@ -373,7 +376,8 @@ static const OzKey KEYS[] = {
 
     {"movie", OF(SECTION), AT(movie.present), .fallback_help = "no movie",
      .help = "movie.mp4 of the run"},
-    {"movie.size", PICTURE_SIZE, AT(movie.width), DEFAULT("[1280, 720]"), .help = "width and height, both even"},
+    {"movie.size", PICTURE_SIZE, AT(movie.width), DEFAULT("[1280, 720]"),
+     .help = "width and height, both even"},
     {"movie.fps", NUMBER(0.1, 1000, "1/s"), AT(movie.fps), DEFAULT("25"),
      .help = "pictures in a second"},
     {"movie.views", .type = OZ_KEY_CHOICES, .choices = VIEWS, .unit = "", .width = 2,
@@ -385,8 +389,9 @@ static const OzKey KEYS[] = {
     {"movie.colour", CHOICE(COLOURS), AT(movie.colour), DEFAULT("angle"), SOLID,
      .help = "what a grain's colour shows"},
     {"movie.colour", CHOICE(FLAT_COLOURS), AT(movie.colour), DEFAULT("speed"), FLAT,
-     .help = "what a grain's colour shows; angle is its long axis' direction, turned how far it has "
-             "turned since the start"},
+     .help =
+         "what a grain's colour shows; angle is its long axis' direction, turned how far it has "
+         "turned since the start"},
     {"movie.cut_outlines", OF(BOOL), AT(movie.cut_outlines), DEFAULT("false"), SOLID,
      .help = "grains that the cut takes away whole are drawn as faint outlines"},
     {"movie.outlines", OF(BOOL), AT(movie.outlines), DEFAULT("true"), FLAT,

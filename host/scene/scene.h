@@ -2,7 +2,8 @@
  * value once loaded; a live reload makes a second one and compares.
  *
  * Loading reports every error of the file at once as `file:line: what is wrong; what was expected`
- * (one per line, in file order) and fails with OZ_ERR_INPUT. It never asserts on what a file says. */
+ * (one per line, in file order) and fails with OZ_ERR_INPUT. It never asserts on what a file says.
+ */
 #pragma once
 
 #include "base/status.h"
@@ -44,22 +45,22 @@ typedef struct OzBeamValues {
     double second_moment; /* I, m^3: E I / L is the bending stiffness                 */
     double damping;       /* gamma, kg/s                                              */
     OzDampingShear damping_shear;
-    int64_t substeps;     /* steps of the beams in one of the contacts                */
-    double length_min;    /* m: grains with shorter beams are not made                */
-    double area_min;      /* m^2: nor with smaller triangles                          */
+    int64_t substeps;  /* steps of the beams in one of the contacts                */
+    double length_min; /* m: grains with shorter beams are not made                */
+    double area_min;   /* m^2: nor with smaller triangles                          */
 } OzBeamValues;
 
 /* What two touching bodies do to each other. */
 typedef struct OzContactValues {
     OzLaw law;
-    double contact_time;          /* s, of a free binary hit of two centres                   */
-    double restitution;           /* 0..1 as written; below 0.01 the physics uses 0.01        */
-    double friction;              /* Coulomb coefficient                                      */
-    double tangential_stiffness;  /* k_t / k_n                                                */
-    double tangential_damping;    /* c_t / c_n; defaults to tangential_stiffness              */
+    double contact_time;         /* s, of a free binary hit of two centres                   */
+    double restitution;          /* 0..1 as written; below 0.01 the physics uses 0.01        */
+    double friction;             /* Coulomb coefficient                                      */
+    double tangential_stiffness; /* k_t / k_n                                                */
+    double tangential_damping;   /* c_t / c_n; defaults to tangential_stiffness              */
     OzSlip slip;
     OzAttraction attraction;
-    OzDamping damping;            /* hooke: how the dashpot begins                            */
+    OzDamping damping; /* hooke: how the dashpot begins                            */
     OzParallel parallel;
     OzContactPoint contact_point;
     OzRestitutionAt restitution_at;
@@ -94,7 +95,7 @@ typedef struct OzWall {
     double thickness;           /* m, of what walls of triangles are made; 0: chosen by orzo  */
     double until;               /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;
-    OzContactValues contact;    /* the scene's, with this wall's own values put over them  */
+    OzContactValues contact; /* the scene's, with this wall's own values put over them  */
     int line;
 } OzWall;
 
@@ -104,10 +105,12 @@ typedef struct OzRange {
 } OzRange;
 
 typedef enum OzPopulationKind {
-    OZ_GRAINS_RANDOM,  /* without overlap, directions uniform on the sphere, in the container's column */
-    OZ_GRAINS_LATTICE, /* cells[0] x cells[1] x cells[2] grains, spacing apart, the first at position  */
+    OZ_GRAINS_RANDOM,  /* without overlap, directions uniform on the sphere, in the container's
+                          column */
+    OZ_GRAINS_LATTICE, /* cells[0] x cells[1] x cells[2] grains, spacing apart, the first at
+                          position  */
     OZ_GRAINS_SINGLE,
-    OZ_GRAINS_FILE     /* every grain of a final.csv, with its position, velocity and size             */
+    OZ_GRAINS_FILE /* every grain of a final.csv, with its position, velocity and size */
 } OzPopulationKind;
 
 /* Corners of one grain's outline, or points of a star: cutting takes their number cubed. */
@@ -128,26 +131,27 @@ typedef enum OzShapeKind { OZ_SHAPES(OZ_SHAPES_ID) OZ_SHAPES_END } OzShapeKind;
 
 typedef struct OzPopulation {
     OzPopulationKind kind;
-    int64_t count;              /* random: as written; lattice: product of cells; single: 1; file: -1 */
-    OzRange diameter;           /* m                                                       */
-    OzRange aspect;             /* shaft length / diameter; 0 = sphere                     */
-    double density;             /* kg/m^3                                                  */
-    double fill;                /* volume fraction of the random start column              */
-    int64_t cells[3];           /* lattice                                                 */
-    double spacing[3];          /* m, lattice                                              */
-    double position[3], axis[3], velocity[3], spin[3]; /* single, lattice; axis is a unit vector;
-                                                          spin in the world frame, rad/s   */
-    char *path;                 /* file: absolute, or relative to the working folder       */
-    OzShapeKind shape;          /* trigrains, with what follows; two-dimensional vectors have
-                                   z = 0, spin is spin[2], density is kg/m^2               */
-    OzRange edge;               /* m, square                                               */
-    OzRange radius;             /* m, polygon and star (to the outer corners), disc        */
-    OzRange corners;            /* whole numbers: of a polygon, points of a star           */
-    double irregularity;        /* 0..1: how far polygons' corners are moved at random     */
-    double depth;               /* star: inner over outer radius                           */
-    double *vertices;           /* m: x and y of vertex 0, then of vertex 1, ...           */
-    int vertex_count;           /* numbers in vertices: two for each vertex                */
-    double angle;               /* rad, single and lattice                                 */
+    int64_t count;     /* random: as written; lattice: product of cells; single: 1; file: -1 */
+    OzRange diameter;  /* m                                                       */
+    OzRange aspect;    /* shaft length / diameter; 0 = sphere                     */
+    double density;    /* kg/m^3                                                  */
+    double fill;       /* volume fraction of the random start column              */
+    int64_t cells[3];  /* lattice                                                 */
+    double spacing[3]; /* m, lattice                                              */
+    double position[3], axis[3], velocity[3],
+        angular_velocity[3]; /* single, lattice; axis is a unit vector;
+                    spin in the world frame, rad/s   */
+    char *path;              /* file: absolute, or relative to the working folder       */
+    OzShapeKind shape;       /* trigrains, with what follows; two-dimensional vectors have
+                                z = 0, spin is spin[2], density is kg/m^2               */
+    OzRange edge;            /* m, square                                               */
+    OzRange radius;          /* m, polygon and star (to the outer corners), disc        */
+    OzRange corners;         /* whole numbers: of a polygon, points of a star           */
+    double irregularity;     /* 0..1: how far polygons' corners are moved at random     */
+    double depth;            /* star: inner over outer radius                           */
+    double *vertices;        /* m: x and y of vertex 0, then of vertex 1, ...           */
+    int vertex_count;        /* numbers in vertices: two for each vertex                */
+    double angle;            /* rad, single and lattice                                 */
     int line;
 } OzPopulation;
 
@@ -165,9 +169,9 @@ typedef struct OzSettle {
     double time_max;  /* s, of the part with drag                                           */
 } OzSettle;
 
-/* What overlaps a run is told of, and which end it. Rods: in units of the smaller radius, at a wall of
- * half the radius (kernels/depth.h). trigrains: part of a triangle inside another, or of a disc's
- * diameter. */
+/* What overlaps a run is told of, and which end it. Rods: in units of the smaller radius, at a wall
+ * of half the radius (kernels/depth.h). trigrains: part of a triangle inside another, or of a
+ * disc's diameter. */
 typedef struct OzGuards {
     double overlap_warn; /* deeper contacts are counted, the first one is said */
     double overlap_stop; /* a deeper contact ends the run                      */
@@ -181,13 +185,13 @@ typedef enum OzObserveAt {
 } OzObserveAt;
 
 typedef struct OzObserve {
-    double interval;        /* s between rows of series.csv; interval_taps x period is put here */
-    double interval_taps;   /* as written; 0: interval was, or neither                         */
+    double interval;         /* s between rows of series.csv; interval_taps x period is put here */
+    double interval_taps;    /* as written; 0: interval was, or neither                         */
     int64_t samples_per_tap; /* for the tap means over all phases                          */
-    OzObserveAt at;         /* when rows are written, and of which phase tap means are     */
-    double layer_thickness; /* m; default 4e-3                                             */
-    bool ledger;            /* energy columns                                              */
-    double outlet;          /* m, trigrains: grains below this height have flowed out      */
+    OzObserveAt at;          /* when rows are written, and of which phase tap means are     */
+    double layer_thickness;  /* m; default 4e-3                                             */
+    bool ledger;             /* energy columns                                              */
+    double outlet;           /* m, trigrains: grains below this height have flowed out      */
     bool has_outlet;
 } OzObserve;
 
@@ -202,30 +206,30 @@ typedef enum OzColour {
     OZ_COLOUR_TURNED   /* trigrains: how far since the start, cyclic, 0..360 degrees       */
 } OzColour;
 
-/* Pixels a side of any picture or movie: below, its parts cannot be told apart; above, MPEG-4 has no
- * bits for it (13) and H.264 and GL are not sure to hold it. */
+/* Pixels a side of any picture or movie: below, its parts cannot be told apart; above, MPEG-4 has
+ * no bits for it (13) and H.264 and GL are not sure to hold it. */
 enum { OZ_PICTURE_SIDE_MIN = 64, OZ_PICTURE_SIDE_MAX = 8190 };
 
 typedef struct OzMovieSettings {
     bool present;
-    int width, height;  /* pixels, even */
+    int width, height; /* pixels, even */
     double fps;
     OzView views[2];
-    int view_count;     /* 1 or 2, side by side */
+    int view_count; /* 1 or 2, side by side */
     OzColour colour;
-    double speed;       /* shown seconds per real second of simulated time; 0: length is used */
-    double length;      /* s of movie; 0: speed is used                                        */
-    bool cut_outlines;  /* cut view: grains before the plane are drawn as faint outlines      */
-    bool outlines;      /* trigrains: grains' outlines are drawn                               */
-    bool beams;         /* trigrains: beams are drawn                                          */
+    double speed;      /* shown seconds per real second of simulated time; 0: length is used */
+    double length;     /* s of movie; 0: speed is used                                        */
+    bool cut_outlines; /* cut view: grains before the plane are drawn as faint outlines      */
+    bool outlines;     /* trigrains: grains' outlines are drawn                               */
+    bool beams;        /* trigrains: beams are drawn                                          */
 } OzMovieSettings;
 
 typedef struct OzSnapshotSettings {
     double *times; /* s, ascending, each once; taps are converted; those after the end never come */
     int count;
-    double *taps;  /* as written, ascending, or NULL */
+    double *taps; /* as written, ascending, or NULL */
     int tap_count;
-    double strobe; /* s between the states laid over each other in one picture; 0: none */
+    double strobe;     /* s between the states laid over each other in one picture; 0: none */
     int width, height; /* pixels; this and what follows is the movie's unless written */
     OzView views[2];
     int view_count;
@@ -252,22 +256,22 @@ typedef struct OzSweep {
 } OzSweep;
 
 typedef struct OzScene {
-    char *path;  /* as given, for messages */
-    char *base;  /* path of the scene that it extends; NULL: none */
-    char *name;  /* file name without folder and .yaml: the run folder's name */
+    char *path; /* as given, for messages */
+    char *base; /* path of the scene that it extends; NULL: none */
+    char *name; /* file name without folder and .yaml: the run folder's name */
     char *title;
     OzModelKind model;
     uint64_t seed;
-    double gravity[3]; /* m/s^2 */
-    double step;       /* s     */
+    double gravity[3];   /* m/s^2 */
+    double step;         /* s     */
     double written_step; /* s, before restitution_calibration fitted it to the contact time */
-    double duration;   /* s; taps x period is put here */
-    double taps;       /* as written; 0: duration was */
-    double period;     /* s, of the first moving wall; 0 without one: `tap` is then empty */
+    double duration;     /* s; taps x period is put here */
+    double taps;         /* as written; 0: duration was */
+    double period;       /* s, of the first moving wall; 0 without one: `tap` is then empty */
     OzIntegrator integrator;
     OzPrecision precision;
     OzBroadphase broadphase;
-    double skin;       /* m, neighbour list's reach beyond contact; 0: chosen by orzo */
+    double skin; /* m, neighbour list's reach beyond contact; 0: chosen by orzo */
     bool gyroscopic;
     OzContactValues contact;
     OzTriangleValues triangles;

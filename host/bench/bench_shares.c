@@ -1,0 +1,319 @@
+/* Measuring shares. */
+#include "bench/bench_shares.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/folder.h"
+#include "base/log.h"
+#include "base/subprocess.h"
+#include "draw/pictures.h"
+#include "observe/frames.h"
+#include "observe/schedule.h"
+#include "observe/series.h"
+#include "sim/read_snapshot.h"
+#include "sim/sim.h"
+#include "sim/stage_timing.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOMENTS = 4, /* of a piece at which the bed stands still; --quick: 1 */
+    PIECES = 6,  /* of a tap, or of piece_seconds                    */
+    WARM = 64,   /* steps: lists made, arrays touched                */
+    LEAST = 32,  /* steps of a piece                                 */
+    SAMPLES = 64,
+    ROWS = 16,
+    FRAMES = 12
+};
+
+/* A tap of a large bed takes too long: its pieces end after about so many seconds. */
+static const double piece_seconds = 1.5;
+
+/* THE list of parts, in the order of the table. */
+#define PARTS(X)                                                                                   \
+    X(PAIRS, "pairs", "kernel, repeated on a standing bed")                                        \
+    X(GRAINS, "gather and integrate", "kernel, repeated on a standing bed, without walls")         \
+    X(WALLS, "walls", "kernel, the same with walls, difference")                                   \
+    X(REFRESH, "inner list", "made anew on a standing bed")                                        \
+    X(REBUILD, "outer list", "the same with the outer list (large beds: and re-sort), difference") \
+    X(REST, "the rest", "a whole step less the above: launches, colder caches, what is -")         \
+    X(STEP, "whole step", "in launches: median of taps; of a large bed, mean of less")             \
+    X(SAMPLE, "samples", "host, beside the step")                                                  \
+    X(ROW, "rows of series.csv", "host, beside the step")                                          \
+    X(DRAW, "drawing", "host, beside the step, wall time")                                         \
+    X(ENCODE, "encoding", "host, beside the step, wall time")
+
+enum {
+#define PART_ID(id, name, how) PART_##id,
+    PARTS(PART_ID)
+#undef PART_ID
+        PART_COUNT
+};
+
+static const struct {
+    const char *name, *how;
+} parts[] = {
+#define PART_ROW(id, name, how) {name, how},
+    PARTS(PART_ROW)
+#undef PART_ROW
+};
+
+typedef struct Share {
+    double seconds; /* of one call; NAN: not measured */
+    double calls_per_step;
+} Share;
+
+/* A scene being taken apart. Zeroed is valid. */
+typedef struct Shares {
+    OzBenchBed *bed;
+    const OzOptions *options;
+    const char *folder;
+    OzDevice device;
+    OzSim *sim;
+    OzSnapshot now;
+    OzSeries *series;
+    OzPictures *pictures;
+    int64_t piece; /* steps */
+    Share *part;   /* PART_COUNT, borrowed */
+} Shares;
+
+static OzStatus open_shares(Shares *s)
+{
+    OzMember member = {&s->bed->scene, &s->bed->grains};
+    s->bed->scene.precision = OZ_PRECISION_FLOAT;
+    OZ_PASS(oz_device_open(&s->device, s->options->device,
+                           s->options->threads ? s->options->threads : 1));
+    OZ_PASS(oz_sim_create(&s->sim, &s->device, &member, 1, s->options->source_dir));
+    OZ_PASS(oz_snapshot_create(&s->now, &s->bed->scene, &s->bed->grains));
+    return oz_series_create(&s->series, "/dev/null", &s->bed->scene, &s->bed->grains);
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double per_step(double events, double steps)
+{
+    return steps > 0 ? events / steps : 0;
+}
+
+/* A CPU's work is timed by the processor clock, which other programs disturb less. */
+static double clock_of(const OzDevice *device)
+{
+    return device->is_cpu ? oz_clock_processor() : oz_clock_now();
+}
+
+/* Steps of a piece: a tap if that is quick enough. */
+static OzStatus choose_element(Shares *s)
+{
+    const OzScene *scene = &s->bed->scene;
+    double tap = scene->period > 0 ? scene->period / scene->step : 1000;
+    OZ_PASS(oz_sim_advance(s->sim, WARM / 2));
+    double start = clock_of(&s->device);
+    OZ_PASS(oz_sim_advance(s->sim, WARM));
+    double each = (clock_of(&s->device) - start) / (WARM - WARM / 2);
+    s->piece = llround(fmin(tap, fmax(LEAST, piece_seconds / each)));
+    return OZ_OK;
+}
+
+/* Lists are not rebuilt in every short piece, so their mean is taken. */
+static double element_time(double times[PIECES], bool whole_taps)
+{
+    double sum = 0;
+    for (int k = 0; k < PIECES; k++) {
+        sum += times[k];
+    }
+    qsort(times, PIECES, sizeof times[0], compare);
+    return whole_taps ? 0.5 * (times[PIECES / 2 - 1] + times[PIECES / 2]) : sum / PIECES;
+}
+
+static void note_rates(Shares *s, OzSimCounts before, OzSimCounts after)
+{
+    double steps = (double)(after.steps - before.steps);
+    s->part[PART_PAIRS].calls_per_step = s->part[PART_GRAINS].calls_per_step = 1;
+    s->part[PART_WALLS].calls_per_step = s->part[PART_REST].calls_per_step = 1;
+    s->part[PART_REFRESH].calls_per_step =
+        per_step((double)(after.refreshes - before.refreshes), steps);
+    s->part[PART_REBUILD].calls_per_step =
+        per_step((double)(after.rebuilds - before.rebuilds), steps);
+}
+
+static OzStatus time_steps(Shares *s)
+{
+    double times[PIECES];
+    OZ_PASS(choose_element(s));
+    OzSimCounts before = oz_sim_counts(s->sim);
+    for (int k = 0; k < PIECES; k++) {
+        double start = clock_of(&s->device);
+        OZ_PASS(oz_sim_advance(s->sim, oz_sim_step(s->sim) + s->piece));
+        times[k] = clock_of(&s->device) - start;
+    }
+    note_rates(s, before, oz_sim_counts(s->sim));
+    const OzScene *scene = &s->bed->scene;
+    bool whole = scene->period <= 0 || (double)s->piece >= floor(scene->period / scene->step);
+    s->part[PART_STEP] = (Share){element_time(times, whole) / (double)s->piece, 1};
+    return OZ_OK;
+}
+
+static OzStatus time_phases(Shares *s)
+{
+    int64_t first = oz_sim_step(s->sim);
+    int moments = s->options->quick ? 1 : MOMENTS;
+    for (int k = 1; k <= moments; k++) {
+        OzStageTiming now;
+        OZ_PASS(oz_sim_advance(s->sim, first + s->piece * k / moments));
+        OZ_PASS(oz_stage_timing_measure(&now, s->sim, s->options->source_dir));
+        s->part[PART_PAIRS].seconds += now.pairs / moments;
+        s->part[PART_GRAINS].seconds += now.grains / moments;
+        s->part[PART_WALLS].seconds += now.walls / moments;
+        s->part[PART_REFRESH].seconds += now.refresh / moments;
+        s->part[PART_REBUILD].seconds += now.rebuild / moments;
+    }
+    double rest = s->part[PART_STEP].seconds;
+    for (int p = 0; p < PART_REST; p++) {
+        rest -= s->part[p].seconds * s->part[p].calls_per_step;
+    }
+    s->part[PART_REST].seconds = rest;
+    return OZ_OK;
+}
+
+static double rate(double interval, double step)
+{
+    return interval > 0 ? step / interval : 0;
+}
+
+static OzStatus time_observing(Shares *s, const OzSchedule *schedule)
+{
+    double start = clock_of(&s->device);
+    for (int k = 0; k < SAMPLES; k++) {
+        OZ_PASS(oz_read_snapshot_snapshot(s->sim, 0, &s->now, false));
+        oz_series_sample(s->series, &s->now);
+    }
+    double middle = clock_of(&s->device);
+    for (int k = 0; k < ROWS; k++) {
+        OZ_PASS(oz_read_snapshot_snapshot(s->sim, 0, &s->now, true));
+        OZ_PASS(oz_series_write(s->series, &s->now));
+    }
+    double step = s->bed->scene.step;
+    s->part[PART_SAMPLE] = (Share){(middle - start) / SAMPLES, rate(schedule->sample, step)};
+    s->part[PART_ROW] = (Share){(clock_of(&s->device) - middle) / ROWS, rate(schedule->row, step)};
+    return OZ_OK;
+}
+
+/* Frames after the first, which opens GL and the encoder. */
+static OzStatus draw_frames(Shares *s, double frames_per_step)
+{
+    double drawing[2] = {0}, encoding[2] = {0};
+    for (int k = 0; k <= FRAMES; k++) {
+        OZ_PASS(oz_pictures_add(s->pictures, &s->now, OZ_FRAME_MOVIE));
+        oz_pictures_times(s->pictures, &drawing[k > 0], &encoding[k > 0]);
+    }
+    s->part[PART_DRAW] = (Share){(drawing[1] - drawing[0]) / FRAMES, frames_per_step};
+    s->part[PART_ENCODE] = (Share){(encoding[1] - encoding[0]) / FRAMES, frames_per_step};
+    return OZ_OK;
+}
+
+/* A machine without GL or an encoder still has the other shares. */
+static OzStatus time_pictures(Shares *s, const OzSchedule *schedule)
+{
+    OzPicturesSettings settings = {.folder = s->folder,
+                                   .source_dir = s->options->source_dir,
+                                   .backend = s->options->gl,
+                                   .device = s->device.name};
+    if (!s->bed->scene.movie.present) {
+        return OZ_OK;
+    }
+    OZ_PASS(oz_file_make_folder(s->folder));
+    OZ_PASS(oz_pictures_create(&s->pictures, &settings, &s->bed->scene));
+    if (draw_frames(s, rate(schedule->frame, s->bed->scene.step)) != OZ_OK) {
+        oz_log_line("drawing and encoding not measured: %s", oz_status_text());
+    }
+    return OZ_OK;
+}
+
+static OzStatus measure(void *context)
+{
+    OzStatus status = OZ_OK;
+    Shares *s = context;
+    OZ_TRY(open_shares(s));
+    OzSchedule schedule = oz_schedule_create(&s->bed->scene, -1);
+    OZ_TRY(time_steps(s));
+    OZ_TRY(time_phases(s));
+    OZ_TRY(time_observing(s, &schedule));
+    OZ_TRY(time_pictures(s, &schedule));
+done:
+    oz_pictures_finish(s->pictures);
+    oz_series_free(s->series);
+    oz_snapshot_free(&s->now);
+    oz_sim_free(s->sim);
+    oz_device_close(&s->device);
+    return status;
+}
+
+/* One number into the table and into the file; what was not measured is - and empty. */
+static void print_number(double value, int width, int decimals, FILE *text, FILE *csv)
+{
+    if (isfinite(value)) {
+        fprintf(text, " %*.*f", width, decimals, value);
+        fprintf(csv, ",%.6g", value);
+    } else {
+        fprintf(text, " %*s", width, "-");
+        fprintf(csv, ",");
+    }
+}
+
+static void print_part(int p, const Share *part, double step, FILE *text, FILE *csv)
+{
+    double us = 1e6 * part->seconds * part->calls_per_step;
+    fprintf(text, "%-21s", parts[p].name);
+    fprintf(csv, "%s", parts[p].name);
+    print_number(1e6 * part->seconds, 12, 2, text, csv);
+    print_number(part->calls_per_step, 13, 6, text, csv);
+    print_number(us, 12, 3, text, csv);
+    print_number(1e-4 * us / step, 9, 1, text, csv);
+    fprintf(text, "  %s\n", parts[p].how);
+    fprintf(csv, "\n");
+}
+
+static OzStatus print_all(const Share part[PART_COUNT], const char *folder, const char *name,
+                          FILE *text)
+{
+    OzStatus status = OZ_OK;
+    FILE *csv = NULL;
+    OZ_TRY(oz_folder_create_file(&csv, folder, name));
+    fprintf(csv, "part,us_per_call,calls_per_step,us_per_step,percent_of_step\n");
+    fprintf(text, "%-22s %12s %13s %11s %9s  %s\n", "part", "us a call", "calls a step",
+            "us a step", "of a step", "how measured");
+    for (int p = 0; p < PART_COUNT; p++) {
+        print_part(p, &part[p], part[PART_STEP].seconds, text, csv);
+    }
+done:
+    if (csv) {
+        fclose(csv);
+    }
+    return status;
+}
+
+OzStatus oz_bench_shares_print(OzBenchBed *bed, const OzOptions *options, const char *folder,
+                               const char *name, FILE *text)
+{
+    OzStatus status = OZ_OK;
+    Share part[PART_COUNT] = {{0}};
+    char *movie = NULL, table[256];
+    part[PART_DRAW].seconds = part[PART_ENCODE].seconds = NAN;
+    snprintf(table, sizeof table, "%s.csv", name);
+    OZ_TRY(oz_file_join(&movie, folder, name));
+    Shares s = {.bed = bed, .options = options, .folder = movie, .part = part};
+    OZ_TRY(oz_subprocess_run(measure, &s, part, sizeof part));
+    fprintf(text, "\nshares of %lld grains of %s, float (of a CPU: processor time)\n",
+            (long long)bed->grains.count, bed->scene.name);
+    OZ_TRY(print_all(part, folder, table, text));
+done:
+    free(movie);
+    return status;
+}

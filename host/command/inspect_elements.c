@@ -1,0 +1,142 @@
+/* Printing what trigrains are made of and how large their step may be. */
+#include "command/inspect_elements.h"
+
+#include "command/inspect_range.h"
+#include "model/beam_limits.h"
+#include "model/shape.h"
+#include "sim/start.h"
+#include "sim/trial.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Of all values, or of those of triangles where radius says which are. */
+static void print_range(FILE *file, const char *name, const double *values, const double *radius,
+                        int64_t count, const char *unit)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t i = 0; i < count; i++) {
+        if (!radius || radius[i] == 0) {
+            low = fmin(low, values[i]);
+            high = fmax(high, values[i]);
+        }
+    }
+    if (high >= low) {
+        oz_inspect_range_print(file, name, low, high, unit);
+    }
+}
+
+static void print_bodies(FILE *file, const OzGrains *grains)
+{
+    const OzElements *elements = grains->elements;
+    fprintf(file, "grains             %lld\n", (long long)grains->count);
+    print_range(file, "diameter", grains->diameter, NULL, grains->count, "m (circle around)");
+    print_range(file, "mass", grains->mass, NULL, grains->count, "kg");
+    print_range(file, "inertia", grains->inertia, NULL, grains->count, "kg m^2");
+    fprintf(file, "elements             %lld of grains, %lld of walls\n",
+            (long long)elements->free_count, (long long)(elements->count - elements->free_count));
+    print_range(file, "triangle", elements->area, elements->radius, elements->free_count, "m^2");
+    fprintf(file, "beams              %lld\n", (long long)elements->beam_count);
+    print_range(file, "length", elements->beam_length, NULL, elements->beam_count, "m");
+}
+
+/* Grains that are not as symmetric as they look. */
+static void print_symmetry(FILE *file, const OzScene *scene)
+{
+    for (int i = 0; i < scene->population_count; i++) {
+        if (!oz_shape_keeps_symmetry(scene, &scene->populations[i])) {
+            fprintf(
+                file,
+                "symmetry           grains.%d: the outline has one that its triangles have not; "
+                "it bends more on one side, and may begin to turn where it should not\n",
+                i);
+        }
+    }
+}
+
+static void print_walls(FILE *file, const OzScene *scene)
+{
+    double gravity = hypot(scene->gravity[0], scene->gravity[1]);
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        const OzMotion *motion = &wall->motion;
+        if (motion->present && motion->frequency > 0) {
+            fprintf(file,
+                    "wall %d             moves %.6g m up and down at %g Hz: %.4g times gravity\n",
+                    w, motion->amplitude, motion->frequency, motion->acceleration_ratio);
+        }
+        if (motion->present && motion->angular_velocity != 0) {
+            double turn = motion->angular_velocity;
+            fprintf(file, "wall %d             turns at %g rad/s, once in %.4g s", w, turn,
+                    2 * PI / fabs(turn));
+            if (wall->kind == OZ_WALL_DRUM && gravity > 0) {
+                fprintf(file, "; Froude number %.4g", turn * turn * wall->diameter / 2 / gravity);
+            }
+            fputc('\n', file);
+        }
+    }
+}
+
+/* What hits and the pile's weight do to beams; the weight at rest by the force of the hit. */
+static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains *grains)
+{
+    OzTrial trial;
+    OZ_PASS(oz_trial_worst(&trial, scene, grains));
+    if (trial.grain >= 0 && trial.speed > 0) {
+        fprintf(
+            file,
+            "beams              a hit at %.3g m/s bends grain %lld by %.2g rad and stretches it "
+            "by %.2g",
+            trial.speed, (long long)trial.grain, trial.bend, trial.stretch);
+        if (trial.force > 0 && grains->count > 1) {
+            double load = oz_start_load(scene, grains);
+            fprintf(file, "; the weight of the pile by %.2g rad", trial.bend * load / trial.force);
+        }
+        fprintf(file, "\n");
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_inspect_elements_warn(FILE *file, const OzScene *scene, const OzGrains *grains)
+{
+    OzTrial trial;
+    char advice[256];
+    OZ_PASS(oz_trial_worst(&trial, scene, grains));
+    if (trial.grain >= 0 && trial.speed > 0) {
+        oz_trial_advise(advice, sizeof advice, &trial, scene);
+        fprintf(file, advice[0] ? "  warning          %s\n" : "%s", advice);
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_inspect_elements_print(FILE *file, const OzScene *scene, const OzGrains *grains)
+{
+    OzBeamLimit limit;
+    print_bodies(file, grains);
+    print_symmetry(file, scene);
+    print_walls(file, scene);
+    if (scene->precision == OZ_PRECISION_FLOAT) {
+        fprintf(file, "precision          float: rounds away what a small step moves; energies and "
+                      "rest are not to be trusted\n");
+    }
+    OzStatus status = print_softness(file, scene, grains);
+    if (status != OZ_OK) {
+        return status;
+    }
+    status = oz_beam_limits_find(&limit, scene, grains);
+    if (status != OZ_OK || isinf(limit.largest_step)) {
+        return status;
+    }
+    fprintf(file, "stiffest           grain %lld: %.4g rad/s, damped at %.4g 1/s; set by %s",
+            (long long)limit.grain, limit.rate, limit.damping, limit.beam < 0 ? "a contact" : "");
+    if (limit.beam >= 0) {
+        fprintf(file, "beam %lld of %.4g m", (long long)limit.beam,
+                grains->elements->beam_length[limit.beam]);
+    }
+    fprintf(file, "\n  stable           %s: largest step %.6g s, margin %.3g\n",
+            scene->step < limit.largest_step ? "yes" : "NO", limit.largest_step,
+            limit.largest_step / scene->step);
+    return OZ_OK;
+}

@@ -1,0 +1,269 @@
+/* The verdict of `orzo check`. */
+#include "command/inspect_verdict.h"
+
+#include "base/clock.h"
+#include "command/inspect_columns.h"
+#include "command/inspect_elements.h"
+#include "draw/renderer.h"
+#include "model/beam_limits.h"
+#include "model/predict.h"
+#include "observe/schedule.h"
+#include "sim/batch_fit.h"
+#include "sim/resolution.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { WORDS = 48 };
+
+/* s a pixel of encoding a movie: 9 ms for 1280 x 720 (x264, veryfast). */
+#define ENCODING 1e-8
+
+/* Beyond it a restitution is worth a word. */
+#define RESTITUTION_OFF 0.01
+
+static const char *place_of(const OzPrediction *row, char *text, size_t size)
+{
+    if (row->wall < 0) {
+        return "two grains";
+    }
+    snprintf(text, size, "a grain at wall %d", row->wall);
+    return text;
+}
+
+/* The contact whose restitution is furthest from what was asked for. */
+static const OzPrediction *worst_restitution(const OzPrediction *rows, int count, bool *alike)
+{
+    const OzPrediction *worst = &rows[0];
+    *alike = true;
+    for (int i = 1; i < count; i++) {
+        const OzPrediction *row = &rows[i];
+        *alike &= row->hits.mean == rows[0].hits.mean &&
+                  row->values.restitution == rows[0].values.restitution;
+        if (fabs(row->hits.mean - row->values.restitution) >
+            fabs(worst->hits.mean - worst->values.restitution)) {
+            worst = row;
+        }
+    }
+    return worst;
+}
+
+static void print_advice(FILE *file, const OzScene *scene, const OzPrediction *row)
+{
+    double off = row->hits.mean - row->values.restitution;
+    bool calibrates = scene->contact.law == OZ_LAW_HOOKE &&
+                      scene->contact.restitution_calibration == OZ_CALIBRATION_NONE;
+    if (fabs(off) > RESTITUTION_OFF) {
+        fprintf(file, ": off by %.2g; %s gets nearer", fabs(off),
+                calibrates ? "restitution_calibration: discrete or a smaller step"
+                           : "a smaller step");
+    }
+}
+
+static void print_restitution(FILE *file, const OzScene *scene, const OzPrediction *rows, int count)
+{
+    char text[WORDS];
+    bool alike;
+    const OzPrediction *row = worst_restitution(rows, count, &alike);
+    fputs("  restitution      ", file);
+    if (row->values.law == OZ_LAW_HERTZ) { /* which asks for none */
+        fprintf(file, "%.4g comes out at %.4g m/s\n", rows[0].hits.mean, rows[0].speed);
+        return;
+    }
+    fprintf(file, "%.4g asked, %.4g comes out", row->values.restitution, row->hits.mean);
+    if (row->hits.high - row->hits.low > 1e-3) {
+        fprintf(file, " (%.3g ... %.3g by phase)", row->hits.low, row->hits.high);
+    }
+    if (!alike) {
+        fprintf(file, ", of %s, the worst", place_of(row, text, sizeof text));
+    }
+    print_advice(file, scene, row);
+    fputc('\n', file);
+}
+
+/* largest: s; of: the contacts that set it. */
+static void print_stable(FILE *file, const OzScene *scene, double largest, const char *of)
+{
+    fprintf(file, "  stable           %s: step %.4g s, largest %.4g s (%s), margin %.3g\n",
+            scene->step < largest ? "yes" : "NO", scene->step, largest, of, largest / scene->step);
+}
+
+static void print_stability(FILE *file, const OzVerdict *v, const OzPrediction *rows, int count)
+{
+    char text[WORDS];
+    const OzPrediction *worst = &rows[0];
+    const OzStiffness *bed = &v->rehearsal->stiffness;
+    for (int i = 1; i < count; i++) {
+        worst = rows[i].margin < worst->margin ? &rows[i] : worst;
+    }
+    bool of_bed =
+        v->rehearsal->has_stiffness && bed->contacts > 0 && bed->largest_step < worst->largest_step;
+    print_stable(file, v->scene, of_bed ? bed->largest_step : worst->largest_step,
+                 of_bed ? "all contacts of the bed together" : place_of(worst, text, sizeof text));
+    for (int i = 0; i < count; i++) {
+        if (!rows[i].tangential_stable) {
+            fprintf(file, "  warning          the sticking spring of %s is unstable\n",
+                    place_of(&rows[i], text, sizeof text));
+        }
+    }
+}
+
+static OzStatus print_contacts(FILE *file, const OzVerdict *v)
+{
+    OzStatus status = OZ_OK;
+    OzPrediction *rows = NULL;
+    int count = 0;
+    OZ_TRY(oz_predict_scene(&rows, &count, v->scene, v->grains));
+    print_restitution(file, v->scene, rows, count);
+    print_stability(file, v, rows, count);
+    OZ_TRY(oz_resolution_print(file, v->scene, v->grains));
+done:
+    free(rows);
+    return status;
+}
+
+static OzStatus print_beams(FILE *file, const OzVerdict *v)
+{
+    OzBeamLimit limit;
+    char of[WORDS];
+    OZ_PASS(oz_beam_limits_find(&limit, v->scene, v->grains));
+    if (!isinf(limit.largest_step)) {
+        snprintf(of, sizeof of, "%s of grain %lld", limit.beam < 0 ? "a contact" : "a beam",
+                 (long long)limit.grain);
+        print_stable(file, v->scene, limit.largest_step, of);
+    }
+    OZ_PASS(oz_inspect_elements_warn(file, v->scene, v->grains));
+    if (v->scene->precision == OZ_PRECISION_FLOAT) {
+        fputs("  resolution       float rounds away what a small step moves: energies and rest are "
+              "not to be trusted\n",
+              file);
+    }
+    return OZ_OK;
+}
+
+/* s of computing that a member's run takes; steps and settling are printed as its parts. */
+static double print_computing(FILE *file, const OzVerdict *v, int64_t steps)
+{
+    const OzRehearsal *r = v->rehearsal;
+    char words[WORDS], settling[WORDS];
+    double a_step = r->spent / (double)r->steps, before = r->settled_in + r->settling_left;
+    oz_clock_words((double)steps * a_step, words, sizeof words);
+    oz_clock_words(before, settling, sizeof settling);
+    fprintf(file, "  cost             %lld steps at %.3g us: %s", (long long)steps, 1e6 * a_step,
+            words);
+    if (v->scene->settle.present) {
+        fprintf(file, ", after %s%s of settling", r->cut ? "at most " : "", settling);
+    }
+    fprintf(file, " (timed over %lld steps %s: right within a factor of two or so)\n",
+            (long long)r->steps, r->cut ? "of settling" : "from the start");
+    return (double)steps * a_step + before;
+}
+
+/* Seconds for a picture with its encoding; the second of two, as the first prepares the driver. */
+static OzStatus time_picture(const OzVerdict *v, double *seconds)
+{
+    OzStatus status = OZ_OK;
+    OzRenderer *renderer = NULL;
+    OzImage image = {0};
+    const OzSnapshot *now = &v->rehearsal->now;
+    OzLook look = oz_renderer_look(v->scene, now);
+    OZ_TRY(oz_renderer_create(&renderer, v->options->gl, v->options->source_dir));
+    OZ_TRY(oz_image_create(&image, look.width, look.height));
+    for (int i = 0; i < 2; i++) {
+        double start = oz_clock_now();
+        OZ_TRY(oz_renderer_draw(renderer, now, &look, &image));
+        *seconds = oz_clock_now() - start + ENCODING * look.width * look.height;
+    }
+done:
+    oz_image_free(&image);
+    oz_renderer_free(renderer);
+    return status;
+}
+
+/* s that the movie's pictures take beside the computing; 0 without one. */
+static double print_movie(FILE *file, const OzVerdict *v, const OzSchedule *schedule)
+{
+    double seconds = 0;
+    char words[WORDS];
+    if (!v->scene->movie.present) {
+        return 0;
+    }
+    double end = oz_step_clock_time(&schedule->clock, schedule->last_step);
+    double count = floor(end / schedule->frame + 1e-9) + 1;
+    fprintf(file, "  movie            %.0f pictures of %d x %d", count, v->scene->movie.width,
+            v->scene->movie.height);
+    if (time_picture(v, &seconds) != OZ_OK) {
+        fprintf(file, "; they cannot be drawn here: %s\n", oz_status_text());
+        return 0;
+    }
+    oz_clock_words(count * seconds, words, sizeof words);
+    fprintf(file, " at %.0f ms: %s, on another core beside the computing\n", 1e3 * seconds, words);
+    return count * seconds;
+}
+
+static OzStatus print_memory(FILE *file, const OzVerdict *v)
+{
+    OzMember member = {v->scene, v->grains};
+    int64_t most = 0;
+    double bytes = 0;
+    OzStatus status = oz_batch_fit_most(v->device, &member, &most, &bytes);
+    fprintf(file, "  memory           %.3g MB of %s\n", bytes / 1e6, v->device->name);
+    return status;
+}
+
+/* The longer of computing and drawing, which wait for each other only at the end. */
+static void print_sum(FILE *file, const OzScene *scene, double computing, double drawing)
+{
+    char words[WORDS];
+    oz_clock_words(fmax(computing, drawing), words, sizeof words);
+    if (scene->sweep.count > 0) {
+        fprintf(file,
+                "  in all           about %s for each of %d members of the sweep, as many at "
+                "a time as there are cores\n",
+                words, scene->sweep.count);
+    } else {
+        fprintf(file, "  in all           about %s\n", words);
+    }
+}
+
+static OzStatus print_cost(FILE *file, const OzVerdict *v)
+{
+    OzSchedule schedule = oz_schedule_create(v->scene, -1);
+    if (v->rehearsal->steps == 0) {
+        fprintf(file, "  cost             %lld steps, not timed%s\n", (long long)schedule.last_step,
+                v->burst[0] ? ": a guard stops them" : "");
+    } else {
+        double computing = print_computing(file, v, schedule.last_step);
+        double drawing = print_movie(file, v, &schedule);
+        print_sum(file, v->scene, computing, drawing);
+    }
+    return print_memory(file, v);
+}
+
+static void print_missed(FILE *file, const OzScene *scene)
+{
+    char missed[512];
+    OzSchedule schedule = oz_schedule_create(scene, -1);
+    if (oz_schedule_missed(&schedule, missed, sizeof missed)) {
+        fprintf(file, "  warning          %s\n", missed);
+    }
+}
+
+OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
+{
+    bool flat = verdict->scene->model == OZ_MODEL_TRIGRAINS;
+    fputs("verdict\n", file);
+    if (verdict->burst[0]) {
+        fprintf(file, "  runs             NO: %s\n", verdict->burst);
+    }
+    if (verdict->grains->count > 0) {
+        OZ_PASS(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
+    }
+    OZ_PASS(print_cost(file, verdict));
+    if (verdict->grains->count > 0) {
+        fputs("  empty columns    ", file);
+        oz_inspect_columns_print(file, verdict->scene, verdict->grains);
+    }
+    print_missed(file, verdict->scene);
+    return OZ_OK;
+}

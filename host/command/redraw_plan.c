@@ -1,0 +1,205 @@
+/* Times asked for against times stored. Draws nothing. */
+#include "command/redraw_plan.h"
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "observe/schedule.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SNAPSHOTS_NAMED = 8 }; /* in the log, of those that are off */
+
+OzStatus oz_redraw_plan_note(OzRedrawPlan *plan, double time, int stored)
+{
+    if (plan->count == plan->capacity) {
+        size_t wanted = plan->capacity ? 2 * plan->capacity : 256;
+        OZ_PASS(oz_memory_grow((void **)&plan->frames, plan->capacity, wanted, sizeof *plan->frames,
+                               "stored frames"));
+        plan->capacity = wanted;
+    }
+    plan->frames[plan->count++] = (OzRedrawFrame){.time = time, .stored = stored};
+    return OZ_OK;
+}
+
+void oz_redraw_plan_free(OzRedrawPlan *plan)
+{
+    free(plan->frames);
+    *plan = (OzRedrawPlan){0};
+}
+
+/* The frame nearest to time; its distance in time, s, widens *off. */
+static OzRedrawFrame *find_nearest(const OzRedrawPlan *plan, double time, double *off)
+{
+    size_t low = 0, high = plan->count - 1;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (plan->frames[middle].time < time) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    OzRedrawFrame *after = &plan->frames[low];
+    OzRedrawFrame *before = low > 0 ? after - 1 : after;
+    OzRedrawFrame *nearest = time - before->time < fabs(after->time - time) ? before : after;
+    *off = fmax(*off, fabs(nearest->time - time));
+    return nearest;
+}
+
+/* What the run kept for one purpose is drawn again. */
+static void take_stored(OzRedrawPlan *plan, int purpose)
+{
+    for (size_t i = 0; i < plan->count; i++) {
+        plan->frames[i].purpose |= plan->frames[i].stored & purpose;
+        plan->frames[i].repeats += plan->frames[i].stored & purpose & OZ_FRAME_MOVIE ? 1 : 0;
+    }
+}
+
+/* Frames at equal intervals, s, up to the end, each from the nearest. */
+static void take_evenly(OzRedrawPlan *plan, int purpose, double interval, double end,
+                        const char *what)
+{
+    double off = 0;
+    int64_t count = interval > 0 ? (int64_t)floor(end / interval * (1 + 1e-9)) + 1 : 0;
+    for (int64_t k = 0; k < count; k++) {
+        OzRedrawFrame *frame = find_nearest(plan, (double)k * interval, &off);
+        frame->purpose |= purpose;
+        frame->repeats += purpose == OZ_FRAME_MOVIE;
+    }
+    if (count > 0) {
+        oz_log_line("%s: %lld frames, each from the stored one nearest in time, up to %.3g s off",
+                    what, (long long)count, off);
+    }
+}
+
+static bool keeps(const OzRedrawPlan *plan, int purpose)
+{
+    bool any = false;
+    for (size_t i = 0; i < plan->count; i++) {
+        any |= (plan->frames[i].stored & purpose) != 0;
+    }
+    return any;
+}
+
+static double last_time(const OzRedrawPlan *plan)
+{
+    return plan->frames[plan->count - 1].time;
+}
+
+static void choose_movie(OzRedrawPlan *plan, const OzScene *run, const OzScene *asked)
+{
+    const OzMovieSettings *a = &run->movie, *b = &asked->movie;
+    bool same = a->speed == b->speed && a->length == b->length && a->fps == b->fps;
+    if (!b->present) {
+        return;
+    }
+    if (a->present && same && keeps(plan, OZ_FRAME_MOVIE)) {
+        take_stored(plan, OZ_FRAME_MOVIE);
+        return;
+    }
+    OzSchedule schedule = oz_schedule_create(asked, last_time(plan));
+    take_evenly(plan, OZ_FRAME_MOVIE, schedule.frame, last_time(plan), "movie");
+}
+
+/* Up to when the run is known to have been: its last frame, and a gap between frames beyond. */
+static double find_end(const OzRedrawPlan *plan)
+{
+    double gap = 0;
+    for (size_t i = 1; i < plan->count; i++) {
+        gap = fmax(gap, plan->frames[i].time - plan->frames[i - 1].time);
+    }
+    return last_time(plan) + gap;
+}
+
+/* Snapshot i of the scene from the nearest frame; its time becomes that frame's where they differ.
+ * Returns how far off, s; 0 within half a step. */
+static double take_snapshot(OzRedrawPlan *plan, OzScene *asked, int i)
+{
+    OzSnapshotSettings *shots = &asked->snapshots;
+    double off = 0, wanted = shots->times[i];
+    OzRedrawFrame *frame = find_nearest(plan, wanted, &off);
+    frame->purpose |= OZ_FRAME_SNAPSHOT;
+    if (off <= 0.501 * asked->step) {
+        return 0;
+    }
+    shots->times[i] = frame->time;
+    if (i < shots->tap_count) {
+        shots->taps[i] = frame->time / asked->period;
+    }
+    return off;
+}
+
+static void tell_off(const OzScene *asked, double wanted, double drawn)
+{
+    double unit = asked->period > 0 ? asked->period : 1;
+    oz_log_line(
+        "snapshots: %s %.9g%s is drawn from the stored frame nearest in time, %.9g%s, %.3g s "
+        "off",
+        asked->period > 0 ? "tap" : "time", wanted / unit, asked->period > 0 ? "" : " s",
+        drawn / unit, asked->period > 0 ? "" : " s", fabs(wanted - drawn));
+}
+
+static void choose_snapshots(OzRedrawPlan *plan, const OzScene *run, OzScene *asked)
+{
+    const OzSnapshotSettings *a = &run->snapshots;
+    OzSnapshotSettings *b = &asked->snapshots;
+    char missed[512];
+    int told = 0, off_count = 0;
+    double most = 0;
+    if (a->count == b->count &&
+        (a->count == 0 || memcmp(a->times, b->times, (size_t)a->count * sizeof *a->times) == 0)) {
+        take_stored(plan, OZ_FRAME_SNAPSHOT);
+        return;
+    }
+    OzSchedule schedule = oz_schedule_create(asked, find_end(plan));
+    if (oz_schedule_missed(&schedule, missed, sizeof missed)) {
+        oz_log_line("warning: %s", missed);
+    }
+    for (int i = 0; i < b->count; i++) {
+        double wanted = b->times[i];
+        if (oz_step_clock_nearest(&schedule.clock, wanted) > schedule.last_step) {
+            break;
+        }
+        double off = take_snapshot(plan, asked, i);
+        off_count += off > 0;
+        most = fmax(most, off);
+        if (off > 0 && told++ < SNAPSHOTS_NAMED) {
+            tell_off(asked, wanted, b->times[i]);
+        }
+    }
+    if (off_count > SNAPSHOTS_NAMED) {
+        oz_log_line("snapshots: %d in all are off, by up to %.3g s", off_count, most);
+    }
+}
+
+static void choose_strobe(OzRedrawPlan *plan, const OzScene *run, const OzScene *asked)
+{
+    double interval = asked->snapshots.strobe;
+    if (interval == run->snapshots.strobe) {
+        take_stored(plan, OZ_FRAME_STROBE);
+    } else {
+        take_evenly(plan, OZ_FRAME_STROBE, interval, last_time(plan), "strobe");
+    }
+}
+
+OzStatus oz_redraw_plan_choose(OzRedrawPlan *plan, const OzScene *run, OzScene *asked)
+{
+    bool any = false;
+    if (plan->count > 0) {
+        choose_movie(plan, run, asked);
+        choose_snapshots(plan, run, asked);
+        choose_strobe(plan, run, asked);
+    }
+    for (size_t i = 0; i < plan->count; i++) {
+        any |= plan->frames[i].purpose != 0;
+    }
+    return any ? OZ_OK
+               : oz_status_fail(
+                     OZ_ERR_INPUT,
+                     "nothing to draw: %s; expected a movie, or snapshots within the run",
+                     plan->count ? "no movie is asked for and no snapshot that the run "
+                                   "has come to"
+                                 : "the run has stored no frame");
+}

@@ -1,7 +1,0 @@
-/* THE list of models. */
-#pragma once
-
-#include "compute/model.h"
-
-/* The model of a scene. */
-const OzModel *oz_models_of(const OzScene *scene);

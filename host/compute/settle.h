@@ -1,8 +1,0 @@
-/* Letting the grains of a simulation come to rest before time 0. */
-#pragma once
-
-#include "compute/rest.h"
-#include "compute/sim.h"
-
-/* As oz_rest_run; walls that will go later are all there meanwhile. */
-OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context);

@@ -1,0 +1,40 @@
+/* The pictures of a run: movie frames and snapshots, from the snapshots that are handed in. GL and
+ * libav are opened by the first picture that needs them and never otherwise. */
+#pragma once
+
+#include "draw/renderer.h"
+
+typedef struct OzPictures OzPictures;
+
+enum { OZ_PICTURES_STATES = 256 }; /* more would hide each other */
+
+typedef struct OzPicturesSettings {
+    const char *folder;     /* movie.mp4 and snapshots/ go here; borrowed        */
+    const char *source_dir; /* as in oz_embed_read; borrowed, may be NULL        */
+    OzGlBackend backend;
+    const char *device;    /* for the movie's metadata: who computed; borrowed   */
+    OzRenderer **renderer; /* shared by several pictures: made by the first that draws, freed by
+                            * the caller after them; NULL: the pictures' own                */
+} OzPicturesSettings;
+
+/* settings and scene are borrowed and must outlive the pictures. */
+OzStatus oz_pictures_create(OzPictures **pictures, const OzPicturesSettings *settings,
+                            const OzScene *scene);
+
+/* Fixes the framing of all pictures by this snapshot; left out, the first one added does. */
+void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot);
+
+/* Draws a snapshot and hands it to the movie and (or) writes it into snapshots/ (names:
+ * draw/picture_name.h) in the look of `snapshots`; purpose: OZ_FRAME_ bits of observe/frames.h. Of
+ * those for the strobe copies are kept, at most OZ_PICTURES_STATES of them. */
+OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose);
+
+/* The movie's last frame once more; there must be one. */
+OzStatus oz_pictures_repeat(OzPictures *pictures);
+
+/* Seconds spent in drawing and in encoding so far. */
+void oz_pictures_times(const OzPictures *pictures, double *drawing, double *encoding);
+
+/* Draws snapshots/strobe.png, the kept states over each other, if there are any; closes the movie,
+ * frees; NULL is fine. */
+OzStatus oz_pictures_finish(OzPictures *pictures);

@@ -1,0 +1,42 @@
+/* Pictures drawn beside the simulation: one thread that owns the GL context and the encoders of all
+ * its pictures, and before it a short queue of copied snapshots. Several
+ * threads may hand in pictures, each those of its own pictures. */
+#pragma once
+
+#include "draw/pictures.h"
+
+enum {
+    OZ_RENDER_QUEUE_JOBS = 8
+}; /* pictures that may wait or be in hand: a second or so of drawing */
+
+typedef struct OzRenderQueue OzRenderQueue;
+
+/* Seconds. */
+typedef struct OzRenderQueueTimes {
+    double drawing, encoding; /* of the render queue's thread, of pictures that are finished  */
+    double waited;            /* in oz_render_queue_add, all its callers together              */
+} OzRenderQueueTimes;
+
+/* Starts no thread: the first picture does. */
+OzStatus oz_render_queue_create(OzRenderQueue **render_queue);
+
+/* Where the render queue's renderer stands, for OzPicturesSettings.renderer. The render queue makes
+ * it, uses it and frees it. */
+OzRenderer **oz_render_queue_renderer(OzRenderQueue *render_queue);
+
+/* oz_pictures_add of a copy, later; the bits do not depend on when. From the first call on the
+ * pictures belongs to the render queue's thread until oz_render_queue_finish. Waits while
+ * OZ_RENDER_QUEUE_JOBS pictures, or fewer large ones, wait or are in hand. Fails with the first
+ * failure of any picture so far; those that still wait after one are left out. */
+OzStatus oz_render_queue_add(OzRenderQueue *render_queue, OzPictures *pictures,
+                             const OzSnapshot *snapshot, int purpose);
+
+/* oz_pictures_finish after every picture that waits; NULL for either is fine. Fails with the first
+ * failure so far, and the movie holds the frames before it. */
+OzStatus oz_render_queue_finish(OzRenderQueue *render_queue, OzPictures *pictures);
+
+/* The times since the last call. */
+OzRenderQueueTimes oz_render_queue_take_times(OzRenderQueue *render_queue);
+
+/* All pictures must be finished; NULL is fine. */
+void oz_render_queue_free(OzRenderQueue *render_queue);

@@ -1,0 +1,182 @@
+/* Snapshot arrays. Knows nothing of where the state comes from. */
+#include "model/snapshot.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static OzStatus create_elements(OzSnapshot *snapshot, int64_t count)
+{
+    OzStatus status = OZ_OK;
+    snapshot->element_count = count;
+    OZ_TRY(OZ_NEW(&snapshot->element_position, 2 * count));
+    OZ_TRY(OZ_NEW(&snapshot->element_angle, count));
+    OZ_TRY(OZ_NEW(&snapshot->element_velocity, 2 * count));
+    OZ_TRY(OZ_NEW(&snapshot->element_angular_velocity, count));
+done:
+    return status;
+}
+
+OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    int64_t count = grains->count;
+    memset(snapshot, 0, sizeof *snapshot);
+    snapshot->scene = scene;
+    snapshot->grains = grains;
+    snapshot->count = count;
+    OZ_TRY(OZ_NEW(&snapshot->position, 3 * count));
+    OZ_TRY(OZ_NEW(&snapshot->quaternion, 4 * count));
+    OZ_TRY(OZ_NEW(&snapshot->axis, 3 * count));
+    OZ_TRY(OZ_NEW(&snapshot->velocity, 3 * count));
+    OZ_TRY(OZ_NEW(&snapshot->angular_velocity, 3 * count));
+    OZ_TRY(OZ_NEW(&snapshot->wall_offset, scene->wall_count));
+    OZ_TRY(OZ_NEW(&snapshot->wall_velocity, scene->wall_count));
+    if (grains->elements) {
+        OZ_TRY(create_elements(snapshot, grains->elements->count));
+    }
+done:
+    if (status != OZ_OK) {
+        oz_snapshot_free(snapshot);
+    }
+    return status;
+}
+
+void oz_snapshot_free(OzSnapshot *snapshot)
+{
+    free(snapshot->position);
+    free(snapshot->quaternion);
+    free(snapshot->axis);
+    free(snapshot->velocity);
+    free(snapshot->angular_velocity);
+    free(snapshot->wall_offset);
+    free(snapshot->wall_velocity);
+    free(snapshot->element_position);
+    free(snapshot->element_angle);
+    free(snapshot->element_velocity);
+    free(snapshot->element_angular_velocity);
+    memset(snapshot, 0, sizeof *snapshot);
+}
+
+static void copy_words(double *to, const double *from, int64_t count)
+{
+    if (count > 0) {
+        memcpy(to, from, (size_t)count * sizeof *to);
+    }
+}
+
+static void copy_elements(OzSnapshot *copy, const OzSnapshot *snapshot)
+{
+    int64_t count = snapshot->element_count;
+    copy_words(copy->element_position, snapshot->element_position, 2 * count);
+    copy_words(copy->element_angle, snapshot->element_angle, count);
+    copy_words(copy->element_velocity, snapshot->element_velocity, 2 * count);
+    copy_words(copy->element_angular_velocity, snapshot->element_angular_velocity, count);
+    copy->elements = snapshot->elements;
+    copy->element_ledger = snapshot->element_ledger;
+}
+
+OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    int64_t count = snapshot->count, walls = snapshot->scene->wall_count;
+    OZ_TRY(oz_snapshot_create(copy, snapshot->scene, snapshot->grains));
+    copy_words(copy->position, snapshot->position, 3 * count);
+    copy_words(copy->quaternion, snapshot->quaternion, 4 * count);
+    copy_words(copy->axis, snapshot->axis, 3 * count);
+    copy_words(copy->velocity, snapshot->velocity, 3 * count);
+    copy_words(copy->angular_velocity, snapshot->angular_velocity, 3 * count);
+    copy_words(copy->wall_offset, snapshot->wall_offset, walls);
+    copy_words(copy->wall_velocity, snapshot->wall_velocity, walls);
+    copy->step = snapshot->step;
+    copy->time = snapshot->time;
+    copy->deep_count = snapshot->deep_count;
+    copy->has_contacts = snapshot->has_contacts;
+    copy->contacts = snapshot->contacts;
+    copy->has_ledger = snapshot->has_ledger;
+    copy->ledger = snapshot->ledger;
+    copy_elements(copy, snapshot);
+done:
+    return status;
+}
+
+void oz_snapshot_move_walls(OzSnapshot *snapshot)
+{
+    const OzScene *scene = snapshot->scene;
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzMotion *motion = &scene->walls[w].motion;
+        double rate = 2 * 3.14159265358979323846 * motion->frequency;
+        bool moves = motion->present;
+        snapshot->wall_offset[w] = moves ? motion->amplitude * sin(rate * snapshot->time) : 0;
+        snapshot->wall_velocity[w] =
+            moves ? motion->amplitude * rate * cos(rate * snapshot->time) : 0;
+    }
+}
+
+/* Sums of a grain's elements: mass, first moments of position and velocity, turn. */
+typedef struct Join {
+    double mass, position[2], velocity[2], turn, inertia, momentum;
+} Join;
+
+static Join join_linear(const OzSnapshot *snapshot, int64_t first, int64_t end)
+{
+    const OzElements *elements = snapshot->grains->elements;
+    Join join = {0};
+    for (int64_t i = first; i < end; i++) {
+        double mass = elements->mass[i];
+        join.mass += mass;
+        join.turn += mass * (snapshot->element_angle[i] - elements->angle[i]);
+        for (int k = 0; k < 2; k++) {
+            join.position[k] += mass * snapshot->element_position[2 * i + k];
+            join.velocity[k] += mass * snapshot->element_velocity[2 * i + k];
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        join.position[k] /= join.mass;
+        join.velocity[k] /= join.mass;
+    }
+    join.turn /= join.mass;
+    return join;
+}
+
+/* Moment of inertia and angular momentum about the centre of mass. */
+static void join_angular(const OzSnapshot *snapshot, int64_t first, int64_t end, Join *join)
+{
+    const OzElements *elements = snapshot->grains->elements;
+    for (int64_t i = first; i < end; i++) {
+        const double *r = snapshot->element_position + 2 * i,
+                     *v = snapshot->element_velocity + 2 * i;
+        double x = r[0] - join->position[0], y = r[1] - join->position[1];
+        double u = v[0] - join->velocity[0], w = v[1] - join->velocity[1];
+        join->inertia += elements->inertia[i] + elements->mass[i] * (x * x + y * y);
+        join->momentum += elements->inertia[i] * snapshot->element_angular_velocity[i] +
+                          elements->mass[i] * (x * w - y * u);
+    }
+}
+
+void oz_snapshot_join_elements(OzSnapshot *snapshot)
+{
+    const OzElements *elements = snapshot->grains->elements;
+    for (int64_t g = 0; g < snapshot->count; g++) {
+        Join join = join_linear(snapshot, elements->first[g], elements->first[g + 1]);
+        join_angular(snapshot, elements->first[g], elements->first[g + 1], &join);
+        memcpy(&snapshot->position[3 * g], (double[3]){join.position[0], join.position[1], 0},
+               3 * sizeof(double));
+        memcpy(&snapshot->velocity[3 * g], (double[3]){join.velocity[0], join.velocity[1], 0},
+               3 * sizeof(double));
+        memcpy(&snapshot->angular_velocity[3 * g], (double[3]){0, 0, join.momentum / join.inertia},
+               3 * sizeof(double));
+        memcpy(&snapshot->quaternion[4 * g],
+               (double[4]){cos(0.5 * join.turn), 0, 0, sin(0.5 * join.turn)}, 4 * sizeof(double));
+    }
+    oz_snapshot_turn_axes(snapshot);
+}
+
+void oz_snapshot_turn_axes(OzSnapshot *snapshot)
+{
+    for (int64_t i = 0; i < snapshot->count; i++) {
+        oz_grains_axis(&snapshot->quaternion[4 * i], &snapshot->axis[3 * i]);
+    }
+}

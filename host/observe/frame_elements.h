@@ -1,0 +1,31 @@
+/* The elements of flat grains in frames.bin: what never changes, and their part of a frame. The
+ * layout is in observe/frames.h. */
+#pragma once
+
+#include "model/snapshot.h"
+#include "observe/bytes.h"
+
+#include <stdbool.h>
+
+enum {
+    OZ_FRAME_ELEMENTS_HEAD = 4 * 8
+}; /* bytes: i64 elements of grains, of walls, beams, outlines */
+
+OzElementCounts oz_frame_elements_count(const OzElements *elements);
+void oz_frame_elements_pack_head(OzBytes *at, const OzElementCounts *counts);
+void oz_frame_elements_unpack_head(OzBytes *at, OzElementCounts *counts);
+
+/* Bytes of what never changes, and of a frame's part. */
+size_t oz_frame_elements_static_bytes(const OzElementCounts *counts);
+size_t oz_frame_elements_bytes(const OzElementCounts *counts);
+
+void oz_frame_elements_pack_static(OzBytes *at, const OzElements *elements);
+
+/* Into elements made for these counts (grains and walls too), their position, velocity and spin at
+ * zero. False for values that no scene can have; nothing out of range is kept in use then. */
+bool oz_frame_elements_unpack_static(OzBytes *at, OzElements *elements);
+
+/* A frame's part: position, angle and velocity. Reading joins the grains, whose spin stays unknown:
+ * zero. */
+void oz_frame_elements_pack(OzBytes *at, const OzSnapshot *snapshot);
+void oz_frame_elements_unpack(OzBytes *at, OzSnapshot *snapshot);

@@ -1,0 +1,177 @@
+/* Values and exact answers of the report's scenes. The snapshot's grains are the start. */
+#include "report/report_cases.h"
+
+#include "model/contact.h"
+#include "report/report_parallel.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Velocity of grain 1 relative to grain 0 along the line that joined their centres. */
+static double parting(const OzSnapshot *end, const double *velocity)
+{
+    double speed = 0, length = 0;
+    for (int c = 0; c < 3; c++) {
+        double way = end->grains->position[3 + c] - end->grains->position[c];
+        speed += (velocity[3 + c] - velocity[c]) * way;
+        length += way * way;
+    }
+    return speed / sqrt(length);
+}
+
+static double value_restitution(const OzSnapshot *end)
+{
+    return -parting(end, end->velocity) / parting(end, end->grains->velocity);
+}
+
+static double exact_restitution(const OzSnapshot *end)
+{
+    return oz_contact_constants(&end->scene->contact).restitution;
+}
+
+static double value_spin(const OzSnapshot *end)
+{
+    return end->angular_velocity[1];
+}
+
+static double value_way(const OzSnapshot *end)
+{
+    return end->position[0] - end->grains->position[0];
+}
+
+/* A free symmetric top: its axis turns about the angular momentum at |L| / I_perp (Rodrigues 1840).
+ */
+static void precess(const OzGrains *grains, double time, double axis[3])
+{
+    double start[3], momentum[3];
+    oz_grains_axis(grains->quaternion, start);
+    double excess =
+        (grains->inertia_axis[0] - grains->inertia[0]) * dot(grains->angular_velocity, start);
+    for (int c = 0; c < 3; c++) {
+        momentum[c] = grains->inertia[0] * grains->angular_velocity[c] + excess * start[c];
+    }
+    double length = sqrt(dot(momentum, momentum)), angle = length / grains->inertia[0] * time;
+    double along = dot(momentum, start) / (length * length);
+    for (int c = 0; c < 3; c++) {
+        int i = (c + 1) % 3, j = (c + 2) % 3;
+        double across = (momentum[i] * start[j] - momentum[j] * start[i]) / length;
+        axis[c] =
+            along * momentum[c] * (1 - cos(angle)) + start[c] * cos(angle) + across * sin(angle);
+    }
+}
+
+/* The chord between the axis and where it must be: as the angle, and exact when that is tiny. */
+static double value_axis(const OzSnapshot *end)
+{
+    double axis[3], apart[3];
+    precess(end->grains, end->time, axis);
+    for (int c = 0; c < 3; c++) {
+        apart[c] = end->axis[c] - axis[c];
+    }
+    return sqrt(dot(apart, apart));
+}
+
+static double exact_nothing(const OzSnapshot *end)
+{
+    (void)end;
+    return 0;
+}
+
+/* Of a rod lying flat on the plane z = 0. */
+static double value_overlap(const OzSnapshot *end)
+{
+    return 0.5 * end->grains->diameter[0] - end->position[2];
+}
+
+/* Two ends carry the weight; the stiffness is given per mass. */
+static double exact_overlap(const OzSnapshot *end)
+{
+    double stiffness = oz_contact_constants(&end->scene->walls[0].contact).stiffness;
+    return -end->scene->gravity[2] / (2 * stiffness);
+}
+
+/* How high the sphere will rise, or rose last. */
+static double value_apex(const OzSnapshot *end)
+{
+    double speed = end->velocity[2];
+    return end->position[2] - 0.5 * end->grains->diameter[0] -
+           0.5 * speed * speed / end->scene->gravity[2];
+}
+
+static double energy(const OzSnapshot *now, const double *position, const double *quaternion,
+                     const double *velocity, const double *angular_velocity)
+{
+    const OzGrains *g = now->grains;
+    double sum = 0, axis[3];
+    for (int64_t i = 0; i < now->count;
+         i++, position += 3, quaternion += 4, velocity += 3, angular_velocity += 3) {
+        oz_grains_axis(quaternion, axis);
+        double about = dot(angular_velocity, axis);
+        sum += 0.5 * g->mass[i] * dot(velocity, velocity) +
+               0.5 * g->inertia[i] * dot(angular_velocity, angular_velocity) +
+               0.5 * (g->inertia_axis[i] - g->inertia[i]) * about * about -
+               g->mass[i] * dot(now->scene->gravity, position);
+    }
+    return sum;
+}
+
+double oz_report_cases_energy(const OzSnapshot *now)
+{
+    return energy(now, now->position, now->quaternion, now->velocity, now->angular_velocity);
+}
+
+double oz_report_cases_energy_start(const OzSnapshot *now)
+{
+    const OzGrains *g = now->grains;
+    return energy(now, g->position, g->quaternion, g->velocity, g->angular_velocity);
+}
+
+/* What the ledger cannot account for, as a share of the energy at the start. */
+static double value_residual(const OzSnapshot *end)
+{
+    double start = oz_report_cases_energy_start(end);
+    double now = oz_report_cases_energy(end) + end->ledger.elastic + end->ledger.dissipated +
+                 end->ledger.friction - end->ledger.work_walls;
+    return end->has_ledger ? (now - start) / start : NAN;
+}
+
+static const OzReportCase rows[] = {
+    {"normal_hit", "restitution", "", true, value_restitution, exact_restitution, NULL},
+    {"oblique_smooth", "spin after the hit", "", true, value_spin, NULL, NULL},
+    {"oblique_rough", "spin after the hit", "", true, value_spin, NULL, NULL},
+    {"rolling_sphere", "way travelled", "", false, value_way, NULL, NULL},
+    {"rolling_rod", "way travelled", "", false, value_way, NULL, NULL},
+    {"free_rotation", "direction of the shaft", "rad", false, value_axis, exact_nothing, NULL},
+    {"rest", "overlap at rest", "", false, value_overlap, exact_overlap, NULL},
+    {"bounce", "height of the third bounce", "", true, value_apex, NULL, NULL},
+    {"ten_rods", "energy", "of the energy", false, value_residual, exact_nothing, NULL},
+    {"aligned", "energy", "of the energy", false, NULL, NULL, oz_report_parallel_study},
+    {NULL, NULL, NULL, false, NULL, NULL, NULL},
+};
+
+const OzReportCase *oz_report_cases_all(void)
+{
+    return rows;
+}
+
+const OzReportCase *oz_report_cases_find(const char *scene)
+{
+    for (const OzReportCase *row = rows; row->scene; row++) {
+        if (strcmp(row->scene, scene) == 0) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+double oz_report_cases_error(const OzReportCase *row, double value, double truth)
+{
+    double apart = fabs(value - truth);
+    return row->unit[0] ? apart : apart / fabs(truth);
+}

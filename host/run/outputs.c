@@ -1,0 +1,196 @@
+/* One member's files. */
+#include "run/outputs.h"
+
+#include "base/file.h"
+#include "base/folder.h"
+#include "observe/final.h"
+#include "observe/schedule.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+OzFolderUse oz_outputs_use(bool overwrite)
+{
+    static const char *const writes[] = {"log.txt",
+                                         "scene.yaml",
+                                         "series.csv",
+                                         "frames.bin",
+                                         "final.csv",
+                                         "final.csv.part",
+                                         "movie.mp4",
+                                         "movie.mp4.part",
+                                         "members.csv",
+                                         "members.csv.part",
+                                         "ensemble.csv",
+                                         "ensemble.csv.part",
+                                         "inclination_fit.csv",
+                                         "inclination_spectrum.csv",
+                                         "snapshots/tap_*.png*",
+                                         "snapshots/time_*.png*",
+                                         "snapshots/strobe.png*",
+                                         NULL};
+    static const char *const endings[] = {"final.csv", "members.csv", NULL};
+    static const char *const results[] = {"series.csv", "frames.bin", "movie.mp4",
+                                          "members.csv.part", NULL};
+    return (OzFolderUse){
+        .writes = writes, .endings = endings, .results = results, .overwrite = overwrite};
+}
+
+OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name)
+{
+    return options->out ? oz_file_join(folder, NULL, options->out)
+                        : oz_file_join(folder, "runs", name);
+}
+
+/* The path of a file that is about to be made there; part: under another name first. */
+static OzStatus claim(char **path, const OzOutputs *outputs, const char *name, const char *part)
+{
+    OZ_PASS(oz_file_join(path, outputs->folder, name));
+    OZ_PASS(oz_folder_note(outputs->folder, name));
+    if (part) {
+        OZ_PASS(oz_folder_note(outputs->folder, part));
+    }
+    return OZ_OK;
+}
+
+static OzStatus write_scene(const OzOutputs *outputs)
+{
+    OzStatus status = OZ_OK;
+    char *path = NULL;
+    FILE *file = NULL;
+    OZ_TRY(claim(&path, outputs, "scene.yaml", NULL));
+    file = fopen(path, "w");
+    if (!file) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+        goto done;
+    }
+    OZ_TRY(oz_scene_write(&outputs->scene, file));
+done:
+    if (file && fclose(file) != 0 && status == OZ_OK) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    }
+    free(path);
+    return status;
+}
+
+OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
+                         OzRenderQueue *render_queue)
+{
+    OzStatus status = OZ_OK;
+    char *series = NULL, *frames = NULL;
+    const OzScene *scene = &outputs->scene;
+    const OzGrains *grains = &outputs->grains;
+    bool pictures =
+        scene->movie.present || scene->snapshots.count > 0 || scene->snapshots.strobe > 0;
+    outputs->is_open = true;
+    if (outputs->name &&
+        outputs->name[0]) { /* a plain run's folder is chosen, with its log in it */
+        OzFolderUse use = oz_outputs_use(options->overwrite);
+        OZ_TRY(oz_folder_open(&outputs->owned, outputs->folder, &use));
+    }
+    OZ_TRY(oz_snapshot_create(&outputs->now, scene, grains));
+    OZ_TRY(write_scene(outputs));
+    OZ_TRY(claim(&outputs->final, outputs, "final.csv", "final.csv.part"));
+    OZ_TRY(oz_final_reserve(grains, outputs->final));
+    OZ_TRY(claim(&series, outputs, "series.csv", NULL));
+    OZ_TRY(oz_series_create(&outputs->series, series, scene, grains));
+    if (pictures) {
+        OZ_TRY(claim(&frames, outputs, "frames.bin", NULL));
+        OZ_TRY(oz_frames_create(&outputs->frames, frames, scene, grains));
+    }
+    if (pictures && !options->no_video) {
+        outputs->picture_settings =
+            (OzPicturesSettings){.folder = outputs->folder,
+                                 .source_dir = options->source_dir,
+                                 .backend = options->gl,
+                                 .device = device,
+                                 .renderer = oz_render_queue_renderer(render_queue)};
+        outputs->render_queue = render_queue;
+        OZ_TRY(oz_pictures_create(&outputs->pictures, &outputs->picture_settings, scene));
+    }
+done:
+    free(series);
+    free(frames);
+    return status;
+}
+
+/* What pictures are due, in the frames' bits. */
+static int purpose_of(int due)
+{
+    return (due & OZ_DUE_MOVIE ? OZ_FRAME_MOVIE : 0) |
+           (due & OZ_DUE_SNAPSHOT ? OZ_FRAME_SNAPSHOT : 0) |
+           (due & OZ_DUE_STROBE ? OZ_FRAME_STROBE : 0);
+}
+
+OzStatus oz_outputs_look(OzOutputs *outputs, int due)
+{
+    int purpose = purpose_of(due);
+    if (due & OZ_DUE_SAMPLE) {
+        oz_series_sample(outputs->series, &outputs->now);
+    }
+    if (due & OZ_DUE_ROW) {
+        OZ_PASS(oz_series_write(outputs->series, &outputs->now));
+    }
+    if (purpose && outputs->frames) {
+        OZ_PASS(oz_frames_add(outputs->frames, &outputs->now, purpose));
+    }
+    if (purpose && outputs->pictures) {
+        OZ_PASS(
+            oz_render_queue_add(outputs->render_queue, outputs->pictures, &outputs->now, purpose));
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_outputs_write_final(OzOutputs *outputs)
+{
+    OzStatus status = OZ_OK;
+    char *spectrum = NULL;
+    OZ_TRY(oz_final_write(&outputs->now, outputs->final));
+    if (oz_series_has_spectrum(outputs->series)) { /* a name is noted only for a file that comes */
+        OZ_TRY(claim(&spectrum, outputs, "inclination_spectrum.csv", NULL));
+        OZ_TRY(oz_series_write_spectrum(outputs->series, spectrum));
+    }
+done:
+    free(spectrum);
+    return status;
+}
+
+OzStatus oz_outputs_close(OzOutputs *outputs)
+{
+    char first[1024] = "";
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < 3; i++) {
+        OzStatus closed = i == 0 ? oz_render_queue_finish(outputs->render_queue, outputs->pictures)
+                          : i == 1 ? oz_frames_finish(outputs->frames)
+                                   : oz_series_free(outputs->series);
+        if (status == OZ_OK && closed != OZ_OK) {
+            status = closed;
+            snprintf(first, sizeof first, "%s", oz_status_text());
+        }
+    }
+    outputs->pictures = NULL;
+    outputs->frames = NULL;
+    outputs->series = NULL;
+    outputs->is_open = false;
+    if (outputs->final) {
+        oz_final_give_up(outputs->final);
+    }
+    oz_folder_close(&outputs->owned);
+    return status == OZ_OK ? OZ_OK : oz_status_fail(status, "%s", first);
+}
+
+void oz_outputs_free(OzOutputs *outputs)
+{
+    if (!outputs) {
+        return;
+    }
+    oz_outputs_close(outputs);
+    oz_snapshot_free(&outputs->now);
+    oz_grains_free(&outputs->grains);
+    oz_scene_free(&outputs->scene);
+    free(outputs->name);
+    free(outputs->folder);
+    free(outputs->final);
+    free(outputs);
+}

@@ -1,0 +1,64 @@
+/* What one member of a run leaves: its folder with scene, series, frames, pictures and last state.
+ * Sees snapshots and no simulation. */
+#pragma once
+
+#include "base/folder.h"
+#include "cli.h"
+#include "draw/render_queue.h"
+#include "observe/frames.h"
+#include "observe/series.h"
+
+#include <stdbool.h>
+
+/* What became of a member. */
+typedef enum OzOutcome {
+    OZ_OUTCOME_NOT_STARTED,
+    OZ_OUTCOME_DONE,
+    OZ_OUTCOME_STOPPED, /* by a guard */
+    OZ_OUTCOME_INTERRUPTED,
+    OZ_OUTCOME_FAILED
+} OzOutcome;
+
+/* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while
+ * open. */
+typedef struct OzOutputs {
+    OzScene scene;
+    OzGrains grains;
+    OzSnapshot now; /* the state to be written next */
+    char *name;     /* of a member of an ensemble, as in seed_00003; owned */
+    char *folder;   /* owned */
+    char *final;    /* owned: path of final.csv, once its room is reserved */
+    OzFolder owned; /* of a member of an ensemble: its folder, in use */
+    OzSeries *series;
+    OzFrames *frames;
+    OzPictures *pictures;
+    OzPicturesSettings picture_settings;
+    OzRenderQueue *render_queue; /* borrowed: draws the pictures' pictures */
+    int64_t number;              /* of the member in its plan */
+    bool is_open;
+    OzOutcome outcome;
+    OzStatus loss; /* of a member that was lost while others went on: why */
+} OzOutputs;
+
+/* What a run does in its folder and in its members' folders. */
+OzFolderUse oz_outputs_use(bool overwrite);
+
+/* The folder of a command: -o, or runs/<name>. The caller frees. */
+OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name);
+
+/* Opens what the scene asks for in outputs->folder; device is for the movie's metadata; render
+ * queue is shared with other members and must outlive this one. */
+OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
+                         OzRenderQueue *render_queue);
+
+/* What is due (OZ_DUE_ bits) of outputs->now. */
+OzStatus oz_outputs_look(OzOutputs *outputs, int due);
+
+/* outputs->now as final.csv, and a drum's inclination_spectrum.csv. */
+OzStatus oz_outputs_write_final(OzOutputs *outputs);
+
+/* Finishes movie, frames and series; they are whole afterwards. Returns the first failure. */
+OzStatus oz_outputs_close(OzOutputs *outputs);
+
+/* Closes and frees everything; NULL is fine. */
+void oz_outputs_free(OzOutputs *outputs);

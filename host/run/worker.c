@@ -1,0 +1,284 @@
+/* Settling, walking from event to event, and the end; a thread for each worker but the first. */
+#include "run/worker.h"
+
+#include "base/clock.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/stage.h"
+#include "model/calibrate.h"
+#include "sim/read_snapshot.h"
+#include "sim/settle.h"
+#include "sim/stiffness.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    OzMember *members = NULL;
+    OZ_TRY(OZ_NEW(&members, worker->member_count));
+    for (int64_t m = 0; m < worker->member_count; m++) {
+        members[m] = (OzMember){&worker->members[m]->scene, &worker->members[m]->grains};
+    }
+    OZ_TRY(oz_device_branch(&worker->device, device));
+    OZ_TRY(oz_sim_create(&worker->sim, &worker->device, members, (int)worker->member_count,
+                         source_dir));
+done:
+    free(members);
+    return status;
+}
+
+void oz_worker_close(OzWorker *worker)
+{
+    oz_sim_free(worker->sim);
+    oz_device_close(&worker->device);
+    worker->sim = NULL;
+}
+
+/* A member of an ensemble that did not end well: said by name, remembered, and the others go on. */
+static void lose(OzOutputs *member, OzStatus why, const char *text)
+{
+    member->outcome = why == OZ_ERR_BLOWUP ? OZ_OUTCOME_STOPPED : OZ_OUTCOME_FAILED;
+    member->loss = why;
+    oz_log_line("%s: %s", member->name, text);
+}
+
+/* Ends the outputs of members that a guard has stopped; a plain run says why at its end. */
+static OzStatus drop_stopped(OzWorker *worker)
+{
+    for (int64_t m = 0; worker->is_ensemble && m < worker->member_count; m++) {
+        OzOutputs *member = worker->members[m];
+        const char *why = oz_sim_stopped(worker->sim, (int)m);
+        if (why && member->is_open) {
+            lose(member, OZ_ERR_BLOWUP, why);
+            OZ_PASS(oz_outputs_close(member));
+        }
+    }
+    return OZ_OK;
+}
+
+static bool must_end(const OzWorker *worker)
+{
+    return oz_interrupt_asked() || atomic_load(worker->ended);
+}
+
+static bool watch_settling(void *context, double time, double ratio)
+{
+    OzWorker *worker = context;
+    if (worker->leads) {
+        oz_stage_say(&worker->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
+    }
+    return !must_end(worker);
+}
+
+static OzStatus settle(OzWorker *worker)
+{
+    double seconds = 0, start = oz_clock_now();
+    if (worker->leads) {
+        oz_stage_begin(&worker->stage, "settling");
+    }
+    OzStatus status = oz_settle_run(worker->sim, &seconds, watch_settling, worker);
+    if (worker->leads) {
+        oz_stage_end(&worker->stage);
+    }
+    OZ_AFTER(status, drop_stopped(worker));
+    if (status == OZ_OK && seconds > 0) {
+        const char *first = worker->members[0]->name;
+        const char *others = worker->member_count > 1 ? " and companions " : " ";
+        oz_log_line("%s%ssettling took %.3f s (%.1f s of computing)", first, first[0] ? others : "",
+                    seconds, oz_clock_now() - start);
+    }
+    return status;
+}
+
+/* What is doubtful about contacts at this step, for one member of those alike. */
+static OzStatus tell_contacts(const OzWorker *worker)
+{
+    OzStiffness stiffness;
+    OzOutputs *first = worker->members[0];
+    if (!worker->leads || !first->is_open || !oz_stiffness_applies(&first->scene)) {
+        return OZ_OK;
+    }
+    oz_calibrate_say(&first->scene);
+    OZ_PASS(oz_read_snapshot_snapshot(worker->sim, 0, &first->now, false));
+    OZ_PASS(oz_stiffness_measure(&stiffness, &first->now));
+    oz_stiffness_say(&stiffness, &first->scene);
+    return OZ_OK;
+}
+
+static OzStatus look_at(OzWorker *worker, int64_t m, int due)
+{
+    OzStatus status = OZ_OK;
+    OzOutputs *member = worker->members[m];
+    OZ_TRY(oz_read_snapshot_snapshot(worker->sim, (int)m, &member->now, (due & OZ_DUE_ROW) != 0));
+    OZ_TRY(oz_outputs_look(member, due));
+done:
+    if (status == OZ_ERR_BLOWUP && worker->is_ensemble) {
+        lose(member, status, oz_status_text());
+        status = oz_outputs_close(member);
+    }
+    return status;
+}
+
+/* What is due at this step of every member that goes on; *open receives how many do. */
+static OzStatus look(OzWorker *worker, int due, int64_t *open)
+{
+    *open = 0;
+    for (int64_t m = 0; m < worker->member_count; m++) {
+        if (worker->members[m]->is_open) {
+            OZ_PASS(look_at(worker, m, due));
+        }
+        *open += worker->members[m]->is_open;
+    }
+    return OZ_OK;
+}
+
+static void show_progress(const OzWorker *worker)
+{
+    double step = (double)oz_sim_step(worker->sim), last = (double)worker->schedule.last_step;
+    double spent = oz_clock_now() - worker->first_step, rate = spent > 0 ? step / spent : 0;
+    char left[48];
+    oz_clock_words(rate > 0 ? (last - step) / rate : 0, left, sizeof left);
+    oz_log_progress("%.1f %%: %.4g s simulated, %.0f steps/s, %s left",
+                    last > 0 ? 100 * step / last : 100, oz_sim_time(worker->sim), rate, left);
+}
+
+static OzStatus launch(OzWorker *worker, int64_t step, double *shown)
+{
+    OzStatus status = oz_sim_launch(worker->sim, step);
+    OZ_AFTER(status, drop_stopped(worker));
+    if (status == OZ_OK && worker->leads && oz_clock_now() - *shown > 0.2) {
+        show_progress(worker);
+        *shown = oz_clock_now();
+    }
+    if (status == OZ_OK && must_end(worker)) {
+        status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at step %lld, time %.9g s",
+                                (long long)oz_sim_step(worker->sim), oz_sim_time(worker->sim));
+    }
+    return status;
+}
+
+static OzStatus walk(OzWorker *worker)
+{
+    OzStatus status = OZ_OK;
+    int64_t step = 0, open = worker->member_count;
+    int due = 0;
+    double shown = 0;
+    worker->first_step = oz_clock_now();
+    if (worker->leads) {
+        oz_log_line("first step %.2f s after start", worker->first_step - worker->started);
+    }
+    while (open > 0 && oz_schedule_next(&worker->schedule, &step, &due)) {
+        while (oz_sim_step(worker->sim) < step) {
+            OZ_TRY(launch(worker, step, &shown));
+        }
+        OZ_TRY(look(worker, due, &open));
+    }
+done:
+    worker->spent = oz_clock_now() - worker->first_step;
+    oz_log_progress(" ");
+    return status;
+}
+
+/* Whether the device still has a state worth keeping: all went well, or what failed was not the
+ * simulation. */
+static bool has_state(OzStatus so_far)
+{
+    return so_far == OZ_OK || so_far == OZ_ERR_INTERRUPTED || so_far == OZ_ERR_FILE ||
+           so_far == OZ_ERR_MOVIE || so_far == OZ_ERR_GRAPHICS;
+}
+
+/* The last state of a member, if there is one, and its outputs whole. */
+static OzStatus end_member(OzWorker *worker, int64_t m, OzStatus so_far)
+{
+    OzStatus status = OZ_OK;
+    OzOutputs *member = worker->members[m];
+    if (has_state(so_far)) {
+        OZ_TRY(oz_read_snapshot_snapshot(worker->sim, (int)m, &member->now, false));
+        OZ_TRY(oz_outputs_write_final(member));
+    }
+done:
+    OZ_AFTER(status, oz_outputs_close(member));
+    member->outcome = so_far == OZ_OK && status == OZ_OK ? OZ_OUTCOME_DONE
+                      : so_far == OZ_ERR_INTERRUPTED     ? OZ_OUTCOME_INTERRUPTED
+                                                         : OZ_OUTCOME_FAILED;
+    return status;
+}
+
+/* Pictures may still wait to be drawn. */
+static void end_all(OzWorker *worker, OzStatus *status)
+{
+    if (worker->leads) {
+        oz_stage_begin(&worker->stage, "finishing files and pictures");
+    }
+    for (int64_t m = 0; m < worker->member_count; m++) {
+        if (worker->members[m]->is_open) {
+            OZ_AFTER(*status, end_member(worker, m, *status));
+        }
+    }
+    if (worker->leads) {
+        oz_stage_end(&worker->stage);
+    }
+}
+
+static void run_one(OzWorker *worker)
+{
+    OzStatus status = settle(worker);
+    status = status == OZ_OK ? tell_contacts(worker) : status;
+    status = status == OZ_OK ? walk(worker) : status;
+    end_all(worker, &status);
+    /* All its members were stopped: others may do better. */
+    worker->status = status == OZ_ERR_BLOWUP && worker->is_ensemble ? OZ_OK : status;
+    snprintf(worker->text, sizeof worker->text, "%s", oz_status_text());
+    if (worker->status != OZ_OK) {
+        atomic_store(worker->ended, true);
+    }
+}
+
+static void *run_thread(void *worker)
+{
+    run_one(worker);
+    return NULL;
+}
+
+/* A worker that was ended by another says that it was interrupted, which is not the reason. */
+static OzStatus tell(const OzWorker *workers, int count)
+{
+    const OzWorker *guilty = NULL;
+    for (int i = 0; i < count; i++) {
+        const OzWorker *c = &workers[i];
+        bool better = !guilty || guilty->status == OZ_ERR_INTERRUPTED;
+        guilty = c->status != OZ_OK && better ? c : guilty;
+    }
+    return guilty ? oz_status_fail(guilty->status, "%s", guilty->text) : OZ_OK;
+}
+
+OzStatus oz_worker_run(OzWorker *workers, int count)
+{
+    OzStatus status = OZ_OK;
+    pthread_t *threads = NULL;
+    int started = 1;
+    OZ_TRY(OZ_NEW(&threads, count));
+    for (; started < count; started++) {
+        int code = pthread_create(&threads[started], NULL, run_thread, &workers[started]);
+        if (code != 0) {
+            oz_log_line("no more threads than %d: %s", started, strerror(code));
+            break;
+        }
+    }
+    run_one(&workers[0]);
+    for (int i = 1; i < started; i++) {
+        pthread_join(threads[i], NULL);
+    }
+    for (; started < count; started++) {
+        run_one(&workers[started]);
+    }
+    status = tell(workers, count);
+done:
+    free(threads);
+    return status;
+}

@@ -1,0 +1,40 @@
+/* Members of a run that share a simulation, on their way from the start to the last step. A run has
+ * several workers at once, each with its own queue of the device and in its own thread, so that one
+ * computes while another's state is looked at. */
+#pragma once
+
+#include "base/stage.h"
+#include "observe/schedule.h"
+#include "run/outputs.h"
+#include "sim/sim.h"
+
+#include <stdatomic.h>
+
+/* Zeroed is valid: what was not opened is not closed. Everything above `device` is set by who opens
+ * it. It must not move in memory while open. */
+typedef struct OzWorker {
+    OzOutputs **members; /* borrowed; they fit together (oz_batch_fit_agrees)           */
+    int64_t member_count;
+    OzSchedule schedule; /* of all of them                                        */
+    bool is_ensemble;    /* a member that fails leaves the others alone           */
+    bool leads;          /* shows progress                                        */
+    double started;      /* wall clock, of the program                            */
+    atomic_bool *ended;  /* shared: a worker that failed ends the others          */
+    OzDevice device;     /* a branch                                              */
+    OzSim *sim;
+    OzStage stage;            /* in hand, of the worker that leads                     */
+    double first_step, spent; /* wall clock; from the first step to the last      */
+    OzStatus status;          /* how it ended, and why                            */
+    char text[4096];
+} OzWorker;
+
+/* Builds the simulation. */
+OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *source_dir);
+
+/* Runs them side by side, members' outputs opened before, and closes those: whole after
+ * interruption or success, so far as they came after a failure; each member's outcome says which.
+ * Returns the first worker's failure that was one of its own. */
+OzStatus oz_worker_run(OzWorker *workers, int count);
+
+/* Frees the simulation. */
+void oz_worker_close(OzWorker *worker);

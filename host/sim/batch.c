@@ -1,0 +1,133 @@
+/* Keeping count of members. It knows nothing of what they are made of. */
+#include "sim/batch.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A launch is kept below this so that Ctrl-C and watchdogs are served, s. */
+static const double launch_seconds = 0.04;
+
+enum { FIRST_LAUNCH = 16 };
+
+static void begin_clocks(OzBatch *batch)
+{
+    for (int m = 0; m < batch->member_count; m++) {
+        batch->clock[m] = oz_step_clock_begin(batch->members[m].scene->step);
+    }
+}
+
+OzStatus oz_batch_create(OzBatch *batch, const OzMember *members, int member_count)
+{
+    OzStatus status = OZ_OK;
+    *batch = (OzBatch){.member_count = member_count, .launch_steps = FIRST_LAUNCH};
+    OZ_TRY(OZ_NEW(&batch->members, member_count));
+    OZ_TRY(OZ_NEW(&batch->reached, member_count));
+    OZ_TRY(OZ_NEW(&batch->clock, member_count));
+    OZ_TRY(OZ_NEW(&batch->waits, member_count));
+    OZ_TRY(OZ_NEW(&batch->stopped, member_count));
+    OZ_TRY(OZ_NEW(&batch->deep_count, member_count));
+    OZ_TRY(OZ_NEW(&batch->deep_told, member_count));
+    memcpy(batch->members, members, (size_t)member_count * sizeof *members);
+    begin_clocks(batch);
+done:
+    return status;
+}
+
+void oz_batch_free(OzBatch *batch)
+{
+    for (int m = 0; batch->stopped && m < batch->member_count; m++) {
+        free(batch->stopped[m]);
+    }
+    free(batch->members);
+    free(batch->reached);
+    free(batch->clock);
+    free(batch->waits);
+    free(batch->stopped);
+    free(batch->deep_count);
+    free(batch->deep_told);
+    *batch = (OzBatch){0};
+}
+
+bool oz_batch_goes_on(const OzBatch *batch, int member)
+{
+    return !batch->waits[member] && !batch->stopped[member];
+}
+
+static bool all_stopped(const OzBatch *batch)
+{
+    for (int m = 0; m < batch->member_count; m++) {
+        if (!batch->stopped[m]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+OzStatus oz_batch_check(const OzBatch *batch)
+{
+    if (all_stopped(batch)) {
+        return oz_status_fail(OZ_ERR_BLOWUP, "%s", batch->stopped[batch->member_count - 1]);
+    }
+    return OZ_OK;
+}
+
+void oz_batch_skip(OzBatch *batch, int64_t step)
+{
+    batch->step = step > batch->step ? step : batch->step;
+    for (int m = 0; m < batch->member_count; m++) {
+        batch->reached[m] = batch->step;
+    }
+}
+
+int oz_batch_launch_steps(const OzBatch *batch, int64_t step)
+{
+    int64_t left = step - batch->step;
+    return left < batch->launch_steps ? (int)left : batch->launch_steps;
+}
+
+void oz_batch_note_launch(OzBatch *batch, int made, double seconds, int most_steps)
+{
+    double wanted = launch_seconds / (seconds / fmax(made, 1));
+    double most = fmin(4.0 * batch->launch_steps, most_steps);
+    if (made == batch->launch_steps || wanted < batch->launch_steps) {
+        batch->launch_steps = (int)fmax(1, fmin(wanted, most));
+    }
+}
+
+void oz_batch_count(OzBatch *batch, int member, int own, int *most)
+{
+    batch->reached[member] += own;
+    *most = own > *most ? own : *most;
+}
+
+OzStatus oz_batch_stop(OzBatch *batch, int member)
+{
+    return oz_memory_text(&batch->stopped[member], oz_status_text());
+}
+
+OzStatus oz_batch_end_launch(OzBatch *batch, int steps, int most)
+{
+    int made = all_stopped(batch) ? most : steps;
+    batch->step += made;
+    batch->counts.steps += made;
+    return oz_batch_check(batch);
+}
+
+double oz_batch_time(const OzBatch *batch, int member, int64_t step)
+{
+    return oz_step_clock_time(&batch->clock[member], step);
+}
+
+void oz_batch_start_clock(OzBatch *batch)
+{
+    batch->step = 0;
+    begin_clocks(batch);
+    memset(batch->reached, 0, (size_t)batch->member_count * sizeof *batch->reached);
+    memset(batch->deep_count, 0, (size_t)batch->member_count * sizeof *batch->deep_count);
+    memset(batch->deep_told, 0, (size_t)batch->member_count * sizeof *batch->deep_told);
+    batch->walls_still = false;
+    batch->counts = (OzSimCounts){0};
+}

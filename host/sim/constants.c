@@ -1,0 +1,143 @@
+/* Parameters from scenes. */
+#include "sim/constants.h"
+
+#include "model/calibrate.h"
+#include "scene/wall_shape.h"
+#include "sim/units.h"
+
+#include <string.h>
+
+OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values)
+{
+    OzContactConstants constants = oz_calibrate_contact(scene, values);
+    OzLawConstants law = {.stiffness = constants.stiffness,
+                          .damping = constants.damping,
+                          .tangential_stiffness = constants.tangential_stiffness,
+                          .tangential_damping = constants.tangential_damping,
+                          .friction = values->friction};
+    return law;
+}
+
+void oz_constants_motion(const OzMotion *motion, double time, double *offset, double *velocity)
+{
+    double rate = 2 * 3.14159265358979323846 * motion->frequency;
+    *offset = motion->present ? motion->amplitude * sin(rate * time) : 0;
+    *velocity = motion->present ? motion->amplitude * rate * cos(rate * time) : 0;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* The farthest that anything starts from the origin, m. */
+static double extent(const OzScene *scene, const OzGrains *grains)
+{
+    double far = 0;
+    for (int64_t i = 0; i < 3 * grains->count; i++) {
+        far = larger(far, fabs(grains->position[i]));
+    }
+    for (int w = 0; w < scene->wall_count; w++) {
+        OzWallShape shape = oz_wall_shape_of(&scene->walls[w]);
+        far = larger(far, shape.radius);
+        for (int c = 0; c < 3; c++) {
+            far = larger(far, fabs(shape.point[c]));
+        }
+    }
+    return far;
+}
+
+/* The unit of a place in single precision: 2^-22 to 2^-17 of the smallest diameter, the finest with
+ * which one and a half times the extent stays within 2^30 units (differences of two places must fit
+ * 32 bits). At 40, 450 and 4500 diameters this leaves rounding of 1e-7, 5e-7 and 4e-6 diameters. */
+static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *grains)
+{
+    double smallest = 1e-3, far = extent(scene, grains);
+    for (int64_t i = 0; i < grains->count; i++) {
+        smallest = i == 0 || grains->diameter[i] < smallest ? grains->diameter[i] : smallest;
+    }
+    for (int bits = 22; bits >= 17; bits--) {
+        *unit = ldexp(smallest, -bits);
+        if (1.5 * far < *unit * 0x1p30) {
+            return OZ_OK;
+        }
+    }
+    return oz_status_fail(
+        OZ_ERR_INPUT,
+        "%s: the scene reaches %g m from the origin, %.3g times the smallest diameter; "
+        "precision: float holds 5461, precision: double any",
+        scene->path, far, far / smallest);
+}
+
+static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *from, double unit)
+{
+    to->shape = oz_wall_shape_of(from);
+    for (int c = 0; c < 3; c++) {
+        double units = to->shape.point[c] / unit;
+        to->shape.point[c] = unit < 1 ? round(units) : units;
+    }
+    to->law = oz_constants_law(scene, &from->contact);
+}
+
+static int fill_walls(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene)
+{
+    int count = 0;
+    for (int kind = 0; kind < OZ_WALLS_END; kind++) {
+        for (int w = 0; w < scene->wall_count && count < OZ_WALLS_MAX; w++) {
+            if ((int)scene->walls[w].kind == kind) {
+                fill_wall(&parameters->wall[count], scene, &scene->walls[w],
+                          parameters->length_unit);
+                wall_order[count++] = w;
+            }
+        }
+    }
+    return count;
+}
+
+/* Reach of the largest grain, and the one grain of an equal population. */
+static void fill_shapes(OzParameters *parameters, const OzGrains *grains)
+{
+    for (int64_t i = 0; i < grains->count; i++) {
+        double reach = (grains->diameter[i] + grains->length[i]) / 2;
+        parameters->reach_max = larger(parameters->reach_max, reach);
+    }
+    if (grains->count > 0) {
+        parameters->radius = grains->diameter[0] / 2;
+        parameters->radius_count = parameters->radius / parameters->length_unit;
+        parameters->half_length = grains->length[0] / 2;
+        parameters->mass = grains->mass[0];
+        parameters->inverse_mass = 1 / grains->mass[0];
+        parameters->inverse_inertia = 1 / grains->inertia[0];
+        parameters->inverse_inertia_axis = 1 / grains->inertia_axis[0];
+    }
+}
+
+OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
+                           const OzScene *scene, const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    memset(parameters, 0, sizeof *parameters);
+    if (scene->wall_count > OZ_WALLS_MAX) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s: %d walls, at most %d", scene->path,
+                              scene->wall_count, OZ_WALLS_MAX);
+    }
+    parameters->length_unit = 1;
+    parameters->domain = 1e9;
+    parameters->units = (OzUnits){1, 1, 1};
+    if (scene->precision == OZ_PRECISION_FLOAT) {
+        OZ_TRY(choose_unit(&parameters->length_unit, scene, grains));
+        parameters->domain = 0x1p30;
+        parameters->units = oz_units_choose(grains, scene->step);
+    }
+    parameters->inverse_unit = 1 / parameters->length_unit;
+    parameters->dt = scene->step;
+    memcpy(parameters->gravity, scene->gravity, sizeof scene->gravity);
+    parameters->law = oz_constants_law(scene, &scene->contact);
+    parameters->deep_warn = scene->guards.overlap_warn;
+    parameters->deep_stop = scene->guards.overlap_stop;
+    parameters->deep_look = fmin(1, fmin(parameters->deep_warn, parameters->deep_stop));
+    fill_walls(parameters, wall_order, scene);
+    fill_shapes(parameters, grains);
+done:
+    return status;
+}

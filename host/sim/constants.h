@@ -1,0 +1,24 @@
+/* Scene and grains as the numbers that kernels and the host reference share: the parameter struct,
+ * in double. Compiles the physics headers for the host. */
+#ifndef OZ_SIM_CONSTANTS_H
+#define OZ_SIM_CONSTANTS_H
+
+#define OZ_HOST
+#include "kernels/layout.h"
+#include "sim/switches.h"
+
+/* Fills parameters for a scene. length_unit is chosen for single precision (1 in double): as fine
+ * as the extent of the scene allows. Walls are put in kernel order, kind by kind; wall_order[k]
+ * receives the scene index of kernel wall k. Fails with OZ_ERR_INPUT when the scene is too wide for
+ * single precision. */
+OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
+                           const OzScene *scene, const OzGrains *grains);
+
+/* The law of the scene's contacts of given values (of two grains: the scene's; of a wall: its own),
+ * calibrated where the scene asks for it. */
+OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values);
+
+/* Offset (m) and velocity (m/s) of a wall at a time. */
+void oz_constants_motion(const OzMotion *motion, double time, double *offset, double *velocity);
+
+#endif

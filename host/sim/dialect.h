@@ -1,0 +1,64 @@
+/* The physics headers compiled for the host: real is double, and the switches that are constants on
+ * a device are fields of one struct here. For .c files alone: each that includes this has a struct
+ * of its own for each thread, to be set to the scene's switches before any of the physics is
+ * called. */
+#pragma once
+
+#include "sim/physics.h"
+
+static _Thread_local OzSwitches dialect;
+
+#define OZ_ROUND            dialect.round
+#define OZ_EQUAL            dialect.equal
+#define OZ_FRICTION         dialect.friction
+#define OZ_HISTORY          dialect.history
+#define OZ_SLIP_SCALE       dialect.slip_scale
+#define OZ_ATTRACTION_CLAMP dialect.attraction_clamp
+#define OZ_SURFACES         dialect.surfaces
+#define OZ_GYROSCOPIC       dialect.gyroscopic
+#define OZ_LAW_ID           dialect.law
+#define OZ_LINE             dialect.line
+#define OZ_SMOOTH           dialect.smooth
+#define OZ_AT_CONTACT       dialect.at_contact
+#define OZ_WALL_KINDS       (-1) /* the host knows them all */
+#define OZ_INTEGRATOR_ID    dialect.integrator
+#define OZ_MOVES_BEFORE     dialect.moves_before
+
+#include "kernels/integrate.h"
+#include "kernels/rods.h"
+
+OZ_INLINE OzVec3 oz_dialect_load3(const double *from)
+{
+    return oz_vec3(from[0], from[1], from[2]);
+}
+
+OZ_INLINE void oz_dialect_store3(double *to, OzVec3 v)
+{
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+/* Where one end of a grain (end: from its centre) stands against kernel wall w, moved by offset. */
+OZ_INLINE OzWallDistance oz_dialect_wall(const OzPhysics *physics, int w, OzFixedPosition place,
+                                         OzVec3 end, double offset)
+{
+    OzWallShape wall = physics->parameters.wall[w].shape;
+    OzVec3 cap = oz_vec3(place.x + end.x, place.y + end.y, place.z + end.z);
+    OzVec3 point = oz_vec3(wall.point[0], wall.point[1], wall.point[2] + offset);
+    return oz_wall_distance(oz_minus(cap, point), wall);
+}
+
+/* One end of a grain at kernel wall w; history, contact and arm as for oz_rods_wall. */
+OZ_INLINE OzContactForce oz_dialect_touch_wall(const OzPhysics *physics, int w, int end_index,
+                                               OzGrain grain, double offset, double speed,
+                                               double dt, OzVec3 *history, OzContact *contact,
+                                               OzVec3 *arm)
+{
+    OzVec3 end = oz_scale(grain.half_shaft, end_index ? -1 : 1);
+    OzWallDistance at = oz_dialect_wall(physics, w, grain.position, end, offset);
+    /* a sphere touches once, not with two coincident ends */
+    mask present = end_index == 0 || oz_dot(end, end) > 0;
+    return oz_rods_wall(grain, end, at, oz_vec3(0, 0, speed), present,
+                        physics->parameters.wall[w].law, history, dt, physics->share, contact, arm);
+}

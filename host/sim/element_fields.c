@@ -1,0 +1,51 @@
+/* Trigrains' fields. */
+#include "sim/element_fields.h"
+
+#include "sim/scalars.h"
+
+/* The list's switches, on the host. */
+#undef OZ_LANES
+#undef OZ_MOVING
+#undef OZ_LEDGER
+#define OZ_LANES    (s->lanes)
+#define OZ_GROUP    (s->group)
+#define OZ_ORDER    (s->order)
+#define OZ_MOVING   (s->moving)
+#define OZ_DISCS    (s->discs)
+#define OZ_SUBSTEPS (s->substeps)
+#define OZ_LEDGER   (s->ledger)
+
+#define BYTES_parameters                                                                           \
+    (sizeof(OzElementParameters) / sizeof(double) * oz_scalars_bytes(s->is_double))
+#define BYTES_control sizeof(OzElementControl)
+#define BYTES_scalar  oz_scalars_bytes(s->is_double)
+#define BYTES_real    (oz_scalars_bytes(s->is_double) * (size_t)s->lanes)
+#define BYTES_integer sizeof(int)
+#define BYTES_ledger  sizeof(double)
+
+size_t oz_element_fields_bytes(int field, const void *switches, const void *sizes)
+{
+    const OzElementSwitches *s = switches;
+    const OzElementSizes z = *(const OzElementSizes *)sizes;
+    switch (field) {
+#define CASE(kind, name, count, class)                                                             \
+    case OZ_ELEMENT_FIELD_##name:                                                                  \
+        return (size_t)(count) * (BYTES_##kind);
+        OZ_ELEMENT_FIELDS(CASE)
+#undef CASE
+    default:
+        return 0;
+    }
+}
+
+const OzField oz_element_fields_rows[] = {
+#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class},
+    OZ_ELEMENT_FIELDS(ROW)
+#undef ROW
+};
+
+int oz_element_fields_slot(const OzElementSizes *sizes, const OzElements *elements, int64_t element)
+{
+    int64_t free = elements->free_count;
+    return (int)(element < free ? element : element - free + sizes->free_slots);
+}

@@ -1,0 +1,316 @@
+/* Outer lists from P's sort along one axis. The device's order is kept (by the first grain's slot,
+ * then by the second one's id), so that forces are added up in the same order whoever made the
+ * list. */
+#include "sim/host_lists.h"
+
+#include "base/memory.h"
+#include "sim/pack.h"
+#include "sim/rods_private.h"
+#include "sim/scalars.h"
+#include "sim/sort_axis.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A pair as the device counts grains: slots; the second grain's id for the order. */
+typedef struct Entry {
+    int a, b, id_b;
+} Entry;
+
+/* A tangential spring by the slots of its pair. */
+typedef struct Spring {
+    int a, b;
+    double words[3];
+} Spring;
+
+typedef struct Work {
+    OzSim *sim;
+    int member;
+    OzSnapshot now;
+    OzPairs pairs;
+    int *id, *slot_of;
+    Spring *springs; /* of the list before, those that are not zero, by a, then b */
+    int64_t spring_count;
+    Entry *entries;
+    int *a, *b, *count, *first, *number; /* the new list's fields */
+    void *history, *reference;
+} Work;
+
+static const OzSizes *sizes_of(const Work *w)
+{
+    return oz_rods_sizes(w->sim);
+}
+
+static const OzSwitches *switches_of(const Work *w)
+{
+    return oz_rods_switches(w->sim);
+}
+
+static OzStatus upload(Work *w, OzFieldId field, const void *data)
+{
+    return oz_arrays_write(&w->sim->arrays, field, w->member, data,
+                           oz_arrays_bytes(&w->sim->arrays, field));
+}
+
+static int by_slots(const void *one, const void *other)
+{
+    const Spring *x = one, *y = other;
+    return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->b > y->b) - (x->b < y->b);
+}
+
+static void keep_spring(Work *w, int a, int b, const void *history, int64_t pair)
+{
+    Spring spring = {.a = a, .b = b};
+    for (int c = 0; c < 3; c++) {
+        spring.words[c] =
+            oz_scalars_get(history, (size_t)(3 * pair + c), switches_of(w)->is_double);
+    }
+    if (spring.words[0] != 0 || spring.words[1] != 0 || spring.words[2] != 0) {
+        w->springs[w->spring_count++] = spring;
+    }
+}
+
+/* The springs of the list before. */
+static OzStatus read_springs(Work *w)
+{
+    OzStatus status = OZ_OK;
+    const OzSizes *z = sizes_of(w);
+    int *a = NULL, *b = NULL, *count = NULL;
+    void *history = NULL;
+    if (!switches_of(w)->history ||
+        oz_rods_control(w->sim, w->member)->truth != OZ_SPRINGS_AT_OUTER) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_a, w->member, &a));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_b, w->member, &b));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_count, w->member, &count));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_history, w->member, &history));
+    OZ_TRY(OZ_NEW(&w->springs, (int64_t)z->regions * z->outer_capacity));
+    for (int r = 0; r < z->regions; r++) {
+        int64_t begin = (int64_t)r * z->outer_capacity;
+        for (int64_t p = begin; p < begin + count[r]; p++) {
+            keep_spring(w, a[p], b[p], history, p);
+        }
+    }
+    qsort(w->springs, (size_t)w->spring_count, sizeof *w->springs, by_slots);
+done:
+    free(a);
+    free(b);
+    free(count);
+    free(history);
+    return status;
+}
+
+/* Half-length + radius in the device's precision, which decides a pair's order. */
+static double reach(const Work *w, int id)
+{
+    const OzGrains *grains = w->sim->batch.members[w->member].grains;
+    double radius = grains->diameter[id] / 2, half_length = grains->length[id] / 2;
+    return switches_of(w)->is_double ? radius + half_length
+                                     : (double)((float)radius + (float)half_length);
+}
+
+static Entry entry_of(const Work *w, OzPair pair)
+{
+    double reach_a = reach(w, pair.a), reach_b = reach(w, pair.b);
+    bool swap = reach_a != reach_b ? reach_a < reach_b : pair.a > pair.b;
+    int a = swap ? pair.b : pair.a, b = swap ? pair.a : pair.b;
+    return (Entry){w->slot_of[a], w->slot_of[b], b};
+}
+
+static int by_slot_then_id(const void *one, const void *other)
+{
+    const Entry *x = one, *y = other;
+    return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->id_b > y->id_b) - (x->id_b < y->id_b);
+}
+
+static OzStatus find_entries(Work *w)
+{
+    OzStatus status = OZ_OK;
+    const OzParameters *p = oz_rods_parameters(w->sim, w->member);
+    OZ_TRY(oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis,
+                              2 * p->outer_most));
+    OZ_TRY(OZ_NEW(&w->entries, w->pairs.count));
+    for (int64_t k = 0; k < w->pairs.count; k++) {
+        w->entries[k] = entry_of(w, w->pairs.pair[k]);
+    }
+    qsort(w->entries, (size_t)w->pairs.count, sizeof *w->entries, by_slot_then_id);
+done:
+    return status;
+}
+
+static int region_of(const Work *w, Entry entry)
+{
+    return entry.a / sizes_of(w)->region_slots;
+}
+
+/* Room in every region's list for its pairs. */
+static OzStatus make_room(Work *w)
+{
+    OzSizes sizes = *sizes_of(w);
+    OzControlHead needed = {0};
+    int64_t begin = 0;
+    for (int64_t k = 0; k < w->pairs.count; k++) {
+        begin = region_of(w, w->entries[k]) != region_of(w, w->entries[begin]) ? k : begin;
+        int count = (int)(k - begin + 1);
+        needed.outer_needed = count > needed.outer_needed ? count : needed.outer_needed;
+    }
+    if (needed.outer_needed <= sizes.outer_capacity) {
+        return OZ_OK;
+    }
+    oz_arrays_grow((OzSizesHead *)(void *)&sizes, &needed, switches_of(w)->lanes);
+    w->sim->batch.counts.growths++;
+    return oz_arrays_resize(&w->sim->arrays, &sizes);
+}
+
+static void put_history(Work *w, int64_t to, int a, int b)
+{
+    Spring key = {.a = a, .b = b};
+    const Spring *found = w->spring_count > 0 ? bsearch(&key, w->springs, (size_t)w->spring_count,
+                                                        sizeof key, by_slots)
+                                              : NULL;
+    if (found) {
+        size_t size = switches_of(w)->is_double ? sizeof(double) : sizeof(float);
+        oz_scalars_put((char *)w->history + 3 * (size_t)to * size, found->words, 3,
+                       switches_of(w)->is_double);
+    }
+}
+
+static OzStatus write_list(Work *w)
+{
+    OzStatus status = OZ_OK;
+    const OzSizes *z = sizes_of(w);
+    int64_t pairs = (int64_t)z->regions * z->outer_capacity;
+    OZ_TRY(OZ_NEW(&w->a, pairs));
+    OZ_TRY(OZ_NEW(&w->b, pairs));
+    OZ_TRY(OZ_NEW(&w->count, z->regions));
+    OZ_TRY(OZ_NEW(&w->first, z->slots));
+    OZ_TRY(OZ_NEW(&w->number, z->slots));
+    OZ_TRY(oz_memory_new(&w->history, 3 * (size_t)pairs, sizeof(double), "springs"));
+    for (int64_t k = 0; k < w->pairs.count; k++) {
+        Entry entry = w->entries[k];
+        int region = region_of(w, entry);
+        int64_t to = (int64_t)region * z->outer_capacity + w->count[region]++;
+        w->a[to] = entry.a;
+        w->b[to] = entry.b;
+        if (w->number[entry.a]++ == 0) {
+            w->first[entry.a] = (int)to;
+        }
+        put_history(w, to, entry.a, entry.b);
+    }
+    OZ_TRY(upload(w, OZ_FIELD_outer_a, w->a));
+    OZ_TRY(upload(w, OZ_FIELD_outer_b, w->b));
+    OZ_TRY(upload(w, OZ_FIELD_outer_count, w->count));
+    OZ_TRY(upload(w, OZ_FIELD_outer_first, w->first));
+    OZ_TRY(upload(w, OZ_FIELD_outer_number, w->number));
+    OZ_TRY(upload(w, OZ_FIELD_outer_history, w->history));
+done:
+    return status;
+}
+
+/* The half-shaft, in the kernels' lengths, of whatever is in a slot, padding too, which nobody else
+ * knows. */
+static void half_shaft(const Work *w, const void *state, int slot, double half[3])
+{
+    const OzSwitches *s = switches_of(w);
+    int id = slot < sizes_of(w)->count ? w->id[slot] : 0;
+    double turn[4], unit = oz_rods_parameters(w->sim, w->member)->units.length;
+    for (int c = 0; c < 4; c++) { /* words are x, y, z, w */
+        turn[(c + 1) % 4] =
+            oz_scalars_get(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_TURN + c), s->is_double);
+    }
+    oz_grains_axis(turn, half);
+    for (int c = 0; c < 3; c++) {
+        half[c] *= w->now.grains->length[id] / 2 / unit;
+    }
+}
+
+/* Places and half-shafts from which the list's age is measured. Places are copied word by word: in
+ * single precision they are integers. */
+static OzStatus write_reference(Work *w)
+{
+    OzStatus status = OZ_OK;
+    const OzSwitches *s = switches_of(w);
+    size_t size = s->is_double ? sizeof(double) : sizeof(float);
+    char *state = NULL, *reference;
+    const OzParameters *p = oz_rods_parameters(w->sim, w->member);
+    double half[3], skin = p->outer_most / p->units.length;
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_state, w->member, &state));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_reference_outer, w->member, &w->reference));
+    reference = w->reference;
+    for (int slot = 0; slot < sizes_of(w)->slots; slot++) {
+        half_shaft(w, state, slot, half);
+        for (int c = 0; c < 3; c++) {
+            memcpy(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, c),
+                   state + size * oz_pack_lane(s, slot, OZ_STATE, OZ_S_POSITION + c), size);
+            oz_scalars_put(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, 3 + c), &half[c],
+                           1, s->is_double);
+        }
+        oz_scalars_put(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, OZ_REFERENCE_SKIN),
+                       &skin, 1, s->is_double);
+    }
+    OZ_TRY(upload(w, OZ_FIELD_reference_outer, reference));
+done:
+    free(state);
+    return status;
+}
+
+static OzStatus make_list(Work *w)
+{
+    OzStatus status = OZ_OK;
+    OzControl *control = oz_rods_control(w->sim, w->member);
+    const OzMember *member = &w->sim->batch.members[w->member];
+    OZ_TRY(oz_snapshot_create(&w->now, member->scene, member->grains));
+    OZ_TRY(
+        oz_pack_state(&w->sim->arrays, w->member, oz_rods_parameters(w->sim, w->member), &w->now));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_id, w->member, &w->id));
+    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_slot_of, w->member, &w->slot_of));
+    OZ_TRY(read_springs(w));
+    OZ_TRY(find_entries(w));
+    OZ_TRY(make_room(w));
+    OZ_TRY(write_list(w));
+    OZ_TRY(write_reference(w));
+    control->truth = OZ_SPRINGS_AT_OUTER;
+    control->outer_stale = 0;
+    control->rebuilds++;
+done:
+    return status;
+}
+
+static void free_work(Work *w)
+{
+    void *owned[] = {w->id,    w->slot_of, w->springs, w->entries, w->a,        w->b,
+                     w->count, w->first,   w->number,  w->history, w->reference};
+    for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
+        free(owned[i]);
+    }
+    oz_snapshot_free(&w->now);
+    oz_sort_axis_free(&w->pairs);
+}
+
+static bool waits(const OzControl *control)
+{
+    return !control->stop_bits && (control->truth == OZ_SPRINGS_AT_NONE ||
+                                   (control->truth == OZ_SPRINGS_AT_OUTER && control->outer_stale));
+}
+
+OzStatus oz_host_lists_make(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    bool made = false;
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        if (oz_rods_switches(sim)->host_lists && waits(oz_rods_control(sim, m))) {
+            Work work = {.sim = sim, .member = m};
+            status = make_list(&work);
+            free_work(&work);
+            OZ_TRY(status);
+            made = true;
+        }
+    }
+    if (!made) {
+        status = oz_status_fail(OZ_ERR_DEVICE, "%s: the device stopped without a reason",
+                                sim->batch.members[0].scene->path);
+    }
+done:
+    return status;
+}

@@ -1,0 +1,262 @@
+/* Queueing the phases of large scenes. */
+#include "sim/large.h"
+
+#include "base/memory.h"
+#include "compute/cl_try.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* THE phases: kernel and whether one work-item does it all. */
+#define PHASES(X)                                                                                  \
+    X(before, false)                                                                               \
+    X(pairs, false)                                                                                \
+    X(grains, false)                                                                               \
+    X(ledger, false)                                                                               \
+    X(measure, false)                                                                              \
+    X(mark, true)                                                                                  \
+    X(save, false)                                                                                 \
+    X(clear, false)                                                                                \
+    X(bin, false)                                                                                  \
+    X(scan, true)                                                                                  \
+    X(fill, false)                                                                                 \
+    X(arrange, false)                                                                              \
+    X(move_out, false)                                                                             \
+    X(move_in, false)                                                                              \
+    X(search, false)                                                                               \
+    X(restore, false)                                                                              \
+    X(reset, false)                                                                                \
+    X(select, false)                                                                               \
+    X(order, false)                                                                                \
+    X(forget, false)
+
+typedef enum Phase {
+#define ID(name, alone) PHASE_##name,
+    PHASES(ID)
+#undef ID
+        PHASE_COUNT
+} Phase;
+
+struct OzLarge {
+    const OzDevice *device;
+    cl_kernel kernel[PHASE_COUNT]; /* NULL: the scene does not need it                   */
+    double interval;               /* steps that the inner lists lasted lately           */
+};
+
+static const char *const kernel_names[] = {
+#define NAME(name, alone) "oz_" #name,
+    PHASES(NAME)
+#undef NAME
+};
+
+static const bool single[] = {
+#define ALONE(name, alone) alone,
+    PHASES(ALONE)
+#undef ALONE
+};
+
+OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *device,
+                         const OzSwitches *switches)
+{
+    OzStatus status = OZ_OK;
+    OzLarge *large = NULL;
+    cl_int code = CL_SUCCESS;
+    OZ_TRY(OZ_NEW(&large, 1));
+    large->device = device;
+    large->interval = 8;
+    for (int p = 0; p < PHASE_COUNT; p++) {
+        bool absent = (p == PHASE_before && !switches->moves_before) ||
+                      (p == PHASE_ledger && !switches->ledger);
+        if (!absent) {
+            large->kernel[p] = clCreateKernel(program, kernel_names[p], &code);
+            CL_TRY(code);
+        }
+    }
+    *out = large;
+    large = NULL;
+done:
+    oz_large_free(large);
+    return status;
+}
+
+void oz_large_free(OzLarge *large)
+{
+    for (int p = 0; large && p < PHASE_COUNT; p++) {
+        if (large->kernel[p]) {
+            clReleaseKernel(large->kernel[p]);
+        }
+    }
+    free(large);
+}
+
+/* Puts one phase in the queue; number is the kernel's last argument. */
+static OzStatus queue_phase(OzLarge *large, OzArrays *arrays, Phase phase, int number)
+{
+    OzStatus status = OZ_OK;
+    cl_kernel kernel = large->kernel[phase];
+    size_t group = (size_t)oz_rods_fields_switches(arrays)->group, items = group;
+    if (!kernel) {
+        return OZ_OK;
+    }
+    if (!single[phase]) {
+        items = ((size_t)oz_rods_fields_sizes(arrays)->regions + group - 1) / group * group;
+    }
+    CL_TRY(clSetKernelArg(kernel, OZ_FIELD_COUNT + 1, sizeof number, &number));
+    CL_TRY(clEnqueueNDRangeKernel(large->device->queue, kernel, 1, NULL, &items, &group, 0, NULL,
+                                  NULL));
+done:
+    return status;
+}
+
+static OzStatus queue_phases(OzLarge *large, OzArrays *arrays, const Phase *phases, int count)
+{
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < count; i++) {
+        OZ_TRY(queue_phase(large, arrays, phases[i], 0));
+    }
+done:
+    return status;
+}
+
+/* The outer lists anew, with the grains put in the order of cells on the way. */
+static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControl *control)
+{
+    static const Phase sort[] = {PHASE_clear,   PHASE_bin,     PHASE_scan,
+                                 PHASE_fill,    PHASE_arrange, PHASE_move_out,
+                                 PHASE_move_in, PHASE_search,  PHASE_restore};
+    OzStatus status = OZ_OK;
+    if (control->truth == OZ_SPRINGS_AT_OUTER) {
+        OZ_TRY(queue_phase(large, arrays, PHASE_save, 0));
+        OZ_TRY(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_SAVED));
+    }
+    OZ_TRY(queue_phases(large, arrays, sort, sizeof sort / sizeof sort[0]));
+    OZ_TRY(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_OUTER));
+done:
+    return status;
+}
+
+static OzStatus queue_refresh(OzLarge *large, OzArrays *arrays)
+{
+    static const Phase phases[] = {PHASE_reset, PHASE_select, PHASE_order, PHASE_forget};
+    OzStatus status = queue_phases(large, arrays, phases, sizeof phases / sizeof phases[0]);
+    return status == OZ_OK ? queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_INNER) : status;
+}
+
+static OzStatus read_control(const OzArrays *arrays, OzControl *control)
+{
+    return oz_arrays_read(arrays, OZ_FIELD_control, 0, control, sizeof *control);
+}
+
+/* Whether the lists hold, for the next step and for places that it has moved already. */
+static bool hold(const OzControl *control)
+{
+    return control->truth == OZ_SPRINGS_AT_INNER && control->stale_step == OZ_NEVER &&
+           control->stale_positions == OZ_NEVER;
+}
+
+/* Lists that hold, from whatever there is. *waits: the host has to make one. */
+static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool *waits)
+{
+    OzStatus status = OZ_OK;
+    *waits = false;
+    OZ_TRY(queue_phase(large, arrays, PHASE_measure, 0));
+    OZ_TRY(read_control(arrays, control));
+    if (control->truth == OZ_SPRINGS_AT_INNER) {
+        control->truth = OZ_SPRINGS_AT_OUTER; /* measuring has harvested the springs */
+        OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+    }
+    bool holds = control->truth == OZ_SPRINGS_AT_OUTER && !control->outer_stale;
+    if (!holds && oz_rods_fields_switches(arrays)->host_lists) {
+        *waits = true;
+        goto done;
+    }
+    if (!holds) {
+        OZ_TRY(queue_rebuild(large, arrays, control));
+    }
+    OZ_TRY(queue_refresh(large, arrays));
+    int refreshes = control->refreshes + 1, rebuilds = control->rebuilds + !holds;
+    OZ_TRY(read_control(arrays, control));
+    control->refreshes = refreshes;
+    control->rebuilds = rebuilds;
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+done:
+    return status;
+}
+
+static OzStatus queue_step(OzLarge *large, OzArrays *arrays, int step)
+{
+    static const Phase phases[] = {PHASE_before, PHASE_pairs, PHASE_grains, PHASE_ledger};
+    OzStatus status = OZ_OK;
+    for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++) {
+        OZ_TRY(queue_phase(large, arrays, phases[i], step));
+    }
+done:
+    return status;
+}
+
+/* Queues about as many steps as the lists will last, and waits. */
+static OzStatus run_batch(OzLarge *large, OzArrays *arrays, OzControl *control, int steps)
+{
+    OzStatus status = OZ_OK;
+    int first = control->step, count = (int)large->interval + 2;
+    int last = first + count < steps ? first + count : steps;
+    for (int step = first; step < last; step++) {
+        OZ_TRY(queue_step(large, arrays, step));
+    }
+    OZ_TRY(read_control(arrays, control));
+    if (control->stale_positions != OZ_NEVER) {
+        control->moved = 1; /* the step goes on with its forces once lists hold */
+        OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+    }
+    bool used_up = !hold(control);
+    double lasted = control->step - first;
+    large->interval = used_up ? 0.5 * (large->interval + lasted) : large->interval + 1;
+done:
+    return status;
+}
+
+static OzStatus bind_all(OzLarge *large, OzArrays *arrays)
+{
+    OzStatus status = OZ_OK;
+    for (int p = 0; p < PHASE_COUNT; p++) {
+        cl_uint next = 0;
+        if (large->kernel[p]) {
+            OZ_TRY(oz_arrays_bind(arrays, large->kernel[p], &next));
+        }
+    }
+done:
+    return status;
+}
+
+OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControl *control, int steps)
+{
+    OzStatus status = OZ_OK;
+    bool waits = false;
+    OZ_TRY(bind_all(large, arrays));
+    for (;;) {
+        if (control->stop_bits || control->full || waits ||
+            (hold(control) && control->step >= steps)) {
+            break;
+        }
+        if (!hold(control)) {
+            OZ_TRY(renew(large, arrays, control, &waits));
+        } else {
+            OZ_TRY(run_batch(large, arrays, control, steps));
+        }
+    }
+done:
+    return status;
+}
+
+OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool outer)
+{
+    OzStatus status = OZ_OK;
+    bool waits = false;
+    OZ_TRY(bind_all(large, arrays));
+    OZ_TRY(read_control(arrays, control));
+    control->outer_stale = outer;
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+    OZ_TRY(renew(large, arrays, control, &waits));
+done:
+    return status;
+}

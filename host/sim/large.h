@@ -1,0 +1,27 @@
+/* Large scenes: a step is a few kernels over all regions, many steps are queued without waiting,
+ * and the lists are made anew when the device says so. */
+#ifndef OZ_SIM_LARGE_H
+#define OZ_SIM_LARGE_H
+
+#include "sim/rods_fields.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct OzLarge OzLarge;
+
+/* Takes the kernels of a program built from kernels/rods_large.cl; both are borrowed. */
+OzStatus oz_large_create(OzLarge **large, cl_program program, const OzDevice *device,
+                         const OzSwitches *switches);
+void oz_large_free(OzLarge *large); /* NULL is fine */
+
+/* Makes steps control->step ... steps of the launch and leaves lists that hold; ends earlier when a
+ * guard speaks, a list is full or the host must make one. *control is the state before and after.
+ */
+OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControl *control, int steps);
+
+/* The inner lists anew, and first the outer ones and the order of grains if asked, whether they
+ * hold or not: for timing. The lists must have been made once. */
+OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool outer);
+
+#endif

@@ -1,0 +1,148 @@
+/* A model as a value: all that the driver (sim/sim.h and what it is made of) asks of one, be it
+ * rods or trigrains. THE list of models is in sim/models.c. Switches, sizes, parameters and
+ * control words are structs of the model's own, handed about as void pointers; they begin with the
+ * words of kernels/head.h, which are all that the driver looks at. */
+#ifndef OZ_SIM_MODEL_H
+#define OZ_SIM_MODEL_H
+
+#define OZ_HOST
+#include "compute/device.h"
+#include "kernels/head.h"
+#include "model/grains.h"
+#include "model/snapshot.h"
+#include "sim/sim.h"
+
+#include <stdbool.h>
+
+typedef struct OzArrays OzArrays;
+
+/* A switch of the kernels, -D OZ_<name>=<value>. */
+typedef struct OzSwitch {
+    const char *name;
+    const char *left_out; /* what is saved without it; NULL: not a feature that can be missing */
+} OzSwitch;
+
+/* What every model's switches begin with: is_double becomes -D OZ_DOUBLE=1, the others are the
+ * first rows of its list. */
+typedef struct __attribute__((may_alias)) OzSwitchesHead {
+    int is_double;
+    int lanes, group, ledger;
+} OzSwitchesHead;
+
+/* What a field's words are to the next step. STATE: it depends on them; SPRING: it does too, they
+ * are the tangential memory of contacts, where it outlives the neighbour lists; LIST: part of the
+ * lists, or springs on their way in them, made anew from the others; SCRATCH: written before they
+ * are read, by the host for each launch or by the kernels in each step. */
+typedef enum OzFieldClass {
+    OZ_FIELD_STATE,
+    OZ_FIELD_SPRING,
+    OZ_FIELD_LIST,
+    OZ_FIELD_SCRATCH
+} OzFieldClass;
+
+typedef struct OzField {
+    const char *name;
+    OzFieldClass class;
+} OzField;
+
+/* A guard's bit and what it says. */
+typedef struct OzStop {
+    int bit;
+    const char *words;
+} OzStop;
+
+typedef struct OzModel {
+    const char *name;
+
+    /* The device's arrays in the order of the kernels' arguments; bytes of one member's stretch, 0
+     * where the scene does not need it; whether the rows of a list outlive a growth. */
+    int field_count, control_field;
+    const OzField *fields;
+    size_t (*field_bytes)(int field, const void *switches, const void *sizes);
+    bool (*keeps_rows)(int field); /* NULL: none does */
+
+    /* What memory is told for each of (`orzo check`): "grain", and how many there are. */
+    const char *body;
+    int64_t (*body_count)(const OzGrains *grains);
+
+    size_t switches_bytes, sizes_bytes, parameters_bytes, control_bytes;
+
+    /* What a scene needs of the kernels. program: that of these switches. more_left_out (may be
+     * NULL) prints what else they leave out, after the separator. */
+    int switch_count;
+    const OzSwitch *switches;
+    void (*derive)(void *switches, const OzScene *scene, const OzGrains *grains,
+                   const OzDevice *device);
+    void (*more_left_out)(const void *switches, const char *separator, FILE *file);
+    const char *(*program)(const void *switches);
+
+    /* Constants of a scene, in double and SI; sizes that a member needs, and what follows from them
+     * in the parameters; sizes that serve another member too. */
+    OzStatus (*fill)(void *parameters, const OzScene *scene, const OzGrains *grains);
+    void (*choose)(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
+                   const void *switches);
+    void (*join)(void *sizes, const void *other);
+
+    /* Whether scenes of the same switches, step and settling can share launches; what all members
+     * must have alike, in words. */
+    bool (*fits)(const OzMember *a, const OzMember *b, const void *switches);
+    const char *alike;
+
+    /* The model's own part of a simulation, sim->own: makes it, with the kernels of sim->program
+     * and sim->advance where there is one that does it all; uploads every member's start and makes
+     * the kernels' first records; frees it, half-made too. */
+    OzStatus (*open)(OzSim *sim);
+    OzStatus (*start)(OzSim *sim);
+    void (*close)(OzSim *sim);
+
+    /* A launch. prime (may be NULL): what must come before the first. steps_alike (may be NULL):
+     * how many of these steps a member can make before what is written for a launch changes.
+     * prepare: writes walls' motion and what else a member's next steps need. run (NULL:
+     * sim->advance): the kernels once, control words read back. is_through: the member has made its
+     * steps and needs no more runs of this launch. supply (may be NULL): what members that are not
+     * through wait for. let_go: before lists get new sizes. */
+    OzStatus (*write_parameters)(OzSim *sim, int member);
+    OzStatus (*prime)(OzSim *sim);
+    int64_t (*steps_alike)(const OzSim *sim, int member, int64_t steps);
+    OzStatus (*prepare)(OzSim *sim, int member, int steps);
+    OzStatus (*run)(OzSim *sim, int steps);
+    bool (*is_through)(const void *control, int steps);
+    OzStatus (*supply)(OzSim *sim);
+    OzStatus (*let_go)(OzSim *sim);
+
+    /* A member's state now, walls included; the sums over its contacts and, with the ledger on, its
+     * energies, unless a guard has stopped it. */
+    OzStatus (*unpack)(OzSim *sim, int member, OzSnapshot *snapshot);
+    OzStatus (*contacts)(OzSim *sim, int member, OzSnapshot *snapshot);
+
+    /* Settling: kinetic energy, of motion and of rotation, J; steps between looks at it, often
+     * enough to stop in time, rarely enough to cost nothing; an empty ledger at time 0. */
+    double (*energy)(const OzSnapshot *now);
+    int judge_steps;
+    OzStatus (*start_ledger)(OzSim *sim);
+
+    /* Guards, in the order in which they are told; the grain of an index in the control words, -1
+     * if there is none; what would help. */
+    int stop_count;
+    const OzStop *stops;
+    int (*grain_of)(const OzGrains *grains, int index);
+    void (*advise)(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now);
+} OzModel;
+
+/* "-DOZ_LANES=16 -DOZ_GROUP=1 ..." */
+void oz_model_options(const OzModel *model, const void *switches, char *text, size_t size);
+
+/* Prints the switches, and the features left out. */
+void oz_model_print_switches(const OzModel *model, const void *switches, FILE *file);
+
+/* Derives switches and fills parameters and sizes for one scene; the caller frees all three with
+ * oz_model_layout_free, after a failure too. */
+typedef struct OzModelLayout {
+    void *switches, *parameters, *sizes;
+} OzModelLayout;
+
+OzStatus oz_model_layout(OzModelLayout *layout, const OzModel *model, const OzMember *member,
+                         const OzDevice *device);
+void oz_model_layout_free(OzModelLayout *layout);
+
+#endif

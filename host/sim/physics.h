@@ -1,0 +1,18 @@
+/* What the physics headers need to know of a scene before the host can use them: switches,
+ * constants in double, walls in kernel order. Shared by the reference simulation and by oz_touch.
+ */
+#pragma once
+
+#include "sim/constants.h"
+
+typedef struct OzPhysics {
+    OzSwitches switches;
+    OzParameters parameters;      /* in double whatever the scene says: length_unit is 1      */
+    int wall_order[OZ_WALLS_MAX]; /* scene index of kernel wall k, in the order of kinds      */
+    int wall_count;
+    int ends;     /* of a grain that a wall can touch: 1 when all grains are spheres, else 2 */
+    double share; /* of a step by which tangential springs are advanced before the force     */
+} OzPhysics;
+
+/* Fails with OZ_ERR_INPUT as oz_constants_fill does. */
+OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGrains *grains);

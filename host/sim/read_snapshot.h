@@ -1,0 +1,13 @@
+/* Snapshots of a simulation. */
+#ifndef OZ_SIM_READ_SNAPSHOT_H
+#define OZ_SIM_READ_SNAPSHOT_H
+
+#include "model/snapshot.h"
+#include "sim/sim.h"
+
+/* The state of a member now, into a snapshot made for its scene and grains. contacts: the sums over
+ * contacts and, with the ledger on, the energies too (dearer: lists and springs are downloaded, or
+ * the host looks for all contacts). They are left out when the run was stopped by a guard. */
+OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts);
+
+#endif

@@ -1,0 +1,349 @@
+/* The host reference: bodies, a pair list with skin, forces and motion, all in double. */
+#include "sim/reference_guard.h"
+
+#include "base/memory.h"
+#include "sim/touch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static OzVec3 axis_of(const OzReference *r, int i)
+{
+    return oz_quaternion_axis(r->body[i].turn);
+}
+
+static OzGrain grain_with(const OzReference *r, int i, OzVec3 velocity, OzVec3 spin)
+{
+    OzVec3 u = axis_of(r, i);
+    OzGrain grain = {.position = r->body[i].position,
+                     .half_shaft = oz_scale(u, r->shape[i].half_length),
+                     .velocity = velocity,
+                     .rate = oz_body_rate(spin, u, r->shape[i]),
+                     .radius = r->shape[i].radius,
+                     .mass = r->shape[i].mass,
+                     .inverse_inertia = r->shape[i].inverse_inertia};
+    return grain;
+}
+
+static OzGrain grain_now(const OzReference *r, int i)
+{
+    return grain_with(r, i, r->body[i].velocity, r->body[i].spin);
+}
+
+static void place_bodies(OzReference *r)
+{
+    const OzGrains *g = r->grains;
+    for (int64_t i = 0; i < r->count; i++) {
+        const double *x = &g->position[3 * i], *q = &g->quaternion[4 * i];
+        OzShape shape = {.radius = g->diameter[i] / 2,
+                         .half_length = g->length[i] / 2,
+                         .mass = g->mass[i],
+                         .inverse_mass = 1 / g->mass[i],
+                         .inverse_inertia = 1 / g->inertia[i],
+                         .inverse_inertia_axis = 1 / g->inertia_axis[i]};
+        OzBody body = {.position = {x[0], x[1], x[2]},
+                       .velocity = oz_dialect_load3(&g->velocity[3 * i]),
+                       .spin = oz_dialect_load3(&g->angular_velocity[3 * i]),
+                       .turn = {q[1], q[2], q[3], q[0]}};
+        if (OZ_GYROSCOPIC) {
+            OzVec3 u = oz_quaternion_axis(body.turn);
+            double extra = (g->inertia_axis[i] - g->inertia[i]) * oz_dot(body.spin, u);
+            body.spin = oz_along(oz_scale(body.spin, g->inertia[i]), extra, u);
+        }
+        r->shape[i] = shape;
+        r->body[i] = body;
+    }
+}
+
+/* Position and axis of every grain, 3 x count each. */
+static void write_places(const OzReference *r, double *position, double *axis)
+{
+    for (int i = 0; i < r->count; i++) {
+        OzFixedPosition at = r->body[i].position;
+        oz_dialect_store3(&position[3 * (int64_t)i], oz_vec3(at.x, at.y, at.z));
+        oz_dialect_store3(&axis[3 * (int64_t)i], axis_of(r, i));
+    }
+}
+
+static OzStatus renew_list(OzReference *r)
+{
+    OzStatus status = OZ_OK;
+    bool renewed;
+    write_places(r, r->position, r->axis);
+    OZ_TRY(oz_pair_list_renew(&r->near, &renewed, r->grains, r->position, r->axis));
+    if (renewed) {
+        free(r->pair_force);
+        OZ_TRY(OZ_NEW(&r->pair_force, r->near.pairs.count));
+    }
+done:
+    return status;
+}
+
+static void move_before(OzReference *r, double dt)
+{
+    double force_time = oz_step_clock_time(&r->clock, r->step) + (dialect.moves_before ? dt : 0);
+    for (int i = 0; i < r->count; i++) {
+        OzBody *body = &r->body[i];
+        oz_integrate_before(body, r->shape[i], dt, 1);
+        r->seen[i] = grain_with(r, i, oz_integrate_seen_velocity(*body, dt),
+                                oz_integrate_seen_spin(*body, r->shape[i], dt));
+    }
+    for (int w = 0; w < r->physics.wall_count; w++) {
+        const OzMotion *motion = &r->scene->walls[r->physics.wall_order[w]].motion;
+        oz_constants_motion(motion, force_time, &r->wall_offset[w], &r->wall_speed[w]);
+    }
+}
+
+static void touch_pairs(OzReference *r, double dt)
+{
+    for (int64_t p = 0; p < r->near.pairs.count; p++) {
+        OzPair pair = r->near.pairs.pair[p];
+        r->pair_force[p] =
+            oz_rods_pair(r->seen[pair.a], r->seen[pair.b], 1, r->physics.parameters.law,
+                         &r->near.spring[p], dt, r->physics.share);
+    }
+}
+
+/* Two passes over the sorted list give each grain the kernels' order: pairs in which it is the
+ * second by the other's id, then its own. */
+static void gather_pairs(OzReference *r)
+{
+    memset(r->load, 0, (size_t)r->count * sizeof *r->load);
+    for (int64_t p = 0; p < r->near.pairs.count; p++) {
+        OzLoad *load = &r->load[r->near.pairs.pair[p].b];
+        load->force = oz_add(load->force, r->pair_force[p].force);
+        load->torque = oz_add(load->torque, r->pair_force[p].torque_b);
+    }
+    for (int64_t p = 0; p < r->near.pairs.count; p++) {
+        OzLoad *load = &r->load[r->near.pairs.pair[p].a];
+        load->force = oz_minus(load->force, r->pair_force[p].force);
+        load->torque = oz_add(load->torque, r->pair_force[p].torque_a);
+    }
+}
+
+static int64_t wall_index(const OzReference *r, int i, int wall, int end)
+{
+    return (int64_t)i * r->wall_ends + wall * r->physics.ends + end;
+}
+
+static void touch_wall(OzReference *r, int i, int wall, int end, double dt)
+{
+    int64_t k = wall_index(r, i, wall, end);
+    OzWallForce *f = &r->wall_force[k];
+    f->parts =
+        oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_offset[wall],
+                              r->wall_speed[wall], dt, &r->wall_history[k], &f->contact, &f->arm);
+    r->load[i].force = oz_add(r->load[i].force, f->parts.force);
+    r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
+}
+
+static void touch_walls(OzReference *r, double dt)
+{
+    for (int i = 0; i < r->count; i++) {
+        for (int wall = 0; wall < r->physics.wall_count; wall++) {
+            for (int end = 0; end < r->physics.ends; end++) {
+                touch_wall(r, i, wall, end, dt);
+            }
+        }
+    }
+}
+
+static void move_after(OzReference *r, double dt)
+{
+    OzVec3 gravity = oz_dialect_load3(r->physics.parameters.gravity);
+    for (int i = 0; i < r->count; i++) {
+        OzLoad load = r->load[i];
+        load.force = oz_along(load.force, r->shape[i].mass, gravity);
+        oz_integrate_after(&r->body[i], r->shape[i], load, dt, 1);
+    }
+}
+
+static void note_pairs(OzReference *r, double dt)
+{
+    for (int64_t p = 0; p < r->near.pairs.count; p++) {
+        const OzPairForce *f = &r->pair_force[p];
+        if (f->contact.touching) {
+            OzGrain a = grain_now(r, r->near.pairs.pair[p].a),
+                    b = grain_now(r, r->near.pairs.pair[p].b);
+            OzVec3 after =
+                oz_minus(oz_grain_velocity_at(b, f->arm_b), oz_grain_velocity_at(a, f->arm_a));
+            oz_ledger_note(&r->work, f->contact, f->parts, after, dt);
+            if (OZ_LINE) {
+                oz_ledger_note_couple(&r->work, f->couple, f->turning, oz_minus(b.rate, a.rate),
+                                      dt);
+            }
+        }
+    }
+}
+
+static void note_wall(OzReference *r, int i, int wall, double dt)
+{
+    const OzMotion *motion = &r->scene->walls[r->physics.wall_order[wall]].motion;
+    double offset, speed;
+    oz_constants_motion(motion, oz_step_clock_time(&r->clock, r->step) + dt, &offset, &speed);
+    for (int end = 0; end < r->physics.ends; end++) {
+        const OzWallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
+        if (f->contact.touching) {
+            OzVec3 after = oz_grain_velocity_at(grain_now(r, i), f->arm);
+            after.z -= speed;
+            oz_ledger_note(&r->work, f->contact, f->parts, after, dt);
+            oz_ledger_push(&r->work, f->parts.force, 0.5 * (r->wall_speed[wall] + speed), dt);
+        }
+    }
+}
+
+/* As kernels/ledger.h. */
+static void note_ledger(OzReference *r, double dt)
+{
+    note_pairs(r, dt);
+    for (int i = 0; i < r->count; i++) {
+        for (int wall = 0; wall < r->physics.wall_count; wall++) {
+            note_wall(r, i, wall, dt);
+        }
+    }
+}
+
+static OzStatus make_step(OzReference *r, double dt)
+{
+    OzStatus status = OZ_OK;
+    move_before(r, dt);
+    OZ_TRY(renew_list(r));
+    touch_pairs(r, dt);
+    gather_pairs(r);
+    touch_walls(r, dt);
+    move_after(r, dt);
+    if (r->physics.switches.ledger) {
+        note_ledger(r, dt);
+    }
+    OZ_TRY(oz_reference_guard_check(r, dt));
+done:
+    return status;
+}
+
+OzStatus oz_reference_advance(OzReference *reference, int64_t step)
+{
+    OzStatus status = OZ_OK;
+    dialect = reference->physics.switches;
+    if (!reference->primed && dialect.moves_before && step > 0) {
+        OZ_TRY(make_step(reference, 0));
+    }
+    reference->primed = true;
+    while (reference->step < step) {
+        OZ_TRY(make_step(reference, reference->physics.parameters.dt));
+        reference->step++;
+    }
+done:
+    return status;
+}
+
+static void copy_state(const OzReference *r, OzSnapshot *s)
+{
+    write_places(r, s->position, s->axis);
+    for (int i = 0; i < r->count; i++) {
+        const OzBody *b = &r->body[i];
+        double *q = &s->quaternion[4 * (int64_t)i];
+        oz_dialect_store3(&s->velocity[3 * (int64_t)i], b->velocity);
+        oz_dialect_store3(&s->angular_velocity[3 * (int64_t)i], grain_now(r, i).rate);
+        q[0] = b->turn.w;
+        oz_dialect_store3(q + 1, oz_vec3(b->turn.x, b->turn.y, b->turn.z));
+    }
+    s->step = r->step;
+    s->time = oz_step_clock_time(&r->clock, r->step);
+    oz_snapshot_move_walls(s);
+}
+
+static OzStatus sum_contacts(const OzReference *r, OzTouch *touch, const OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    double spring[3];
+    OZ_TRY(oz_touch_begin(touch, snapshot));
+    for (int64_t p = 0; p < r->near.pairs.count; p++) {
+        oz_dialect_store3(spring, r->near.spring[p]);
+        oz_touch_pair(touch, r->near.pairs.pair[p].a, r->near.pairs.pair[p].b, spring);
+    }
+    for (int64_t k = 0; k < (int64_t)r->count * r->wall_ends; k++) {
+        int slot = (int)(k % r->wall_ends);
+        oz_dialect_store3(spring, r->wall_history[k]);
+        oz_touch_wall(touch, k / r->wall_ends, slot / r->physics.ends, slot % r->physics.ends,
+                      spring);
+    }
+done:
+    return status;
+}
+
+OzStatus oz_reference_snapshot(const OzReference *reference, OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    OzTouch touch;
+    dialect = reference->physics.switches;
+    copy_state(reference, snapshot);
+    OZ_TRY(sum_contacts(reference, &touch, snapshot));
+    snapshot->deep_count = reference->deep_count;
+    snapshot->has_contacts = true;
+    snapshot->contacts = touch.contacts;
+    snapshot->has_ledger = reference->scene->observe.ledger;
+    snapshot->ledger.elastic = touch.elastic;
+    snapshot->ledger.dissipated = reference->work.dissipated;
+    snapshot->ledger.friction = reference->work.spring - touch.tangential;
+    snapshot->ledger.work_walls = reference->work.walls;
+done:
+    return status;
+}
+
+static OzStatus create_arrays(OzReference *r)
+{
+    OzStatus status = OZ_OK;
+    int64_t count = r->count, ends = count * r->wall_ends;
+    OZ_TRY(OZ_NEW(&r->shape, count));
+    OZ_TRY(OZ_NEW(&r->body, count));
+    OZ_TRY(OZ_NEW(&r->seen, count));
+    OZ_TRY(OZ_NEW(&r->load, count));
+    OZ_TRY(OZ_NEW(&r->position, 3 * count));
+    OZ_TRY(OZ_NEW(&r->axis, 3 * count));
+    OZ_TRY(OZ_NEW(&r->wall_force, ends));
+    OZ_TRY(OZ_NEW(&r->wall_history, ends));
+done:
+    return status;
+}
+
+OzStatus oz_reference_create(OzReference **reference, const OzScene *scene, const OzGrains *grains)
+{
+    OzStatus status = OZ_OK;
+    OzReference *r = NULL;
+    OZ_TRY(OZ_NEW(&r, 1));
+    OZ_TRY(oz_physics_derive(&r->physics, scene, grains));
+    dialect = r->physics.switches;
+    r->scene = scene;
+    r->grains = grains;
+    r->clock = oz_step_clock_begin(scene->step);
+    r->count = (int)grains->count;
+    r->wall_ends = r->physics.wall_count * r->physics.ends;
+    OZ_TRY(create_arrays(r));
+    place_bodies(r);
+    OZ_TRY(renew_list(r));
+done:
+    if (status != OZ_OK) {
+        oz_reference_free(r);
+        r = NULL;
+    }
+    *reference = r;
+    return status;
+}
+
+void oz_reference_free(OzReference *reference)
+{
+    if (!reference) {
+        return;
+    }
+    oz_pair_list_free(&reference->near);
+    free(reference->shape);
+    free(reference->body);
+    free(reference->seen);
+    free(reference->load);
+    free(reference->position);
+    free(reference->axis);
+    free(reference->pair_force);
+    free(reference->wall_force);
+    free(reference->wall_history);
+    free(reference);
+}

@@ -1,0 +1,43 @@
+/* What the reference's own files know of it. For .c files that set the dialect before they call any
+ * physics. */
+#ifndef OZ_SIM_REFERENCE_PRIVATE_H
+#define OZ_SIM_REFERENCE_PRIVATE_H
+
+#include "model/step_clock.h"
+#include "sim/dialect.h"
+#include "sim/ledger.h"
+#include "sim/pair_list.h"
+#include "sim/reference.h"
+
+/* What one end of a grain and a wall did in the last step. */
+typedef struct OzWallForce {
+    OzContact contact;
+    OzContactForce parts;
+    OzVec3 arm;
+} OzWallForce;
+
+struct OzReference {
+    const OzScene *scene;
+    const OzGrains *grains;
+    OzPhysics physics;
+    int64_t step;
+    OzStepClock clock;
+    bool primed; /* the forces of step 0 are known (velocity-verlet) */
+    int count;
+    int wall_ends; /* of a grain, over all walls */
+    OzShape *shape;
+    OzBody *body;
+    OzGrain *seen; /* as the forces of this step see them */
+    OzLoad *load;
+    double *position, *axis; /* 3 x count each, of body */
+    OzPairList near;
+    OzPairForce *pair_force;          /* of each pair of near             */
+    OzWallForce *wall_force;          /* count x walls x ends             */
+    OzVec3 *wall_history;             /* count x walls x ends             */
+    double wall_offset[OZ_WALLS_MAX]; /* when the forces act              */
+    double wall_speed[OZ_WALLS_MAX];  /* when the forces act              */
+    OzWork work;
+    int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */
+};
+
+#endif

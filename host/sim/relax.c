@@ -1,0 +1,135 @@
+/* Settling: judging members by their energy. It knows nothing of what they are made of. */
+#include "sim/relax.h"
+
+#include "base/log.h"
+
+#include <math.h>
+#include <string.h>
+
+bool oz_relax_is_same(const OzSettle *a, const OzSettle *b)
+{
+    return a->present == b->present && a->drag == b->drag && a->threshold == b->threshold &&
+           a->rest_time == b->rest_time && a->time_max == b->time_max;
+}
+
+static double gravity_of(const OzScene *scene)
+{
+    const double *g = scene->gravity;
+    return sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
+
+/* A member's kinetic energy over N m g d of its grains. */
+static OzStatus energy_ratio(const OzRelax *rest, int member, double *ratio)
+{
+    OzStatus status = OZ_OK;
+    OzSnapshot now = {0};
+    const OzScene *scene = rest->batch->members[member].scene;
+    const OzGrains *grains = rest->batch->members[member].grains;
+    double energy = 0, scale = 0, gravity = gravity_of(scene);
+    OZ_TRY(oz_snapshot_create(&now, scene, grains));
+    OZ_TRY(rest->take_energy(rest->sim, member, &now, &energy));
+    for (int64_t i = 0; i < grains->count; i++) {
+        scale += grains->mass[i] * gravity * grains->diameter[i];
+    }
+    *ratio = scale > 0 ? energy / scale : 0;
+done:
+    oz_snapshot_free(&now);
+    return status;
+}
+
+/* Grains start at rest: their energy says nothing before they have had time to fall. This is ten
+ * times what a free fall takes to the threshold's speed, as a step. */
+static int64_t first_judgement(const OzScene *scene, const OzGrains *grains)
+{
+    double gravity = gravity_of(scene), fall = 2 * scene->settle.threshold * grains->diameter[0];
+    double time = gravity > 0 ? sqrt(fall / gravity) : 0;
+    return (int64_t)ceil(10 * time / scene->step);
+}
+
+/* Lets members that have come to rest wait for the others, so that what a member does depends on
+ * itself alone; *worst receives the largest energy ratio of those that go on, *going how many there
+ * are. */
+static OzStatus judge(const OzRelax *rest, double *worst, int *going)
+{
+    OzStatus status = OZ_OK;
+    OzBatch *batch = rest->batch;
+    *worst = 0;
+    *going = 0;
+    for (int m = 0; m < batch->member_count; m++) {
+        const OzMember *member = &batch->members[m];
+        double ratio = 0;
+        if (!oz_batch_goes_on(batch, m)) {
+            continue;
+        }
+        OZ_TRY(energy_ratio(rest, m, &ratio));
+        bool old_enough = batch->step >= first_judgement(member->scene, member->grains);
+        batch->waits[m] = old_enough && ratio < member->scene->settle.threshold;
+        *worst = ratio > *worst ? ratio : *worst;
+        *going += !batch->waits[m];
+    }
+done:
+    return status;
+}
+
+static OzStatus advance(const OzRelax *rest, int64_t step)
+{
+    OzStatus status = OZ_OK;
+    while (status == OZ_OK && rest->batch->step < step) {
+        status = rest->launch(rest->sim, step);
+    }
+    return status;
+}
+
+/* Advances by so long a time, or with judging until every member waits. The energy is looked at
+ * after fixed numbers of steps, not of launches, whose length depends on the machine: the same bits
+ * on any. */
+static OzStatus run_for(const OzRelax *rest, double time, bool judging, OzSettleWatch watch,
+                        void *context)
+{
+    OzStatus status = OZ_OK;
+    const OzBatch *batch = rest->batch;
+    const OzScene *scene = batch->members[0].scene;
+    double worst = 0;
+    int going = batch->member_count;
+    int64_t last = batch->step + (int64_t)ceil(time / batch->clock[0].dt - 1e-9);
+    while (batch->step < last && going > 0) {
+        int64_t next = batch->step + rest->judge_steps;
+        OZ_TRY(advance(rest, next < last ? next : last));
+        if (judging) {
+            OZ_TRY(judge(rest, &worst, &going));
+        }
+        if (watch && !watch(context, oz_batch_time(batch, 0, batch->step), worst)) {
+            status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while settling");
+            goto done;
+        }
+    }
+    if (judging && going > 0 && scene->settle.threshold > 0) {
+        oz_log_line("settling: kinetic energy still %.3g N m g d after %.3g s (threshold %.3g)",
+                    worst, scene->settle.time_max, scene->settle.threshold);
+    }
+done:
+    return status;
+}
+
+OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch, void *context)
+{
+    OzStatus status = OZ_OK;
+    OzBatch *batch = rest->batch;
+    const OzScene *scene = batch->members[0].scene;
+    *seconds = 0;
+    batch->walls_still = false;
+    if (!scene->settle.present || rest->is_empty) {
+        return OZ_OK;
+    }
+    batch->walls_still = true;
+    OZ_TRY(rest->set_drag(rest->sim, scene->settle.drag));
+    OZ_TRY(run_for(rest, scene->settle.time_max, true, watch, context));
+    OZ_TRY(rest->set_drag(rest->sim, 0));
+    memset(batch->waits, 0, (size_t)batch->member_count * sizeof *batch->waits);
+    OZ_TRY(run_for(rest, scene->settle.rest_time, false, watch, context));
+    *seconds = oz_batch_time(batch, 0, batch->step);
+    oz_batch_start_clock(batch);
+    OZ_TRY(rest->start_ledger(rest->sim));
+done:
+    return status;
+}

@@ -1,0 +1,39 @@
+/* Bringing the members of a simulation to rest before time 0, whatever their model: the settling
+ * of sim/settle.h. */
+#pragma once
+
+#include "model/snapshot.h"
+#include "sim/batch.h"
+
+#include <stdbool.h>
+
+/* Told between launches how far settling has come; says whether to go on. */
+typedef bool (*OzSettleWatch)(void *context, double time, double energy_ratio);
+
+/* What settling asks of a model's simulation; each function is called with it. */
+typedef struct OzRelax {
+    void *sim;       /* borrowed                                                */
+    OzBatch *batch;  /* the simulation's own                                    */
+    bool is_empty;   /* there is nothing that could settle                      */
+    int judge_steps; /* between looks at the energy: often enough to stop in
+                      * time, rarely enough to cost nothing                     */
+    /* One launch towards the step. */
+    OzStatus (*launch)(void *sim, int64_t step);
+    /* All members' drag from now on, 1/s. */
+    OzStatus (*set_drag)(void *sim, double drag);
+    /* A member's state now, for which room was made, and its kinetic energy, of motion and of
+     * rotation, J. */
+    OzStatus (*take_energy)(void *sim, int member, OzSnapshot *now, double *energy);
+    /* Nothing counted nor added up yet, in what the batch does not know. */
+    OzStatus (*start_ledger)(void *sim);
+} OzRelax;
+
+/* Whether members that settle so may do it side by side. */
+bool oz_relax_is_same(const OzSettle *a, const OzSettle *b);
+
+/* Lets the grains come to rest as scene.settle says: walls still, with drag until a member's
+ * kinetic energy is below threshold x N m g d (it then waits for the others) or time_max is reached
+ * (logged), then rest_time without drag. The step count is 0 again afterwards. Does nothing without
+ * scene.settle. *seconds receives the simulated time of the member that took longest. Fails with
+ * OZ_ERR_INTERRUPTED when watch (may be NULL) says no. */
+OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch, void *context);

@@ -1,0 +1,284 @@
+/* Rods' part of a simulation, and the model's row. */
+#include "sim/rods.h"
+
+#include "base/memory.h"
+#include "compute/cl_try.h"
+#include "sim/host_lists.h"
+#include "sim/launch.h"
+#include "sim/pack.h"
+#include "sim/rods_guard.h"
+#include "sim/rods_private.h"
+#include "sim/rods_read_snapshot.h"
+#include "sim/sizes.h"
+#include "sim/units.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+
+enum { JUDGE_STEPS = 128 };
+
+_Static_assert(offsetof(OzSwitches, ledger) == offsetof(OzSwitchesHead, ledger) &&
+                   offsetof(OzSwitches, lanes) == offsetof(OzSwitchesHead, lanes) &&
+                   offsetof(OzSwitches, group) == offsetof(OzSwitchesHead, group),
+               "switches begin with what the driver reads");
+
+static const OzSwitch switch_rows[] = {
+#define ROW(name, member, left_out) {#name, left_out},
+    OZ_SWITCHES(ROW)
+#undef ROW
+};
+
+static void derive(void *switches, const OzScene *scene, const OzGrains *grains,
+                   const OzDevice *device)
+{
+    *(OzSwitches *)switches = oz_switches_derive(scene, grains, device);
+}
+
+static void print_more_left_out(const void *switches, const char *separator, FILE *file)
+{
+    const OzSwitches *s = switches;
+    if (s->round) {
+        fprintf(file, "%sshafts (spheres only)", separator);
+        separator = ", ";
+    }
+    if (s->equal) {
+        fprintf(file, "%ssize and mass of each grain (all equal)", separator);
+    }
+}
+
+static const char *program(const void *switches)
+{
+    return ((const OzSwitches *)switches)->resort ? "kernels/rods_large.cl" : "kernels/rods.cl";
+}
+
+static int64_t count_grains(const OzGrains *grains)
+{
+    return grains->count;
+}
+
+static OzStatus fill(void *parameters, const OzScene *scene, const OzGrains *grains)
+{
+    int order[OZ_WALLS_MAX];
+    return oz_constants_fill(parameters, order, scene, grains);
+}
+
+/* Walls are numbered by kind in the kernels, one numbering for all members. */
+static bool same_walls(const OzScene *a, const OzScene *b)
+{
+    for (int w = 0; w < a->wall_count && w < b->wall_count; w++) {
+        if (a->walls[w].kind != b->walls[w].kind) {
+            return false;
+        }
+    }
+    return a->wall_count == b->wall_count;
+}
+
+/* A size and a way of making lists that one work-group a scene can do. */
+static bool fits(const OzMember *a, const OzMember *b, const void *switches)
+{
+    const OzSwitches *s = switches;
+    return !s->resort && !s->host_lists && a->grains->count == b->grains->count &&
+           same_walls(a->scene, b->scene);
+}
+
+static OzStatus open(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    OzRods *own = NULL;
+    OzParameters parameters;
+    const OzMember *first = &sim->batch.members[0];
+    const OzSwitches *switches = oz_rods_switches(sim);
+    OZ_TRY(OZ_NEW(&own, 1));
+    sim->own = own;
+    OZ_TRY(OZ_NEW(&own->spring_start, sim->batch.member_count));
+    OZ_TRY(oz_constants_fill(&parameters, own->wall_order, first->scene, first->grains));
+    if (switches->resort) {
+        OZ_TRY(oz_large_create(&own->large, sim->program, sim->device, switches));
+    } else {
+        sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
+        CL_TRY(code);
+    }
+done:
+    return status;
+}
+
+static void close(OzSim *sim)
+{
+    OzRods *own = sim->own;
+    if (own) {
+        oz_large_free(own->large);
+        free(own->spring_start);
+        free(own);
+    }
+}
+
+static OzStatus start(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    int made = 0;
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        OZ_TRY(oz_pack_start(&sim->arrays, m, oz_rods_parameters(sim, m),
+                             sim->batch.members[m].grains));
+        *oz_rods_control(sim, m) = (OzControl){.stale_step = OZ_NEVER,
+                                               .stale_positions = OZ_NEVER,
+                                               .stop_step = OZ_NEVER,
+                                               .stop_index = OZ_NEVER,
+                                               .truth = OZ_SPRINGS_AT_NONE};
+    }
+    OZ_TRY(oz_sim_write_parameters(sim));
+    OZ_TRY(oz_launch_steps(sim, 0, &made));
+done:
+    return status;
+}
+
+static OzStatus write_parameters(OzSim *sim, int member)
+{
+    return oz_pack_parameters(&sim->arrays, member, oz_rods_parameters(sim, member));
+}
+
+/* velocity-verlet needs the first accelerations: forces at the start, over no time. */
+static OzStatus prime(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    int made = 0;
+    if (!oz_rods_switches(sim)->moves_before || oz_rods_own(sim)->primed) {
+        return OZ_OK;
+    }
+    double step = oz_rods_parameters(sim, 0)->dt;
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        oz_rods_parameters(sim, m)->dt = 0;
+    }
+    OZ_TRY(oz_sim_write_parameters(sim));
+    OZ_TRY(oz_launch_steps(sim, 1, &made));
+    sim->batch.step -= 1;
+    sim->batch.counts.steps -= 1;
+    oz_rods_own(sim)->primed = true;
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        sim->batch.reached[m] -= 1;
+        oz_rods_parameters(sim, m)->dt = step;
+    }
+    OZ_TRY(oz_sim_write_parameters(sim));
+done:
+    return status;
+}
+
+static void put_motion(double words[OZ_MOTION], const OzMotion *motion, double time,
+                       const OzParameters *p)
+{
+    double offset, speed;
+    oz_constants_motion(motion, time, &offset, &speed);
+    words[OZ_M_OFFSET] = offset / p->units.length;
+    words[OZ_M_SPEED] = speed / oz_units_speed(&p->units);
+    words[OZ_M_RISE] = rint(offset / p->length_unit);
+    words[OZ_M_RISE_REST] = offset / p->length_unit - words[OZ_M_RISE];
+}
+
+OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
+{
+    OzStatus status = OZ_OK;
+    int64_t first = sim->batch.step;
+    const OzScene *scene = sim->batch.members[member].scene;
+    const OzParameters *p = oz_rods_parameters(sim, member);
+    int walls = oz_rods_switches(sim)->walls;
+    size_t count = OZ_MOTION * (size_t)(steps + 1) * (size_t)walls;
+    double *motion = NULL;
+    OZ_TRY(OZ_NEW(&motion, count));
+    for (int k = 0; k < (sim->batch.walls_still ? 0 : steps + 1); k++) {
+        double time = oz_batch_time(&sim->batch, member, p->dt > 0 ? first + k : first);
+        for (int w = 0; w < walls; w++) {
+            double *words = motion + OZ_MOTION * ((size_t)k * (size_t)walls + (size_t)w);
+            put_motion(words, &scene->walls[oz_rods_own(sim)->wall_order[w]].motion, time, p);
+        }
+    }
+    OZ_TRY(oz_arrays_write_scalars(&sim->arrays, OZ_FIELD_motion, member, motion, count));
+done:
+    free(motion);
+    return status;
+}
+
+static OzStatus run(OzSim *sim, int steps)
+{
+    OzStatus status = OZ_OK;
+    OzLarge *large = oz_rods_own(sim)->large;
+    if (large) {
+        return oz_large_steps(large, &sim->arrays, oz_rods_control(sim, 0), steps);
+    }
+    OZ_TRY(oz_launch_enqueue(sim, sim->advance, steps));
+    OZ_TRY(oz_launch_read_control(sim));
+done:
+    return status;
+}
+
+/* Lists must hold too: snapshots read them. */
+static bool is_through(const void *words, int steps)
+{
+    const OzControl *control = words;
+    return control->step >= steps && control->truth == OZ_SPRINGS_AT_INNER &&
+           control->stale_step == OZ_NEVER && control->stale_positions == OZ_NEVER;
+}
+
+/* Springs of every member to where they outlive new list sizes: a member that is through holds its
+ * lists, which do not. It makes them again, with the same contacts, when it goes on. */
+static OzStatus let_go(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    cl_kernel kernel = NULL;
+    if (sim->batch.member_count == 1) {
+        return OZ_OK;
+    }
+    kernel = clCreateKernel(sim->program, "oz_shelve", &code);
+    CL_TRY(code);
+    OZ_TRY(oz_launch_enqueue(sim, kernel, -1));
+    OZ_TRY(oz_launch_read_control(sim));
+done:
+    if (kernel) {
+        clReleaseKernel(kernel);
+    }
+    return status;
+}
+
+const OzModel oz_rods_model = {
+    .name = "rods",
+    .field_count = OZ_FIELD_COUNT,
+    .control_field = OZ_FIELD_control,
+    .fields = oz_rods_fields_rows,
+    .field_bytes = oz_rods_fields_bytes,
+    .keeps_rows = oz_rods_fields_keeps,
+    .body = "grain",
+    .body_count = count_grains,
+    .switches_bytes = sizeof(OzSwitches),
+    .sizes_bytes = sizeof(OzSizes),
+    .parameters_bytes = sizeof(OzParameters),
+    .control_bytes = sizeof(OzControl),
+    .switch_count = sizeof switch_rows / sizeof switch_rows[0],
+    .switches = switch_rows,
+    .derive = derive,
+    .more_left_out = print_more_left_out,
+    .program = program,
+    .fill = fill,
+    .choose = oz_sizes_choose,
+    .join = oz_sizes_join,
+    .fits = fits,
+    .alike = "features, number of grains, step and settling",
+    .open = open,
+    .start = start,
+    .close = close,
+    .write_parameters = write_parameters,
+    .prime = prime,
+    .prepare = oz_rods_move_walls,
+    .run = run,
+    .is_through = is_through,
+    .supply = oz_host_lists_make,
+    .let_go = let_go,
+    .unpack = oz_rods_read_snapshot_state,
+    .contacts = oz_rods_read_snapshot_contacts,
+    .energy = oz_rods_read_snapshot_energy,
+    .judge_steps = JUDGE_STEPS,
+    .start_ledger = oz_rods_read_snapshot_start_ledger,
+    .stop_count = OZ_RODS_GUARD_STOPS,
+    .stops = oz_rods_guard_stops,
+    .grain_of = oz_rods_guard_grain,
+    .advise = oz_rods_guard_advise,
+};

@@ -1,0 +1,61 @@
+/* Rods' fields. */
+#include "sim/rods_fields.h"
+
+#include "sim/scalars.h"
+
+/* The list's switches, on the host. */
+#define OZ_LANES      (s->lanes)
+#define OZ_ROUND      (s->round)
+#define OZ_EQUAL      (s->equal)
+#define OZ_HISTORY    (s->history)
+#define OZ_WALL_COUNT (s->walls)
+#define OZ_MOVING     (s->moving)
+#define OZ_LEDGER     (s->ledger)
+#define OZ_LINE       (s->line)
+#define OZ_RESORT     (s->resort)
+#define OZ_GROUP      (s->group)
+
+#define BYTES_parameters     (sizeof(OzParameters) / sizeof(double) * oz_scalars_bytes(s->is_double))
+#define BYTES_control        sizeof(OzControl)
+#define BYTES_scalar         oz_scalars_bytes(s->is_double)
+#define BYTES_real           (oz_scalars_bytes(s->is_double) * (size_t)s->lanes)
+#define BYTES_fixed_position oz_scalars_bytes(s->is_double)
+#define BYTES_integer        sizeof(int)
+#define BYTES_ledger         sizeof(double)
+
+size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes)
+{
+    const OzSwitches *s = switches;
+    const OzSizes z = *(const OzSizes *)sizes;
+    switch (field) {
+#define CASE(kind, name, count, class)                                                             \
+    case OZ_FIELD_##name:                                                                          \
+        return (size_t)(count) * (BYTES_##kind);
+        OZ_FIELDS(CASE)
+#undef CASE
+    default:
+        return 0;
+    }
+}
+
+const OzField oz_rods_fields_rows[] = {
+#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class},
+    OZ_FIELDS(ROW)
+#undef ROW
+};
+
+/* Lists whose contents outlive a growth: where tangential springs are kept during a rebuild. */
+bool oz_rods_fields_keeps(int field)
+{
+    switch (field) {
+    case OZ_FIELD_outer_a:
+    case OZ_FIELD_outer_b:
+    case OZ_FIELD_outer_history:
+    case OZ_FIELD_saved_a:
+    case OZ_FIELD_saved_b:
+    case OZ_FIELD_saved_history:
+        return true;
+    default:
+        return false;
+    }
+}

@@ -1,0 +1,30 @@
+/* Rods' fields on the device, from the one list in kernels/fields.h. */
+#pragma once
+
+#include "kernels/fields.h"
+#include "sim/arrays.h"
+#include "sim/constants.h"
+
+typedef enum OzFieldId {
+#define OZ_RODS_FIELDS_ID(kind, name, count, class) OZ_FIELD_##name,
+    OZ_FIELDS(OZ_RODS_FIELDS_ID)
+#undef OZ_RODS_FIELDS_ID
+        OZ_FIELD_COUNT
+} OzFieldId;
+
+/* For the model's row (sim/model.h): rows, bytes of a member's stretch, what outlives a growth
+ * (where tangential springs are kept during a rebuild). */
+extern const OzField oz_rods_fields_rows[];
+size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes);
+bool oz_rods_fields_keeps(int field);
+
+/* The arrays' switches and sizes as what they are. */
+static inline const OzSwitches *oz_rods_fields_switches(const OzArrays *arrays)
+{
+    return arrays->switches;
+}
+
+static inline const OzSizes *oz_rods_fields_sizes(const OzArrays *arrays)
+{
+    return arrays->sizes;
+}

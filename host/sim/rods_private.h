@@ -1,0 +1,48 @@
+/* What the files of rods' simulation share among themselves: what the driver keeps for them, as
+ * what it is. */
+#ifndef OZ_SIM_RODS_PRIVATE_H
+#define OZ_SIM_RODS_PRIVATE_H
+
+#include "sim/large.h"
+#include "sim/rods_fields.h"
+#include "sim/sim_private.h"
+
+/* Rods' own part of a simulation. */
+typedef struct OzRods {
+    double *spring_start;         /* one a member: J in tangential springs at time 0  */
+    int wall_order[OZ_WALLS_MAX]; /* scene's wall of each kernel wall                 */
+    OzLarge *large;               /* large scenes                                     */
+    bool primed;                  /* velocity-verlet knows its first acceleration     */
+} OzRods;
+
+static inline OzRods *oz_rods_own(const OzSim *sim)
+{
+    return sim->own;
+}
+
+static inline const OzSwitches *oz_rods_switches(const OzSim *sim)
+{
+    return sim->arrays.switches;
+}
+
+static inline const OzSizes *oz_rods_sizes(const OzSim *sim)
+{
+    return sim->arrays.sizes;
+}
+
+static inline OzControl *oz_rods_control(const OzSim *sim, int member)
+{
+    return (OzControl *)sim->control + member;
+}
+
+static inline OzParameters *oz_rods_parameters(const OzSim *sim, int member)
+{
+    return (OzParameters *)sim->parameters + member;
+}
+
+/* Writes offset and velocity of every wall of a member for so many steps (at most
+ * sizes.motion_steps) from the present one on, and for their end; all the present one's while the
+ * step has no length. */
+OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps);
+
+#endif

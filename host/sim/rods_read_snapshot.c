@@ -1,0 +1,183 @@
+/* Rods' part of a snapshot. Contacts are those of the inner list, which holds between launches;
+ * slots become ids here. */
+#include "sim/rods_read_snapshot.h"
+
+#include "base/memory.h"
+#include "sim/pack.h"
+#include "sim/read_snapshot.h"
+#include "sim/rods_private.h"
+#include "sim/scalars.h"
+#include "sim/touch.h"
+#include "sim/units.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A word of a spring, m; 0 in a scene without springs. */
+static double spring_word(const OzSim *sim, int member, const void *words, size_t at)
+{
+    const OzSwitches *s = oz_rods_switches(sim);
+    return s->history ? oz_scalars_get(words, at, s->is_double) *
+                            oz_rods_parameters(sim, member)->units.length
+                      : 0;
+}
+
+static OzStatus touch_pairs(OzSim *sim, int member, OzTouch *touch)
+{
+    OzStatus status = OZ_OK;
+    const OzSizes *z = oz_rods_sizes(sim);
+    int *a = NULL, *b = NULL, *count = NULL, *id = NULL;
+    void *springs = NULL;
+    double spring[3];
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_a, member, &a));
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_b, member, &b));
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_count, member, &count));
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_id, member, &id));
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_history, member, &springs));
+    for (int r = 0; r < z->regions; r++) {
+        int64_t begin = (int64_t)r * z->inner_capacity;
+        for (int64_t p = begin; p < begin + count[r]; p++) {
+            for (int c = 0; c < 3; c++) {
+                spring[c] = spring_word(sim, member, springs, (size_t)(p * OZ_SPRING + c));
+            }
+            oz_touch_pair(touch, id[a[p]], id[b[p]], spring);
+        }
+    }
+done:
+    free(a);
+    free(b);
+    free(count);
+    free(id);
+    free(springs);
+    return status;
+}
+
+static OzStatus touch_walls(OzSim *sim, int member, OzTouch *touch)
+{
+    OzStatus status = OZ_OK;
+    int ends = touch->physics.ends, indices = ends * touch->physics.wall_count;
+    int *id = NULL;
+    void *springs = NULL;
+    double spring[3];
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_id, member, &id));
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_wall_history, member, &springs));
+    for (int slot = 0; slot < oz_rods_sizes(sim)->count; slot++) {
+        for (int index = 0; index < indices; index++) {
+            for (int c = 0; c < 3; c++) {
+                size_t at = oz_pack_lane(oz_rods_switches(sim), slot, 3 * indices, 3 * index + c);
+                spring[c] = spring_word(sim, member, springs, at);
+            }
+            oz_touch_wall(touch, id[slot], index / ends, index % ends, spring);
+        }
+    }
+done:
+    free(id);
+    free(springs);
+    return status;
+}
+
+/* The contacts of a snapshot whose state is there. */
+static OzStatus touch_all(OzSim *sim, int member, const OzSnapshot *snapshot, OzTouch *touch)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_touch_begin(touch, snapshot));
+    OZ_TRY(touch_pairs(sim, member, touch));
+    OZ_TRY(touch_walls(sim, member, touch));
+done:
+    return status;
+}
+
+static OzStatus read_ledger(OzSim *sim, int member, const OzTouch *touch, OzLedger *ledger)
+{
+    OzStatus status = OZ_OK;
+    double *words = NULL, sum[OZ_LEDGER_WORDS] = {0};
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_ledger, member, &words));
+    for (int k = 0; k < oz_rods_sizes(sim)->regions * OZ_LEDGER_WORDS; k++) {
+        sum[k % OZ_LEDGER_WORDS] +=
+            words[k] * oz_units_energy(&oz_rods_parameters(sim, member)->units);
+    }
+    ledger->dissipated = sum[OZ_L_DISSIPATED];
+    ledger->friction =
+        sum[OZ_L_SPRING] - touch->tangential + oz_rods_own(sim)->spring_start[member];
+    ledger->work_walls = sum[OZ_L_WALLS];
+done:
+    free(words);
+    return status;
+}
+
+OzStatus oz_rods_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapshot)
+{
+    return oz_pack_state(&sim->arrays, member, oz_rods_parameters(sim, member), snapshot);
+}
+
+OzStatus oz_rods_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
+{
+    OzStatus status = OZ_OK;
+    OzTouch touch;
+    if (oz_rods_control(sim, member)->truth != OZ_SPRINGS_AT_INNER) {
+        return OZ_OK;
+    }
+    OZ_TRY(touch_all(sim, member, snapshot, &touch));
+    snapshot->has_contacts = true;
+    snapshot->contacts = touch.contacts;
+    snapshot->ledger.elastic = touch.elastic;
+    if (oz_rods_switches(sim)->ledger) {
+        OZ_TRY(read_ledger(sim, member, &touch, &snapshot->ledger));
+        snapshot->has_ledger = true;
+    }
+done:
+    return status;
+}
+
+double oz_rods_read_snapshot_energy(const OzSnapshot *now)
+{
+    const OzGrains *grains = now->grains;
+    double energy = 0;
+    for (int64_t i = 0; i < grains->count; i++) {
+        const double *v = &now->velocity[3 * i], *w = &now->angular_velocity[3 * i],
+                     *u = &now->axis[3 * i];
+        double along = w[0] * u[0] + w[1] * u[1] + w[2] * u[2];
+        double spin2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+        energy += 0.5 * grains->mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        energy += 0.5 * grains->inertia[i] * (spin2 - along * along);
+        energy += 0.5 * grains->inertia_axis[i] * along * along;
+    }
+    return energy;
+}
+
+/* The energy that a member's tangential springs hold now, as what they held at time 0. */
+static OzStatus start_springs(OzSim *sim, int member)
+{
+    OzStatus status = OZ_OK;
+    const OzMember *of = &sim->batch.members[member];
+    OzSnapshot now = {0};
+    OzTouch touch = {0};
+    if (oz_rods_control(sim, member)->truth != OZ_SPRINGS_AT_INNER) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_snapshot_create(&now, of->scene, of->grains));
+    OZ_TRY(oz_read_snapshot_snapshot(sim, member, &now, false));
+    OZ_TRY(touch_all(sim, member, &now, &touch));
+    oz_rods_own(sim)->spring_start[member] = touch.tangential;
+done:
+    oz_snapshot_free(&now);
+    return status;
+}
+
+OzStatus oz_rods_read_snapshot_start_ledger(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    size_t bytes = oz_arrays_bytes(&sim->arrays, OZ_FIELD_ledger);
+    void *zero = NULL;
+    if (bytes == 0) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_memory_new(&zero, bytes, 1, "ledger"));
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_ledger, m, zero, bytes));
+        OZ_TRY(start_springs(sim, m));
+    }
+done:
+    free(zero);
+    return status;
+}

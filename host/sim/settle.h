@@ -1,0 +1,8 @@
+/* Letting the grains of a simulation come to rest before time 0. */
+#pragma once
+
+#include "sim/relax.h"
+#include "sim/sim.h"
+
+/* As oz_relax_run; walls that will go later are all there meanwhile. */
+OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context);

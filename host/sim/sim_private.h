@@ -1,0 +1,29 @@
+/* What the files of the simulation share among themselves. */
+#ifndef OZ_SIM_SIM_PRIVATE_H
+#define OZ_SIM_SIM_PRIVATE_H
+
+#include "sim/arrays.h"
+#include "sim/batch.h"
+#include "sim/model.h"
+
+struct OzSim {
+    const OzDevice *device; /* borrowed */
+    const OzModel *model;
+    OzBatch batch;
+    void *parameters; /* one a member, the model's struct, in double                          */
+    void *control;    /* one a member, the model's struct, as last read or to be written next */
+    cl_program program;
+    cl_kernel advance; /* many steps, one work-group a member; NULL where the model has others */
+    OzArrays arrays;
+    bool is_empty; /* there is nothing that moves */
+    void *own;     /* the model's own part        */
+};
+
+/* What all models' parameters and control words of a member begin with. */
+OzParametersHead *oz_sim_parameters(const OzSim *sim, int member);
+OzControlHead *oz_sim_control(const OzSim *sim, int member);
+
+/* Uploads all members' parameters. */
+OzStatus oz_sim_write_parameters(OzSim *sim);
+
+#endif

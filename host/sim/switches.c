@@ -1,0 +1,100 @@
+/* Deriving switches from a scene. */
+#include "sim/switches.h"
+
+#include "model/contact.h"
+#include "sim/resolution.h"
+
+#include <string.h>
+
+static bool all_equal(const OzGrains *grains)
+{
+    for (int64_t i = 1; i < grains->count; i++) {
+        if (grains->diameter[i] != grains->diameter[0] || grains->length[i] != grains->length[0] ||
+            grains->mass[i] != grains->mass[0]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Without any grain there is nothing to leave out kernels for. */
+static bool all_round(const OzGrains *grains)
+{
+    for (int64_t i = 0; i < grains->count; i++) {
+        if (grains->length[i] > 0) {
+            return false;
+        }
+    }
+    return grains->count > 0;
+}
+
+/* Trigrains' own have nothing to do with these kernels. */
+static bool moves_before(OzIntegrator integrator)
+{
+#define FIRST(NAME, name, choice, flat_choice, share, first) [OZ_INTEGRATOR_##NAME] = first,
+    static const bool moves[OZ_INTEGRATORS_END] = {OZ_INTEGRATORS(FIRST)};
+#undef FIRST
+    return moves[integrator];
+}
+
+#define ONE(NAME, name, choice, fine) +1
+_Static_assert(0 OZ_WALLS(ONE) <= 6, "five bits a kind of wall fill an int");
+#undef ONE
+
+/* How many walls of each kind, as kernels/wall.h has them; constants.c refuses more walls than
+ * that. */
+static int kinds_of_walls(const OzScene *scene)
+{
+    int kinds = 0;
+    for (int w = 0; w < scene->wall_count && w < 31; w++) {
+        kinds += 1 << 5 * (int)scene->walls[w].kind;
+    }
+    return kinds;
+}
+
+static bool has_spring(const OzContactValues *values, const OzScene *scene)
+{
+    return oz_contact_constants_of(values, &scene->contact).tangential_stiffness > 0;
+}
+
+/* Whether any contact of the scene has friction, and whether any of these has a spring. */
+static void derive_friction(OzSwitches *s, const OzScene *scene)
+{
+    s->friction = scene->contact.friction > 0;
+    s->history = s->friction && has_spring(&scene->contact, scene);
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzContactValues *values = &scene->walls[w].contact;
+        s->friction |= values->friction > 0;
+        s->history |= values->friction > 0 && has_spring(values, scene);
+        s->moving |= scene->walls[w].motion.present;
+    }
+}
+
+OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, const OzDevice *device)
+{
+    OzSwitches s = {0};
+    s.is_double = scene->precision == OZ_PRECISION_DOUBLE;
+    s.lanes = s.is_double ? device->double_lanes : device->float_lanes;
+    s.group = device->group;
+    s.integrator = (int)scene->integrator;
+    s.moves_before = moves_before(scene->integrator);
+    s.round = all_round(grains);
+    s.equal = all_equal(grains);
+    derive_friction(&s, scene);
+    s.slip_scale = s.history && scene->contact.slip == OZ_SLIP_SCALE;
+    s.attraction_clamp = scene->contact.attraction == OZ_ATTRACTION_CLAMP;
+    s.surfaces = scene->contact.contact_point == OZ_POINT_SURFACES;
+    s.law = (int)scene->contact.law;
+    s.line = scene->contact.parallel == OZ_PARALLEL_LINE && !s.round;
+    s.smooth = scene->contact.law == OZ_LAW_HOOKE && scene->contact.damping == OZ_DAMPING_SMOOTH;
+    s.at_contact = scene->contact.restitution_at == OZ_RESTITUTION_CONTACT && !s.round;
+    s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
+    s.fine = oz_resolution_is_fine(scene, grains);
+    s.walls = scene->wall_count;
+    s.wall_kinds = kinds_of_walls(scene);
+    s.ledger = scene->observe.ledger;
+    s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
+    s.host_lists = scene->broadphase == OZ_BROADPHASE_SORT_AXIS;
+    s.resort = grains->count > device->small_most;
+    return s;
+}

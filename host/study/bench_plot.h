@@ -1,8 +1,0 @@
-/* bench.png: time per grain and step against the number of grains, drawn by gnuplot. */
-#pragma once
-
-#include "study/bench_row.h"
-
-/* Draws rows into path; title names the device. Without gnuplot a line in the log says so, and
- * there is no picture. Fails with OZ_ERR_FILE when gnuplot does. */
-OzStatus oz_bench_plot_draw(const char *path, const char *title, const OzBenchRow *rows, int count);

@@ -1,0 +1,56 @@
+/* Beams, a block of lanes at a time. OpenCL C only. */
+#ifndef OZ_KERNELS_ELEMENT_BEAMS_H
+#define OZ_KERNELS_ELEMENT_BEAMS_H
+
+#include "kernels/beam.h"
+#include "kernels/element_sums.h"
+
+OZ_INLINE OzBeamEnd oz_element_beams_end(const OzElementWork *w, const int *slots)
+{
+    OzBeamEnd end;
+    real words[4];
+    oz_lanes_load4(w->record, slots, OZ_ELEMENT_RECORD, OZ_PR_CORNER + 4, words);
+    end.position = oz_vec2(words[2], words[3]);
+    oz_element_work_motion(w, slots, &end.velocity, &end.angle, &end.angular_velocity);
+    return end;
+}
+
+OZ_INLINE void oz_element_beams_check(OzElementWork *w, const OzBeamForce *f, const int *slots,
+                                      int step)
+{
+    mask stretched =
+        !((f->stretch > REAL(OZ_BEAM_STRETCH_LEAST)) & (f->stretch < REAL(OZ_BEAM_STRETCH_MOST)));
+    mask bent = !((oz_magnitude(f->bend_a) <= REAL(OZ_BEAM_BEND_MOST)) &
+                  (oz_magnitude(f->bend_b) <= REAL(OZ_BEAM_BEND_MOST)));
+    if (OZ_ANY(stretched | bent)) {
+        oz_element_work_stop_lanes(w, stretched, OZ_ELEMENT_STOP_STRETCHED, step, slots);
+        oz_element_work_stop_lanes(w, bent, OZ_ELEMENT_STOP_BENT, step, slots);
+    }
+}
+
+/* Forces of all beams. Lanes beyond the last repeat the first beam. */
+OZ_INLINE void oz_element_beams_pull(OzElementWork *w, int step, OzElementSums *sums)
+{
+    int count = w->control->beam_count;
+    OZ_EACH(w, block, (count + OZ_LANES - 1) / OZ_LANES)
+    {
+        int a[OZ_LANES], b[OZ_LANES], first = block * OZ_LANES;
+        for (int l = 0; l < OZ_LANES; l++) {
+            a[l] = w->beam_a[first + l];
+            b[l] = w->beam_b[first + l];
+        }
+        global const real *rest = w->beam_rest + (size_t)block * OZ_BEAM_REST;
+        OzBeamForce f = oz_beam_force(w->parameters->beam, oz_element_beams_end(w, a),
+                                      oz_element_beams_end(w, b), rest[0], rest[1], rest[2]);
+        oz_element_beams_check(w, &f, a, step);
+        if (OZ_LEDGER) {
+            mask present = oz_lanes_mask_of(OZ_LANES_IOTA + first < count);
+            sums->word[OZ_PL_BEAM_AXIAL] += present ? f.power_axial : REAL(0.0);
+            sums->word[OZ_PL_BEAM_BENDING] += present ? f.power_bending : REAL(0.0);
+        }
+        real words[4] = {f.force.x, f.force.y, f.moment_a, f.moment_b};
+        oz_lanes_store4(w->beam_force + (size_t)first * OZ_ELEMENT_LOAD, OZ_ELEMENT_LOAD, 0, words);
+    }
+}
+
+#endif

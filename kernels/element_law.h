@@ -1,0 +1,30 @@
+/* The constants of what acts on elements: triangles' overlaps, discs' contacts, beams; and how far
+ * beams may go. Scalars only. */
+#ifndef OZ_KERNELS_ELEMENT_LAW_H
+#define OZ_KERNELS_ELEMENT_LAW_H
+
+#include "kernels/real.h"
+
+/* Guards. A beam beyond them has folded or torn in all but name: its linear law says nothing there,
+ * and a step too long folds beams while every speed looks fine. */
+#define OZ_BEAM_STRETCH_LEAST 0.5
+#define OZ_BEAM_STRETCH_MOST  1.5
+#define OZ_BEAM_BEND_MOST     1.0 /* rad */
+
+typedef struct OzBeamConstants {
+    scalar stiffness;       /* N/m: E                        */
+    scalar bending;         /* N m^2: E I                    */
+    scalar damping;         /* kg/s: gamma                   */
+    scalar damping_bending; /* kg m^3/s: gamma I             */
+} OzBeamConstants;
+
+typedef struct OzDiscLaw {
+    scalar hertz;              /* 0: linear, 1: power 3/2                              */
+    scalar clamp;              /* 1: the normal force never pulls                      */
+    scalar stiffness;          /* linear: 1/s^2, k / m*; power 3/2: N/m^(3/2)          */
+    scalar damping;            /* 1/s                                                  */
+    scalar tangential_damping; /* 1/s                                                  */
+    scalar friction;
+} OzDiscLaw;
+
+#endif

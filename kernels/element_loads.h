@@ -1,0 +1,88 @@
+/* What every element feels: results of pairs and of beams, added up in the order of partners, those
+ * of contacts first. One work-item hands each result to both elements; many work-items gather, each
+ * for its own elements, in the same order. Loads are zero before: who uses them up clears them.
+ * OpenCL C only. */
+#ifndef OZ_KERNELS_ELEMENT_LOADS_H
+#define OZ_KERNELS_ELEMENT_LOADS_H
+
+#include "kernels/element_work.h"
+
+/* A result as the second element feels it, and as the first does. */
+OZ_INLINE scalar4 oz_element_loads_second(scalar4 result)
+{
+    return (scalar4)(result.x, result.y, result.w, 0);
+}
+
+OZ_INLINE scalar4 oz_element_loads_first(scalar4 result)
+{
+    return (scalar4)(-result.x, -result.y, result.z, 0);
+}
+
+#if OZ_GROUP == 1
+
+OZ_INLINE void oz_element_loads_contacts(OzElementWork *w, global scalar *load)
+{
+    global scalar4 *loads = (global scalar4 *)load;
+    global const scalar4 *results = (global const scalar4 *)w->pair_force;
+    for (int t = 0; t < w->touch_count[0]; t++) {
+        int p = w->touch[t], a = w->pair_a[p], b = w->pair_b[p];
+        loads[a] += oz_element_loads_first(results[t]);
+        loads[b] += oz_element_loads_second(results[t]);
+    }
+}
+
+OZ_INLINE void oz_element_loads_beams(OzElementWork *w, global scalar *load)
+{
+    global scalar4 *loads = (global scalar4 *)load;
+    global const scalar4 *results = (global const scalar4 *)w->beam_force;
+    for (int k = 0; k < w->control->beam_count; k++) {
+        int a = w->beam_a[k], b = w->beam_b[k];
+        loads[a] += oz_element_loads_first(results[k]);
+        loads[b] += oz_element_loads_second(results[k]);
+    }
+}
+
+#else
+
+/* Contacts in which an element is the second have partners before it, the others after it. */
+OZ_INLINE void oz_element_loads_contacts(OzElementWork *w, global scalar *load)
+{
+    global const scalar4 *results = (global const scalar4 *)w->pair_force;
+    OZ_EACH(w, i, w->control->free_count)
+    {
+        global const int *back = w->back + (size_t)i * w->z.back_capacity;
+        scalar4 sum = ((global scalar4 *)load)[i];
+        for (int k = 0; k < w->back_number[i]; k++) {
+            int t = w->pair_hit[back[k]];
+            if (t >= 0) {
+                sum += oz_element_loads_second(results[t]);
+            }
+        }
+        for (int k = 0; k < w->pair_number[i]; k++) {
+            int t = w->pair_hit[w->pair_first[i] + k];
+            if (t >= 0) {
+                sum += oz_element_loads_first(results[t]);
+            }
+        }
+        ((global scalar4 *)load)[i] = sum;
+    }
+}
+
+OZ_INLINE void oz_element_loads_beams(OzElementWork *w, global scalar *load)
+{
+    global const scalar4 *results = (global const scalar4 *)w->beam_force;
+    OZ_EACH(w, i, w->control->free_count)
+    {
+        scalar4 sum = ((global scalar4 *)load)[i];
+        for (int k = w->beam_first[i]; k < w->beam_first[i + 1]; k++) {
+            int beam = w->beam_of[k];
+            sum += w->beam_a[beam] == i ? oz_element_loads_first(results[beam])
+                                        : oz_element_loads_second(results[beam]);
+        }
+        ((global scalar4 *)load)[i] = sum;
+    }
+}
+
+#endif
+
+#endif

@@ -1,0 +1,249 @@
+/* Pictures from the render queue's thread: the bytes of those drawn on the spot, a bounded queue,
+ * failures that come back, and no thread where there are no pictures. */
+#include "program.h"
+
+#include "draw/render_queue.h"
+#include "model/insert.h"
+#include "observe/frames.h"
+
+#include <dirent.h>
+#include <math.h>
+
+enum { PICTURES = 2 * OZ_RENDER_QUEUE_JOBS + 3 };
+
+/* A snapshot's name has its time, so that each picture is a file of its own. */
+static const char text[] = "model: rods\n"
+                           "time: {step: 1e-5, duration: 1}\n"
+                           "contact: {contact_time: 6e-4, restitution: 0.5}\n"
+                           "grains: [{kind: random, count: 20, diameter: 5e-4, aspect: 4}]\n"
+                           "walls:\n"
+                           "  - {kind: plane}\n"
+                           "  - {kind: cylinder, diameter: 8e-3}\n"
+                           "movie: {size: [320, 240], length: 1}\n";
+
+typedef struct Show {
+    OzScene scene;
+    OzGrains grains;
+    OzSnapshot now;
+    OzRenderQueue *render_queue;
+} Show;
+
+static void must(OzStatus status)
+{
+    if (status != OZ_OK) {
+        fail_msg("%s", oz_status_text());
+    }
+}
+
+static void open_show(Show *show)
+{
+    memset(show, 0, sizeof *show);
+    must(oz_scene_parse(&show->scene, "show.yaml", text, NULL, 0));
+    must(oz_insert_grains(&show->grains, &show->scene));
+    must(oz_snapshot_create(&show->now, &show->scene, &show->grains));
+    must(oz_render_queue_create(&show->render_queue));
+}
+
+static void close_show(Show *show)
+{
+    oz_render_queue_free(show->render_queue);
+    oz_snapshot_free(&show->now);
+    oz_grains_free(&show->grains);
+    oz_scene_free(&show->scene);
+}
+
+/* A moment of its own: the grains rise and turn. */
+static void set_moment(Show *show, int index)
+{
+    show->now.time = 1e-3 * index;
+    for (int64_t i = 0; i < show->now.count; i++) {
+        for (int c = 0; c < 4; c++) {
+            show->now.position[3 * i + c % 3] =
+                show->grains.position[3 * i + c % 3] + (c == 2 ? 1e-4 * index : 0);
+            show->now.quaternion[4 * i + c] = c == 0   ? cos(0.1 * index)
+                                              : c == 1 ? sin(0.1 * index)
+                                                       : 0;
+        }
+    }
+    oz_snapshot_move_walls(&show->now);
+    oz_snapshot_turn_axes(&show->now);
+}
+
+static OzPictures *open_gallery(const Show *show, OzPicturesSettings *settings, const char *folder,
+                                bool in_studio)
+{
+    OzPictures *pictures = NULL;
+    assert_int_equal(mkdir(folder, 0777), 0);
+    *settings = (OzPicturesSettings){
+        .folder = folder,
+        .device = "none",
+        .renderer = in_studio ? oz_render_queue_renderer(show->render_queue) : NULL};
+    must(oz_pictures_create(&pictures, settings, &show->scene));
+    return pictures;
+}
+
+static int count_entries(const char *folder)
+{
+    int count = 0;
+    DIR *entries = opendir(folder);
+    for (struct dirent *entry = entries ? readdir(entries) : NULL; entry;
+         entry = readdir(entries)) {
+        count += entry->d_name[0] != '.';
+    }
+    if (entries) {
+        closedir(entries);
+    }
+    return count;
+}
+
+static int thread_count(void)
+{
+    return count_entries("/proc/self/task");
+}
+
+static void test_no_pictures_no_thread(void **state)
+{
+    (void)state;
+    Show show;
+    OzPicturesSettings settings;
+    open_show(&show);
+    OzPictures *pictures = open_gallery(&show, &settings, "none", true);
+    must(oz_render_queue_finish(show.render_queue, pictures));
+    assert_int_equal(thread_count(), 1);
+    close_show(&show);
+    assert_int_equal(count_entries("none"), 0);
+}
+
+/* The snapshot is changed as soon as it is handed over, as a run does. */
+static void test_same_bytes(void **state)
+{
+    (void)state;
+    const int moments = 5, both = OZ_FRAME_MOVIE | OZ_FRAME_SNAPSHOT;
+    Show show;
+    OzPicturesSettings settings[3];
+    open_show(&show);
+    OzPictures *here = open_gallery(&show, &settings[0], "here", false);
+    for (int i = 0; i < moments; i++) {
+        set_moment(&show, i);
+        must(oz_pictures_add(here, &show.now, both));
+    }
+    must(oz_pictures_finish(here));
+    OzPictures *one = open_gallery(&show, &settings[1], "one", true);
+    OzPictures *other = open_gallery(&show, &settings[2], "other", true);
+    for (int i = 0; i < moments; i++) {
+        set_moment(&show, i);
+        must(oz_render_queue_add(show.render_queue, one, &show.now, both));
+        must(oz_render_queue_add(show.render_queue, other, &show.now, both));
+    }
+    must(oz_render_queue_finish(show.render_queue, one));
+    must(oz_render_queue_finish(show.render_queue, other));
+    assert_true(thread_count() > 1);
+    close_show(&show);
+    assert_int_equal(count_entries("one/snapshots"), moments);
+    assert_true(is_playable("one/movie.mp4"));
+    assert_true(same_files("here/movie.mp4", "one/movie.mp4"));
+    assert_true(same_files("here/movie.mp4", "other/movie.mp4"));
+    assert_true(same_files("here/snapshots/time_0.000000.png", "one/snapshots/time_0.000000.png"));
+    assert_true(
+        same_files("here/snapshots/time_0.004000.png", "other/snapshots/time_0.004000.png"));
+    assert_false(same_files("one/snapshots/time_0.000000.png", "one/snapshots/time_0.004000.png"));
+}
+
+/* Width and height as a PNG's head says. */
+static void size_of_png(const char *path, int size[2])
+{
+    char *bytes = read_file(path, NULL);
+    for (int k = 0; k < 2; k++) {
+        const unsigned char *at = (const unsigned char *)bytes + 16 + 4 * k;
+        size[k] = at[2] << 8 | at[3];
+    }
+    free(bytes);
+}
+
+/* Single pictures have a look of their own; the movie's bytes do not change by them. */
+static void test_stills_of_their_own(void **state)
+{
+    (void)state;
+    const int both = OZ_FRAME_MOVIE | OZ_FRAME_SNAPSHOT;
+    static const char *const stills[] = {"snapshots.size=[401, 301]", "snapshots.views=[cut]",
+                                         "snapshots.colour=type"};
+    Show show;
+    OzPicturesSettings settings[2];
+    open_show(&show);
+    OzPictures *plain = open_gallery(&show, &settings[0], "plain", false);
+    must(oz_pictures_add(plain, &show.now, both));
+    must(oz_pictures_finish(plain));
+    oz_scene_free(&show.scene);
+    must(oz_scene_parse(&show.scene, "show.yaml", text, (char *const *)(uintptr_t)stills, 3));
+    OzPictures *own = open_gallery(&show, &settings[1], "own", false);
+    must(oz_pictures_add(own, &show.now, both));
+    must(oz_pictures_repeat(own));
+    must(oz_pictures_finish(own));
+    int size[2];
+    size_of_png("plain/snapshots/time_0.000000.png", size);
+    assert_true(size[0] == 320 && size[1] == 240);
+    size_of_png("own/snapshots/time_0.000000.png", size);
+    assert_true(size[0] == 401 && size[1] == 301);
+    assert_true(is_playable("own/movie.mp4"));
+    close_show(&show);
+}
+
+/* Whoever adds is let go only when all but the queue is drawn. */
+static void test_queue_is_bounded(void **state)
+{
+    (void)state;
+    Show show;
+    OzPicturesSettings settings;
+    open_show(&show);
+    OzPictures *pictures = open_gallery(&show, &settings, "many", true);
+    for (int i = 0; i < PICTURES; i++) {
+        set_moment(&show, i);
+        must(oz_render_queue_add(show.render_queue, pictures, &show.now, OZ_FRAME_SNAPSHOT));
+        assert_true(count_entries("many/snapshots") >= i + 1 - OZ_RENDER_QUEUE_JOBS);
+    }
+    must(oz_render_queue_finish(show.render_queue, pictures));
+    OzRenderQueueTimes times = oz_render_queue_take_times(show.render_queue),
+                       again = oz_render_queue_take_times(show.render_queue);
+    assert_true(times.waited > 0 && times.drawing > 0 && times.encoding >= 0);
+    assert_true(again.waited == 0 && again.drawing == 0);
+    assert_int_equal(count_entries("many/snapshots"), PICTURES);
+    close_show(&show);
+}
+
+/* A picture that cannot be written fails a later call with its text, and the movie so far is whole.
+ */
+static void test_failure_comes_back(void **state)
+{
+    (void)state;
+    Show show;
+    OzPicturesSettings settings;
+    OzStatus status = OZ_OK;
+    open_show(&show);
+    OzPictures *pictures = open_gallery(&show, &settings, "bad", true);
+    write_file("bad/snapshots", "in the way");
+    for (int i = 0; i < PICTURES && status == OZ_OK; i++) {
+        set_moment(&show, i);
+        status = oz_render_queue_add(show.render_queue, pictures, &show.now,
+                                     OZ_FRAME_MOVIE | (i == 2 ? OZ_FRAME_SNAPSHOT : 0));
+    }
+    assert_int_equal(status, OZ_ERR_FILE);
+    assert_non_null(strstr(oz_status_text(), "bad/snapshots"));
+    oz_status_fail(OZ_ERR_INPUT, "another text");
+    assert_int_equal(oz_render_queue_finish(show.render_queue, pictures), OZ_ERR_FILE);
+    assert_non_null(strstr(oz_status_text(), "bad/snapshots"));
+    assert_true(is_playable("bad/movie.mp4"));
+    close_show(&show);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(
+            test_no_pictures_no_thread), /* first: the others' libraries have threads */
+        cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_stills_of_their_own),
+        cmocka_unit_test(test_queue_is_bounded),
+        cmocka_unit_test(test_failure_comes_back),
+    };
+    return cmocka_run_group_tests(tests, enter_work, leave_work);
+}
