@@ -28,7 +28,7 @@ static int close_device(void **state)
 
 static const OzExtremeCase *find(const char *name)
 {
-    for (const OzExtremeCase *row = oz_report_extreme_cases_all(); row->name; row++) {
+    for (const OzExtremeCase *row = oz_report_extreme_cases_suite.rows; row->name; row++) {
         if (strcmp(row->name, name) == 0) {
             return row;
         }
@@ -40,7 +40,7 @@ static const OzExtremeCase *find(const char *name)
 static void check_all(OzPrecision precision)
 {
     int bad = 0;
-    for (const OzExtremeCase *row = oz_report_extreme_cases_all(); row->name; row++) {
+    for (const OzExtremeCase *row = oz_report_extreme_cases_suite.rows; row->name; row++) {
         OzExtremeOutcome outcome;
         assert_int_equal(OZ_OK,
                          oz_report_extreme_try(&outcome, row, &device, precision, true, NULL));

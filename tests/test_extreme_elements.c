@@ -39,7 +39,7 @@ static OzExtremeOutcome outcome_of(const OzExtremeCase *row, OzPrecision precisi
 static void check_all(OzPrecision precision)
 {
     int bad = 0;
-    for (const OzExtremeCase *row = oz_report_extreme_elements_all(); row->name; row++) {
+    for (const OzExtremeCase *row = oz_report_extreme_elements_suite.rows; row->name; row++) {
         if (oz_report_extreme_serves(row, precision)) {
             OzExtremeOutcome outcome = outcome_of(row, precision);
             if (outcome.verdict != OZ_VERDICT_RIGHT && outcome.verdict != OZ_VERDICT_REFUSED) {
@@ -68,7 +68,7 @@ static void test_double(void **state)
 
 static const OzExtremeCase *find(const char *name)
 {
-    for (const OzExtremeCase *row = oz_report_extreme_elements_all(); row->name; row++) {
+    for (const OzExtremeCase *row = oz_report_extreme_elements_suite.rows; row->name; row++) {
         if (strcmp(row->name, name) == 0) {
             return row;
         }

@@ -19,27 +19,16 @@
 /* s of timed steps: a thousand of 1000 rods, and some of as many as fit the machine. */
 #define STRETCH 0.4
 
-static void print_range(FILE *file, const char *name, const double *values, int64_t count,
-                        const char *unit)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (int64_t i = 0; i < count; i++) {
-        low = fmin(low, values[i]);
-        high = fmax(high, values[i]);
-    }
-    if (count > 0) {
-        oz_inspect_range_print(file, name, low, high, unit);
-    }
-}
-
 static void print_grains(FILE *file, const OzGrains *grains)
 {
     fprintf(file, "grains             %lld\n", (long long)grains->count);
-    print_range(file, "diameter", grains->diameter, grains->count, "m");
-    print_range(file, "length", grains->length, grains->count, "m (shaft)");
-    print_range(file, "mass", grains->mass, grains->count, "kg");
-    print_range(file, "inertia", grains->inertia, grains->count, "kg m^2, across the shaft");
-    print_range(file, "inertia_axis", grains->inertia_axis, grains->count, "kg m^2, about it");
+    oz_inspect_range_print_all(file, "diameter", grains->diameter, NULL, grains->count, "m");
+    oz_inspect_range_print_all(file, "length", grains->length, NULL, grains->count, "m (shaft)");
+    oz_inspect_range_print_all(file, "mass", grains->mass, NULL, grains->count, "kg");
+    oz_inspect_range_print_all(file, "inertia", grains->inertia, NULL, grains->count,
+                               "kg m^2, across the shaft");
+    oz_inspect_range_print_all(file, "inertia_axis", grains->inertia_axis, NULL, grains->count,
+                               "kg m^2, about it");
 }
 
 static void print_motion(FILE *file, const OzScene *scene)

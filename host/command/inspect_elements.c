@@ -12,34 +12,21 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Of all values, or of those of triangles where radius says which are. */
-static void print_range(FILE *file, const char *name, const double *values, const double *radius,
-                        int64_t count, const char *unit)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (int64_t i = 0; i < count; i++) {
-        if (!radius || radius[i] == 0) {
-            low = fmin(low, values[i]);
-            high = fmax(high, values[i]);
-        }
-    }
-    if (high >= low) {
-        oz_inspect_range_print(file, name, low, high, unit);
-    }
-}
-
 static void print_bodies(FILE *file, const OzGrains *grains)
 {
     const OzElements *elements = grains->elements;
     fprintf(file, "grains             %lld\n", (long long)grains->count);
-    print_range(file, "diameter", grains->diameter, NULL, grains->count, "m (circle around)");
-    print_range(file, "mass", grains->mass, NULL, grains->count, "kg");
-    print_range(file, "inertia", grains->inertia, NULL, grains->count, "kg m^2");
+    oz_inspect_range_print_all(file, "diameter", grains->diameter, NULL, grains->count,
+                               "m (circle around)");
+    oz_inspect_range_print_all(file, "mass", grains->mass, NULL, grains->count, "kg");
+    oz_inspect_range_print_all(file, "inertia", grains->inertia, NULL, grains->count, "kg m^2");
     fprintf(file, "elements             %lld of grains, %lld of walls\n",
             (long long)elements->free_count, (long long)(elements->count - elements->free_count));
-    print_range(file, "triangle", elements->area, elements->radius, elements->free_count, "m^2");
+    oz_inspect_range_print_all(file, "triangle", elements->area, elements->radius,
+                               elements->free_count, "m^2");
     fprintf(file, "beams              %lld\n", (long long)elements->beam_count);
-    print_range(file, "length", elements->beam_length, NULL, elements->beam_count, "m");
+    oz_inspect_range_print_all(file, "length", elements->beam_length, NULL, elements->beam_count,
+                               "m");
 }
 
 /* Grains that are not as symmetric as they look. */

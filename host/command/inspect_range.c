@@ -1,6 +1,7 @@
 /* Printing a range. */
 #include "command/inspect_range.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -11,4 +12,19 @@ void oz_inspect_range_print(FILE *file, const char *name, double low, double hig
     snprintf(to, sizeof to, "%.6g", high);
     bool same = strcmp(from, to) == 0;
     fprintf(file, "  %-16s %s%s%s %s\n", name, from, same ? "" : " ... ", same ? "" : to, unit);
+}
+
+void oz_inspect_range_print_all(FILE *file, const char *name, const double *values,
+                                const double *radius, int64_t count, const char *unit)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t i = 0; i < count; i++) {
+        if (!radius || radius[i] == 0) {
+            low = fmin(low, values[i]);
+            high = fmax(high, values[i]);
+        }
+    }
+    if (high >= low) {
+        oz_inspect_range_print(file, name, low, high, unit);
+    }
 }

@@ -1,8 +1,14 @@
 /* A line about numbers that lie between two. */
 #pragma once
 
+#include <stdint.h>
 #include <stdio.h>
 
 /* `name low ... high unit`, or one number where both are written alike. */
 void oz_inspect_range_print(FILE *file, const char *name, double low, double high,
                             const char *unit);
+
+/* The same of count values; nothing is printed without any. radius: NULL, or one a value, of which
+ * those above 0 are left out (discs, where triangles are meant). */
+void oz_inspect_range_print_all(FILE *file, const char *name, const double *values,
+                                const double *radius, int64_t count, const char *unit);

@@ -23,12 +23,10 @@ static OzStatus read_case(OzScene *scene, const OzExtremeCase *row, OzPrecision 
     char text[TEXT_SIZE], precision_setting[64];
     char *settings[OZ_EXTREME_SETTINGS_MAX + 2];
     int count = 0;
-    bool rods = row->model == OZ_MODEL_RODS;
-    const char *common =
-        rods ? oz_report_extreme_cases_common() : oz_report_extreme_elements_common();
-    const char *walls = rods ? oz_report_extreme_cases_walls() : oz_report_extreme_elements_walls();
-    snprintf(text, sizeof text, "%swalls:\n%sgrains:\n%s", common, row->walls ? row->walls : walls,
-             row->grains);
+    const OzExtremeSuite *suite = row->model == OZ_MODEL_RODS ? &oz_report_extreme_cases_suite
+                                                              : &oz_report_extreme_elements_suite;
+    snprintf(text, sizeof text, "%swalls:\n%sgrains:\n%s", suite->common,
+             row->walls ? row->walls : suite->walls, row->grains);
     for (int i = 0; i < OZ_EXTREME_SETTINGS_MAX && row->settings[i]; i++) {
         settings[count++] = (char *)(size_t)row->settings[i];
     }
@@ -147,8 +145,8 @@ OzStatus oz_report_extreme_run(const OzOptions *options)
     int bad = 0;
     OZ_TRY(oz_device_open(&device, options->device, options->threads));
     printf("%-40s %-7s %-44s %-13s %s\n", "case", "numbers", "expected", "got", "verdict");
-    const OzExtremeCase *lists[] = {oz_report_extreme_cases_all(),
-                                    oz_report_extreme_elements_all()};
+    const OzExtremeCase *lists[] = {oz_report_extreme_cases_suite.rows,
+                                    oz_report_extreme_elements_suite.rows};
     for (int k = 0; k < 2; k++) {
         OZ_TRY(run_rows(lists[k], options, &device, OZ_PRECISION_FLOAT, &bad));
         if (device.has_double) {

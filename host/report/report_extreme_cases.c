@@ -52,23 +52,6 @@
     ROD("3", "0, 0, 9e-3", "1, 0, 0", "0, 0, 0")                                                   \
     ROD("0", "0, 0, 15e-3", "0, 0, 1", "0, 0, 0")
 
-static const char *const common =
-    "model: rods\n"
-    "time: {step: 2e-5, duration: 5e-3}\n"
-    "integrator: velocity-verlet\n"
-    "gravity: [0, 0, 0]\n"
-    "contact: {contact_time: 1e-3, restitution: 0.5, friction: 0.3}\n";
-
-const char *oz_report_extreme_cases_common(void)
-{
-    return common;
-}
-
-const char *oz_report_extreme_cases_walls(void)
-{
-    return "  - {kind: plane, " STILL "}\n" BORE;
-}
-
 /* Of the first two grains along z. */
 static double restitution(const OzSnapshot *end)
 {
@@ -275,7 +258,12 @@ static const OzExtremeCase rows[] = {
 };
 /* clang-format on */
 
-const OzExtremeCase *oz_report_extreme_cases_all(void)
-{
-    return rows;
-}
+const OzExtremeSuite oz_report_extreme_cases_suite = {
+    .common = "model: rods\n"
+              "time: {step: 2e-5, duration: 5e-3}\n"
+              "integrator: velocity-verlet\n"
+              "gravity: [0, 0, 0]\n"
+              "contact: {contact_time: 1e-3, restitution: 0.5, friction: 0.3}\n",
+    .walls = "  - {kind: plane, " STILL "}\n" BORE,
+    .rows = rows,
+};

@@ -21,12 +21,13 @@ typedef struct OzExtremeCase {
     const char *says; /* to be found in a refusal's message; NULL: it is right whatever   */
 } OzExtremeCase;
 
-/* The rows, ending with one whose name is NULL. */
-const OzExtremeCase *oz_report_extreme_cases_all(void);
+/* The cases of one model. */
+typedef struct OzExtremeSuite {
+    const char *common;        /* YAML: the keys that all cases share, without grains and walls */
+    const char *walls;         /* YAML: the walls of a case without its own                     */
+    const OzExtremeCase *rows; /* ending with one whose name is NULL                     */
+} OzExtremeSuite;
 
-/* The keys that all cases share, as YAML without grains and walls: rods of diameter 5 mm are meant,
- * contact time 1 ms, 50 steps per contact, restitution 0.5, friction 0.3, no gravity. */
-const char *oz_report_extreme_cases_common(void);
-
-/* The walls they share: a plane at rest, z = 0, and a cylinder out of reach. */
-const char *oz_report_extreme_cases_walls(void);
+/* Rods of diameter 5 mm are meant, contact time 1 ms, 50 steps per contact, restitution 0.5,
+ * friction 0.3, no gravity; a plane at rest, z = 0, and a cylinder out of reach. */
+extern const OzExtremeSuite oz_report_extreme_cases_suite;

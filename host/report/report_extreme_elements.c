@@ -55,21 +55,6 @@
 #define REFUSED      NULL, NULL, 0, 0, 0
 #define DOUBLE_ONLY  (-1)
 
-static const char *const common = "model: trigrains\n"
-                                  "time: {step: 1e-6, duration: 3e-3}\n"
-                                  "gravity: [0, 0]\n"
-                                  "observe: {ledger: true}\n";
-
-const char *oz_report_extreme_elements_common(void)
-{
-    return common;
-}
-
-const char *oz_report_extreme_elements_walls(void)
-{
-    return "  - {kind: floor, width: 40e-3, point: [0, -1], " STILL "}\n";
-}
-
 /* Kinetic and potential, at the start. */
 static double energy_start(const OzSnapshot *end)
 {
@@ -235,7 +220,11 @@ static const OzExtremeCase rows[] = {
 };
 /* clang-format on */
 
-const OzExtremeCase *oz_report_extreme_elements_all(void)
-{
-    return rows;
-}
+const OzExtremeSuite oz_report_extreme_elements_suite = {
+    .common = "model: trigrains\n"
+              "time: {step: 1e-6, duration: 3e-3}\n"
+              "gravity: [0, 0]\n"
+              "observe: {ledger: true}\n",
+    .walls = "  - {kind: floor, width: 40e-3, point: [0, -1], " STILL "}\n",
+    .rows = rows,
+};

@@ -4,12 +4,6 @@
 
 #include "report/report_extreme_cases.h"
 
-/* The rows, ending with one whose name is NULL. */
-const OzExtremeCase *oz_report_extreme_elements_all(void);
-
-/* The keys that all cases share, as YAML without grains and walls: dice of 2 mm with the beams of
- * Poeschel and Buchholtz (1995), 1 us, no gravity, the ledger. */
-const char *oz_report_extreme_elements_common(void);
-
-/* The walls they share: one floor far below. */
-const char *oz_report_extreme_elements_walls(void);
+/* Dice of 2 mm with the beams of Poeschel and Buchholtz (1995), 1 us, no gravity, the ledger; one
+ * floor far below. */
+extern const OzExtremeSuite oz_report_extreme_elements_suite;
