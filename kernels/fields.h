@@ -12,7 +12,8 @@
 
 #define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
 
-/* A region's sums of energy, J, and a contact's words for them (see ledger.h). */
+/* A grain's sums of energy, J, by id, of contacts in which it is the first, and a contact's words
+ * for them (see ledger.h). */
 enum { OZ_L_DISSIPATED, OZ_L_SPRING, OZ_L_WALLS, OZ_LEDGER_WORDS };
 enum { OZ_CONTACT_LEDGER = 15 };
 
@@ -71,7 +72,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(integer, saved_b, OZ_HISTORY ? z.regions *z.inner_capacity : 0, SPRING)                      \
     X(scalar, saved_history, OZ_HISTORY ? z.regions *z.inner_capacity * 3 : 0, SPRING)             \
     X(integer, saved_count, OZ_HISTORY ? z.regions : 0, SPRING)                                    \
-    X(ledger, ledger, OZ_LEDGER ? z.regions *OZ_LEDGER_WORDS : 0, STATE)                           \
+    X(ledger, ledger, OZ_LEDGER ? z.slots *OZ_LEDGER_WORDS : 0, STATE)                             \
     X(real, pair_ledger,                                                                           \
       OZ_LEDGER ? z.regions *z.inner_capacity / OZ_LANES *OZ_CONTACT_LEDGER : 0, SCRATCH)          \
     X(real, pair_couple, OZ_LEDGER &OZ_LINE ? z.regions *z.inner_capacity / OZ_LANES * 6 : 0,      \

@@ -1,25 +1,26 @@
-/* The energy ledger: after each step, the work of every contact's parts over that step, each power taken with
- * the mean of the velocities before and after it, added up in double. What the tangential springs were given
- * and do not hold any more is friction; the host subtracts. Only compiled when a scene asks for it. */
+/* The energy ledger: after each step, the work of every contact's parts over that step, each power
+ * taken with the mean of the velocities before and after it, added up in double. What the
+ * tangential springs were given and do not hold any more is friction; the host subtracts. Only
+ * compiled when a scene asks for it. */
 #ifndef OZ_KERNELS_LEDGER_H
 #define OZ_KERNELS_LEDGER_H
 
 #include "kernels/lists.h"
 #include "kernels/motion.h"
 
-OZ_INLINE double oz_ledger_sum(real value, const int *counts)
+/* Adds values times `scale` to the sums of the grains in slots, for lanes whose bit is set, one
+ * after the other: a grain's sums are made in the order of its partners' ids, whatever its lists
+ * and its slot. */
+OZ_INLINE void oz_ledger_give(OzWork *w, const int *slots, int bits, int word, real values,
+                              double scale)
 {
     scalar lane[OZ_LANES];
-#if OZ_LANES == 1
-    lane[0] = value;
-#else
-    OZ_PASTE(vstore, OZ_LANES)(value, 0, lane);
-#endif
-    double sum = 0;
+    OZ_LANES_STORE(values, lane);
     for (int l = 0; l < OZ_LANES; l++) {
-        sum += counts[l] ? (double)lane[l] : 0.0;
+        if ((bits >> l) & 1) {
+            w->ledger[(size_t)w->id[slots[l]] * OZ_LEDGER_WORDS + word] += scale * (double)lane[l];
+        }
     }
-    return sum;
 }
 
 /* Mean relative velocity of a noted contact over the step. */
@@ -29,43 +30,45 @@ OZ_INLINE OzVec3 oz_ledger_mean(global const real *words, OzVec3 after)
 }
 
 /* Adds what the springs and dashpots of one noted contact took in. */
-OZ_INLINE void oz_ledger_add(OzWork *w, int region, global const real *words, OzVec3 after,
-                             const int *counts)
+OZ_INLINE void oz_ledger_add(OzWork *w, const int *slots, int bits, global const real *words,
+                             OzVec3 after)
 {
     OzVec3 mean = oz_ledger_mean(words, after);
     double dt = w->parameters->dt;
-    global double *sums = w->ledger + (size_t)region * OZ_LEDGER_WORDS;
-    sums[OZ_L_SPRING] -= dt * oz_ledger_sum(oz_dot(oz_work_load3(words), mean), counts);
-    sums[OZ_L_DISSIPATED] -= dt * oz_ledger_sum(oz_dot(oz_work_load3(words + 3), mean), counts);
+    oz_ledger_give(w, slots, bits, OZ_L_SPRING, oz_dot(oz_work_load3(words), mean), -dt);
+    oz_ledger_give(w, slots, bits, OZ_L_DISSIPATED, oz_dot(oz_work_load3(words + 3), mean), -dt);
 }
 
-/* Adds what dashpots took in that act elsewhere than at the mean of a pair's points (contact_line.h). */
-OZ_INLINE void oz_ledger_add_couple(OzWork *w, int region, int block, OzVec3 after, const int *counts)
+/* Adds what dashpots took in that act elsewhere than at the mean of a pair's points
+ * (contact_line.h). */
+OZ_INLINE void oz_ledger_add_couple(OzWork *w, const int *slots, int bits, int block, OzVec3 after)
 {
     global const real *words = w->pair_couple + 6 * (size_t)block;
     OzVec3 mean = oz_scale(oz_add(oz_work_load3(words + 3), after), REAL(0.5));
-    double power = oz_ledger_sum(oz_dot(oz_work_load3(words), mean), counts);
-    w->ledger[(size_t)region * OZ_LEDGER_WORDS + OZ_L_DISSIPATED] -= w->parameters->dt * power;
+    oz_ledger_give(w, slots, bits, OZ_L_DISSIPATED, oz_dot(oz_work_load3(words), mean),
+                   -(double)w->parameters->dt);
 }
 
 OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
 {
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region];
     for (int first = begin; first < end; first += OZ_LANES) {
-        int a[OZ_LANES], b[OZ_LANES], counts[OZ_LANES];
+        int a[OZ_LANES], b[OZ_LANES], bits = w->pair_active[first / OZ_LANES];
+        if (bits == 0) {
+            continue; /* the others do not touch */
+        }
         for (int l = 0; l < OZ_LANES; l++) {
             a[l] = w->pair_a[first + l];
             b[l] = w->pair_b[first + l];
-            counts[l] = first + l < end;
         }
         global const real *words = w->pair_ledger + (size_t)(first / OZ_LANES) * OZ_CONTACT_LEDGER;
         OzGrain one = oz_work_grains(w, a), other = oz_work_grains(w, b);
         OzVec3 after = oz_minus(oz_grain_velocity_at(other, oz_work_load3(words + 12)),
                                 oz_grain_velocity_at(one, oz_work_load3(words + 9)));
-        oz_ledger_add(w, region, words, after, counts);
+        oz_ledger_add(w, a, bits, words, after);
         if (OZ_LINE) {
             OzVec3 turning = oz_minus(other.rate, one.rate);
-            oz_ledger_add_couple(w, region, first / OZ_LANES, turning, counts);
+            oz_ledger_add_couple(w, a, bits, first / OZ_LANES, turning);
         }
     }
 }
@@ -75,7 +78,8 @@ OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
 /* Velocity of a wall along z at the start of a step. */
 OZ_INLINE scalar oz_ledger_wall_speed(const OzWork *w, int wall, int step)
 {
-    return OZ_MOVING ? w->motion[OZ_MOTION * ((size_t)step * OZ_WALL_COUNT + wall) + OZ_M_SPEED] : 0;
+    return OZ_MOVING ? w->motion[OZ_MOTION * ((size_t)step * OZ_WALL_COUNT + wall) + OZ_M_SPEED]
+                     : 0;
 }
 
 OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
@@ -83,13 +87,14 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
     int begin = oz_work_region_begin(w, region) / OZ_LANES;
     int end = min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
     for (int block = begin; block < end; block++) {
-        int slots[OZ_LANES], counts[OZ_LANES];
+        int slots[OZ_LANES], here = min(OZ_LANES, w->z.count - block * OZ_LANES);
         for (int l = 0; l < OZ_LANES; l++) {
             slots[l] = block * OZ_LANES + l;
-            counts[l] = slots[l] < w->z.count;
         }
         OzGrain grain = oz_work_grains(w, slots);
         for (int index = 0; index < OZ_WALL_ENDS; index++) {
+            int bits =
+                w->wall_active[(size_t)block * OZ_WALL_ENDS + index] & (int)((1u << here) - 1);
             global const real *words =
                 w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
             int wall = index / (OZ_ROUND ? 1 : 2);
@@ -97,10 +102,9 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
             scalar new_speed = oz_ledger_wall_speed(w, wall, step + 1);
             OzVec3 after = oz_grain_velocity_at(grain, oz_work_load3(words + 12));
             after.z -= REAL(new_speed);
-            oz_ledger_add(w, region, words, after, counts);
+            oz_ledger_add(w, slots, bits, words, after);
             double mean = 0.5 * ((double)old_speed + (double)new_speed);
-            w->ledger[(size_t)region * OZ_LEDGER_WORDS + OZ_L_WALLS] +=
-                mean * w->parameters->dt * oz_ledger_sum(words[11], counts);
+            oz_ledger_give(w, slots, bits, OZ_L_WALLS, words[11], mean * w->parameters->dt);
         }
     }
 }

@@ -92,7 +92,7 @@ static OzStatus read_ledger(OzSim *sim, int member, const OzTouch *touch, OzLedg
     OzStatus status = OZ_OK;
     double *words = NULL, sum[OZ_LEDGER_WORDS] = {0};
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_ledger, member, &words));
-    for (int k = 0; k < oz_rods_sizes(sim)->regions * OZ_LEDGER_WORDS; k++) {
+    for (int k = 0; k < oz_rods_sizes(sim)->slots * OZ_LEDGER_WORDS; k++) {
         sum[k % OZ_LEDGER_WORDS] +=
             words[k] * oz_units_energy(&oz_rods_parameters(sim, member)->units);
     }
