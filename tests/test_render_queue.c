@@ -210,6 +210,49 @@ static void test_queue_is_bounded(void **state)
     close_show(&show);
 }
 
+/* Draws moment 9 and the strobe, after moment 0 where that is not drawn by pictures left before. */
+static void draw_on(Show *show, const char *folder, bool anew, OzState *state)
+{
+    const int both = OZ_FRAME_SNAPSHOT | OZ_FRAME_STROBE;
+    OzPicturesSettings settings;
+    OzPictures *pictures = open_gallery(show, &settings, folder, true);
+    set_moment(show, 0);
+    if (anew) {
+        must(oz_render_queue_add(show->render_queue, pictures, &show->now, both));
+    }
+    OzStateVisit visit = state->count == 0 ? oz_state_save(state) : oz_state_load(state);
+    must(oz_render_queue_state(show->render_queue, pictures, &show->grains, &visit));
+    must(oz_state_finish(&visit));
+    set_moment(show, 9);
+    must(oz_render_queue_add(show->render_queue, pictures, &show->now, both));
+    must(oz_render_queue_finish(show->render_queue, pictures));
+}
+
+/* Pictures that are left and taken up again frame what was framed first, and keep the strobe's
+ * states. */
+static void test_taken_up_again(void **state)
+{
+    (void)state;
+    Show show;
+    OzState kept = {0}, none = {0};
+    open_show(&show);
+    draw_on(&show, "straight", true, &kept);
+    draw_on(&show, "taken_up", false, &kept);
+    draw_on(&show, "begun_late", false, &none);
+    close_show(&show);
+    oz_state_free(&kept);
+    oz_state_free(&none);
+    static const char *const names[] = {"time_0.009000.png", "strobe.png"};
+    for (int k = 0; k < 2; k++) {
+        char straight[64], taken_up[64], late[64];
+        snprintf(straight, sizeof straight, "straight/snapshots/%s", names[k]);
+        snprintf(taken_up, sizeof taken_up, "taken_up/snapshots/%s", names[k]);
+        snprintf(late, sizeof late, "begun_late/snapshots/%s", names[k]);
+        assert_true(same_files(straight, taken_up));
+        assert_false(same_files(straight, late));
+    }
+}
+
 /* A picture that cannot be written fails a later call with its text, and the movie so far is whole.
  */
 static void test_failure_comes_back(void **state)
@@ -243,6 +286,7 @@ int main(void)
         cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_stills_of_their_own),
         cmocka_unit_test(test_queue_is_bounded),
+        cmocka_unit_test(test_taken_up_again),
         cmocka_unit_test(test_failure_comes_back),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);

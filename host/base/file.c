@@ -92,6 +92,19 @@ OzStatus oz_file_commit(FILE *file, int64_t *whole, const char *path)
     return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s%s", path, strerror(why), cut);
 }
 
+OzStatus oz_file_go_on(FILE *file, int64_t whole, const char *path)
+{
+    struct stat info;
+    if (fstat(fileno(file), &info) != 0 || info.st_size < (off_t)whole) {
+        return oz_status_fail(OZ_ERR_FILE, "%s is shorter than the %lld bytes that it had", path,
+                              (long long)whole);
+    }
+    if (ftruncate(fileno(file), (off_t)whole) != 0 || fseeko(file, (off_t)whole, SEEK_SET) != 0) {
+        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    }
+    return OZ_OK;
+}
+
 bool oz_file_exists(const char *path)
 {
     struct stat info;

@@ -20,6 +20,10 @@ OzStatus oz_file_make_folder(const char *path);
  * or frame is left. */
 OzStatus oz_file_commit(FILE *file, int64_t *whole, const char *path);
 
+/* Cuts a file that is open for writing to its first `whole` bytes and goes on there. Fails with
+ * OZ_ERR_FILE when it is shorter. */
+OzStatus oz_file_go_on(FILE *file, int64_t whole, const char *path);
+
 bool oz_file_exists(const char *path);
 
 /* "folder/name" in a new text that the caller frees; name alone when it is absolute or folder is

@@ -210,3 +210,27 @@ OzLook oz_framing_still(const OzScene *scene, const OzLook *movie)
     }
     return look;
 }
+
+void oz_framing_keep(OzLook *look, const OzLook *framed)
+{
+    look->height_low = framed->height_low;
+    look->height_high = framed->height_high;
+    look->centre[0] = framed->centre[0];
+    look->centre[1] = framed->centre[1];
+    look->half_width = framed->half_width;
+    look->cut = framed->cut;
+    look->speed_high = framed->speed_high;
+}
+
+OzStatus oz_framing_state(OzLook *look, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_double(visit, "height_low", "m", &look->height_low, 1));
+    OZ_TRY(oz_state_double(visit, "height_high", "m", &look->height_high, 1));
+    OZ_TRY(oz_state_double(visit, "centre", "m", look->centre, 2));
+    OZ_TRY(oz_state_double(visit, "half_width", "m", &look->half_width, 1));
+    OZ_TRY(oz_state_double(visit, "cut", "m", &look->cut, 1));
+    OZ_TRY(oz_state_double(visit, "speed_high", "m/s", &look->speed_high, 1));
+done:
+    return status;
+}

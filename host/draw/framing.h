@@ -1,6 +1,7 @@
 /* What a scene's pictures show: chosen once from its walls and its bed. */
 #pragma once
 
+#include "base/state.h"
 #include "draw/camera.h"
 
 /* oz_renderer_look's work. */
@@ -15,3 +16,9 @@ double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapsh
 
 /* The smallest of 1, 2, 5 times a power of ten that is at least x (x > 0). */
 double oz_framing_round_up(double x);
+
+/* Makes a look frame what another one frames, by the same scale of speed. */
+void oz_framing_keep(OzLook *look, const OzLook *framed);
+
+/* Saves or loads (base/state.h) what oz_framing_keep copies. */
+OzStatus oz_framing_state(OzLook *look, OzStateVisit *visit);

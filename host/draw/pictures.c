@@ -22,7 +22,9 @@ struct OzPictures {
     OzLook look, still;   /* of the movie, of single pictures */
     OzImage image, still_image;
     bool is_framed;
-    int decimals; /* of single pictures' names */
+    bool has_frame; /* perhaps before the looks are there: loaded */
+    OzLook frame;   /* looks frame what it frames                 */
+    int decimals;   /* of single pictures' names */
     OzMovie *movie;
     OzSnapshot *states; /* for the strobe */
     int state_count;
@@ -66,6 +68,11 @@ static OzStatus open_renderer(OzPictures *pictures)
 void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot)
 {
     pictures->look = oz_renderer_look(pictures->scene, snapshot);
+    if (pictures->has_frame) {
+        oz_framing_keep(&pictures->look, &pictures->frame);
+    }
+    pictures->frame = pictures->look;
+    pictures->has_frame = true;
     pictures->still = oz_framing_still(pictures->scene, &pictures->look);
     pictures->is_framed = true;
 }
@@ -266,6 +273,40 @@ OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int p
         OZ_PASS(keep_state(pictures, snapshot));
     }
     return OZ_OK;
+}
+
+/* Loading makes the states, for these grains. */
+static OzStatus strobe_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    int64_t count = pictures->state_count;
+    OZ_TRY(oz_state_index(visit, "strobe_count", &count, 0, OZ_PICTURES_STATES));
+    if (!pictures->states && count > 0) {
+        OZ_TRY(OZ_NEW(&pictures->states, OZ_PICTURES_STATES));
+    }
+    for (int64_t i = 0; i < count; i++) {
+        if (i == pictures->state_count) {
+            OZ_TRY(oz_snapshot_create(&pictures->states[i], pictures->scene, grains));
+            pictures->state_count++;
+        }
+        oz_state_enter_one(visit, "strobe", i);
+        OZ_TRY(oz_snapshot_state(&pictures->states[i], visit));
+        oz_state_leave(visit);
+    }
+done:
+    return status;
+}
+
+OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_enter(visit, "pictures", 1));
+    OZ_TRY(oz_state_bool(visit, "has_frame", &pictures->has_frame));
+    OZ_TRY(oz_framing_state(&pictures->frame, visit));
+    OZ_TRY(strobe_state(pictures, grains, visit));
+    oz_state_leave(visit);
+done:
+    return status;
 }
 
 OzStatus oz_pictures_repeat(OzPictures *pictures)

@@ -2,6 +2,7 @@
  * libav are opened by the first picture that needs them and never otherwise. */
 #pragma once
 
+#include "base/state.h"
 #include "draw/renderer.h"
 
 typedef struct OzPictures OzPictures;
@@ -28,6 +29,10 @@ void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot);
  * draw/picture_name.h) in the look of `snapshots`; purpose: OZ_FRAME_ bits of observe/frames.h. Of
  * those for the strobe copies are kept, at most OZ_PICTURES_STATES of them. */
 OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose);
+
+/* Saves or loads (base/state.h) all that later pictures depend on: the framing, and the states kept
+ * for the strobe, of these grains. */
+OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit);
 
 /* The movie's last frame once more; there must be one. */
 OzStatus oz_pictures_repeat(OzPictures *pictures);

@@ -201,6 +201,22 @@ OzStatus oz_render_queue_finish(OzRenderQueue *render_queue, OzPictures *picture
     return status;
 }
 
+OzStatus oz_render_queue_state(OzRenderQueue *render_queue, OzPictures *pictures,
+                               const OzGrains *grains, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    if (!render_queue || !pictures) {
+        return OZ_OK;
+    }
+    lock(render_queue);
+    wait_for_all(render_queue);
+    OZ_TRY(tell_failure(render_queue));
+    OZ_TRY(oz_pictures_state(pictures, grains, visit));
+done:
+    unlock(render_queue);
+    return status;
+}
+
 OzRenderQueueTimes oz_render_queue_take_times(OzRenderQueue *render_queue)
 {
     lock(render_queue);

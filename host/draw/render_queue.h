@@ -31,6 +31,11 @@ OzRenderer **oz_render_queue_renderer(OzRenderQueue *render_queue);
 OzStatus oz_render_queue_add(OzRenderQueue *render_queue, OzPictures *pictures,
                              const OzSnapshot *snapshot, int purpose);
 
+/* oz_pictures_state once every picture that waits is drawn; NULL for either visits nothing. Fails
+ * with the first failure so far. */
+OzStatus oz_render_queue_state(OzRenderQueue *render_queue, OzPictures *pictures,
+                               const OzGrains *grains, OzStateVisit *visit);
+
 /* oz_pictures_finish after every picture that waits; NULL for either is fine. Fails with the first
  * failure so far, and the movie holds the frames before it. */
 OzStatus oz_render_queue_finish(OzRenderQueue *render_queue, OzPictures *pictures);

@@ -180,3 +180,37 @@ void oz_snapshot_turn_axes(OzSnapshot *snapshot)
         oz_grains_axis(&snapshot->quaternion[4 * i], &snapshot->axis[3 * i]);
     }
 }
+
+static OzStatus elements_state(OzSnapshot *s, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    int64_t count = s->element_count;
+    OZ_TRY(oz_state_double(visit, "element_position", "m", s->element_position, 2 * count));
+    OZ_TRY(oz_state_double(visit, "element_angle", "rad", s->element_angle, count));
+    OZ_TRY(oz_state_double(visit, "element_velocity", "m/s", s->element_velocity, 2 * count));
+    OZ_TRY(oz_state_double(visit, "element_angular_velocity", "rad/s", s->element_angular_velocity,
+                           count));
+done:
+    return status;
+}
+
+OzStatus oz_snapshot_state(OzSnapshot *s, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    int64_t walls = s->scene->wall_count;
+    OZ_TRY(oz_state_int64(visit, "step", "step", &s->step));
+    OZ_TRY(oz_state_double(visit, "time", "s", &s->time, 1));
+    OZ_TRY(oz_state_double(visit, "position", "m", s->position, 3 * s->count));
+    OZ_TRY(oz_state_double(visit, "quaternion", "none", s->quaternion, 4 * s->count));
+    OZ_TRY(oz_state_double(visit, "axis", "none", s->axis, 3 * s->count));
+    OZ_TRY(oz_state_double(visit, "velocity", "m/s", s->velocity, 3 * s->count));
+    OZ_TRY(oz_state_double(visit, "angular_velocity", "rad/s", s->angular_velocity, 3 * s->count));
+    OZ_TRY(oz_state_double(visit, "wall_offset", "m", s->wall_offset, walls));
+    OZ_TRY(oz_state_double(visit, "wall_velocity", "m/s", s->wall_velocity, walls));
+    OZ_TRY(oz_state_int64(visit, "deep_count", "none", &s->deep_count));
+    if (s->element_count > 0) {
+        OZ_TRY(elements_state(s, visit));
+    }
+done:
+    return status;
+}

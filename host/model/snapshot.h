@@ -3,7 +3,7 @@
 #ifndef OZ_MODEL_SNAPSHOT_H
 #define OZ_MODEL_SNAPSHOT_H
 
-#include "base/status.h"
+#include "base/state.h"
 #include "model/grains.h"
 #include "scene/scene.h"
 
@@ -107,5 +107,9 @@ void oz_snapshot_join_elements(OzSnapshot *snapshot);
 
 /* Fills axis from quaternion. */
 void oz_snapshot_turn_axes(OzSnapshot *snapshot);
+
+/* Saves or loads (base/state.h) all but scene, grains and what was found about contacts. The
+ * snapshot has been made for scene and grains. */
+OzStatus oz_snapshot_state(OzSnapshot *snapshot, OzStateVisit *visit);
 
 #endif

@@ -3,6 +3,8 @@
  * were made, and no rounding adds up. */
 #pragma once
 
+#include "base/state.h"
+
 #include <stdint.h>
 
 typedef struct OzStepClock {
@@ -23,3 +25,6 @@ int64_t oz_step_clock_after(const OzStepClock *clock, double time);
 
 /* A new stretch from this step on. With the same dt the clock stays as it is, to the bit. */
 void oz_step_clock_change(OzStepClock *clock, int64_t step, double dt);
+
+/* Saves or loads it, under this name (base/state.h). */
+OzStatus oz_step_clock_state(OzStepClock *clock, OzStateVisit *visit, const char *name);

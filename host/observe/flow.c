@@ -168,3 +168,51 @@ void oz_flow_free(OzFlow *flow)
     free(flow->samples);
     memset(flow, 0, sizeof *flow);
 }
+
+static OzStatus samples_state(OzFlow *flow, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    int64_t numbers = 2 * flow->sample_count;
+    _Static_assert(sizeof *flow->samples == 2 * sizeof(double), "a sample is two numbers");
+    OZ_TRY(oz_state_array(visit, "samples", "degrees, of surface and centre in turn",
+                          OZ_STATE_DOUBLE, &flow->samples, &numbers));
+    if (numbers % 2 != 0) {
+        status = oz_status_fail(OZ_ERR_INPUT, "state: half a sample of a drum's inclination");
+        goto done;
+    }
+    flow->sample_count = numbers / 2;
+    flow->sample_capacity = visit->is_loading ? numbers / 2 : flow->sample_capacity;
+done:
+    return status;
+}
+
+static OzStatus outflow_state(OzFlow *flow, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_bool(visit, "seen", &flow->seen));
+    OZ_TRY(oz_state_double(visit, "last_time", "s", &flow->last_time, 1));
+    OZ_TRY(oz_state_double(visit, "out_mass", "kg", &flow->out_mass, 1));
+done:
+    return status;
+}
+
+OzStatus oz_flow_state(OzFlow *flow, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_enter(visit, "flow", 1));
+    OZ_TRY(outflow_state(flow, visit));
+    OZ_TRY(samples_state(flow, visit));
+    OZ_TRY(oz_state_double(visit, "sample_time", "s", &flow->sample_time, 1));
+    OZ_TRY(oz_state_double(visit, "surface", "degrees", &flow->surface, 1));
+    OZ_TRY(oz_state_double(visit, "centre", "degrees", &flow->centre, 1));
+    OZ_TRY(oz_state_double(visit, "mean", "degrees", &flow->mean, 1));
+    OZ_TRY(oz_state_double(visit, "deviation", "degrees", &flow->deviation, 1));
+    OZ_TRY(oz_state_int64(visit, "avalanche_count", "none", &flow->avalanche_count));
+    OZ_TRY(oz_state_double(visit, "avalanche_size", "degrees", &flow->avalanche_size, 1));
+    OZ_TRY(oz_state_bool(visit, "is_falling", &flow->is_falling));
+    OZ_TRY(oz_state_double(visit, "highest", "degrees", &flow->highest, 1));
+    OZ_TRY(oz_state_double(visit, "lowest", "degrees", &flow->lowest, 1));
+    oz_state_leave(visit);
+done:
+    return status;
+}

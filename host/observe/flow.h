@@ -3,6 +3,7 @@
  * states. */
 #pragma once
 
+#include "base/state.h"
 #include "model/snapshot.h"
 
 /* The least fall of a bed's centre of mass that is called an avalanche, degrees. A single grain of
@@ -44,3 +45,6 @@ enum { OZ_FLOW_FREQUENCIES = 2000 };
 OzStatus oz_flow_write_spectrum(const OzFlow *flow, double interval, const char *path);
 
 void oz_flow_free(OzFlow *flow); /* zeroed is fine */
+
+/* Saves or loads it (base/state.h). */
+OzStatus oz_flow_state(OzFlow *flow, OzStateVisit *visit);

@@ -22,8 +22,7 @@ enum {
     FRAME_HEAD_BYTES = 32,
     FRAME_GRAIN_BYTES = 4 * (3 + 4 + 3), /* position, quaternion, velocity                     */
     FRAME_WALL_BYTES = 4 * 2, /* offset, velocity                                       */
-    CHECKSUM_BYTES = 8,
-    COUNT_MAX = 1 << 30 /* grains, walls: sizes computed from them cannot overflow */
+    COUNT_MAX = 1 << 30       /* grains, walls: sizes computed from them cannot overflow */
 };
 
 struct OzFrames {
@@ -40,28 +39,6 @@ struct OzFrames {
     int64_t frame_number; /* reading: frames given so far                  */
 };
 
-/* FNV-1a (Fowler, Noll, Vo): any single changed byte changes it. */
-static uint64_t checksum(const unsigned char *bytes, size_t length)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < length; i++) {
-        hash = (hash ^ bytes[i]) * 0x100000001b3u;
-    }
-    return hash;
-}
-
-static void seal(unsigned char *block, size_t bytes)
-{
-    uint64_t sum = checksum(block, bytes - CHECKSUM_BYTES);
-    memcpy(block + bytes - CHECKSUM_BYTES, &sum, sizeof sum);
-}
-
-static bool is_sealed(const unsigned char *block, size_t bytes)
-{
-    uint64_t sum = checksum(block, bytes - CHECKSUM_BYTES);
-    return memcmp(block + bytes - CHECKSUM_BYTES, &sum, sizeof sum) == 0;
-}
-
 static size_t head_bytes(const OzFrames *frames)
 {
     return HEAD_BYTES + (frames->is_flat ? OZ_FRAME_ELEMENTS_HEAD : 0);
@@ -70,7 +47,7 @@ static size_t head_bytes(const OzFrames *frames)
 static size_t static_bytes(const OzFrames *frames)
 {
     size_t elements = frames->is_flat ? oz_frame_elements_static_bytes(&frames->elements) : 0;
-    return head_bytes(frames) + (size_t)frames->count * GRAIN_BYTES + elements + CHECKSUM_BYTES;
+    return head_bytes(frames) + (size_t)frames->count * GRAIN_BYTES + elements + OZ_BYTES_CHECKSUM;
 }
 
 static size_t frame_bytes(const OzFrames *frames)
@@ -78,7 +55,7 @@ static size_t frame_bytes(const OzFrames *frames)
     size_t state = frames->is_flat ? oz_frame_elements_bytes(&frames->elements)
                                    : (size_t)frames->count * FRAME_GRAIN_BYTES;
     return FRAME_HEAD_BYTES + state + (size_t)frames->wall_count * FRAME_WALL_BYTES +
-           CHECKSUM_BYTES;
+           OZ_BYTES_CHECKSUM;
 }
 
 static OzStatus refuse(const OzFrames *frames, const char *why)
@@ -89,7 +66,7 @@ static OzStatus refuse(const OzFrames *frames, const char *why)
 
 static OzStatus write_block(OzFrames *frames, unsigned char *block, size_t bytes)
 {
-    seal(block, bytes);
+    oz_bytes_seal(block, bytes);
     fwrite(block, 1, bytes, frames->file);
     return oz_file_commit(frames->file, &frames->whole, frames->path);
 }
@@ -140,11 +117,12 @@ done:
     return status;
 }
 
-OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *scene,
-                          const OzGrains *grains)
+/* mode: of fopen; the static part is written into an empty file. */
+static OzStatus open_to_write(OzFrames **frames, const char *path, const OzScene *scene,
+                              const OzGrains *grains, const char *mode)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(open_file(frames, path, "wb"));
+    OZ_TRY(open_file(frames, path, mode));
     (*frames)->count = grains->count;
     (*frames)->wall_count = scene->wall_count;
     (*frames)->is_flat = grains->elements != NULL;
@@ -153,12 +131,39 @@ OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *sc
     }
     (*frames)->frame_bytes = frame_bytes(*frames);
     OZ_TRY(OZ_NEW(&(*frames)->frame, (*frames)->frame_bytes));
-    OZ_TRY(write_static(*frames, grains));
+    if (mode[0] == 'w') {
+        OZ_TRY(write_static(*frames, grains));
+    }
 done:
     if (status != OZ_OK) {
         oz_frames_finish(*frames);
         *frames = NULL;
     }
+    return status;
+}
+
+OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *scene,
+                          const OzGrains *grains)
+{
+    return open_to_write(frames, path, scene, grains, "wb");
+}
+
+OzStatus oz_frames_go_on(OzFrames **frames, const char *path, const OzScene *scene,
+                         const OzGrains *grains)
+{
+    return open_to_write(frames, path, scene, grains, "r+b");
+}
+
+OzStatus oz_frames_state(OzFrames *frames, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_enter(visit, "frames", 1));
+    OZ_TRY(oz_state_index(visit, "file_bytes", &frames->whole, 0, INT64_MAX));
+    oz_state_leave(visit);
+    if (visit->is_loading) {
+        status = oz_file_go_on(frames->file, frames->whole, frames->path);
+    }
+done:
     return status;
 }
 
@@ -214,7 +219,7 @@ static OzStatus measure_file(OzFrames *frames)
     if (fstat(fileno(frames->file), &info) != 0) {
         return oz_status_fail(OZ_ERR_FILE, "cannot read %s: %s", frames->path, strerror(errno));
     }
-    if (!S_ISREG(info.st_mode) || info.st_size < HEAD_BYTES + CHECKSUM_BYTES) {
+    if (!S_ISREG(info.st_mode) || info.st_size < HEAD_BYTES + OZ_BYTES_CHECKSUM) {
         return refuse(frames, S_ISREG(info.st_mode) ? "too short" : "not a file");
     }
     frames->left = (size_t)info.st_size;
@@ -338,7 +343,7 @@ static OzStatus read_static(OzFrames *frames, OzGrains *grains)
     OZ_TRY(OZ_NEW(&block, bytes));
     memcpy(block, head, known);
     OZ_TRY(read_block(frames, block + known, bytes - known));
-    if (!is_sealed(block, bytes)) {
+    if (!oz_bytes_is_sealed(block, bytes)) {
         status = refuse(frames, "damaged: the checksum of its grains is wrong");
         goto done;
     }
@@ -422,7 +427,7 @@ OzStatus oz_frames_next(OzFrames *frames, OzSnapshot *snapshot, int *purpose, bo
     }
     OZ_TRY(read_block(frames, frames->frame, frames->frame_bytes));
     memcpy(&bytes, frames->frame, sizeof bytes);
-    if (bytes != frames->frame_bytes || !is_sealed(frames->frame, frames->frame_bytes)) {
+    if (bytes != frames->frame_bytes || !oz_bytes_is_sealed(frames->frame, frames->frame_bytes)) {
         status = oz_status_fail(OZ_ERR_INPUT, "%s: frame %lld is damaged", frames->path,
                                 (long long)frames->frame_number);
         goto done;

@@ -20,6 +20,7 @@
  * checksum is FNV-1a, 64 bits, of all bytes before it. */
 #pragma once
 
+#include "base/state.h"
 #include "model/snapshot.h"
 
 typedef struct OzFrames OzFrames;
@@ -30,6 +31,14 @@ enum { OZ_FRAME_MOVIE = 1, OZ_FRAME_SNAPSHOT = 2, OZ_FRAME_STROBE = 4 };
 /* Opens path for writing; scene and grains are read here only. Fails with OZ_ERR_FILE. */
 OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *scene,
                           const OzGrains *grains);
+
+/* The same for frames that are there already: they are left alone until oz_frames_state loads how
+ * many of their bytes count, cuts off the others and lets frames follow. */
+OzStatus oz_frames_go_on(OzFrames **frames, const char *path, const OzScene *scene,
+                         const OzGrains *grains);
+
+/* Saves or loads (base/state.h) how much of the file is whole. */
+OzStatus oz_frames_state(OzFrames *frames, OzStateVisit *visit);
 
 /* Appends one frame and flushes, so that a crash later leaves it whole. */
 OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose);

@@ -174,3 +174,21 @@ bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
            x->count == y->count &&
            (x->count == 0 || memcmp(x->times, y->times, (size_t)x->count * sizeof *x->times) == 0);
 }
+
+OzStatus oz_schedule_state(OzSchedule *s, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    int64_t snapshots = s->snapshots;
+    OZ_TRY(oz_state_enter(visit, "schedule", 1));
+    OZ_TRY(oz_step_clock_state(&s->clock, visit, "clock"));
+    OZ_TRY(oz_state_index(visit, "rows", &s->rows, 0, INT64_MAX));
+    OZ_TRY(oz_state_index(visit, "samples", &s->samples, 0, INT64_MAX));
+    OZ_TRY(oz_state_index(visit, "frames", &s->frames, 0, INT64_MAX));
+    OZ_TRY(oz_state_index(visit, "strobes", &s->strobes, 0, INT64_MAX));
+    OZ_TRY(oz_state_index(visit, "snapshots", &snapshots, 0, s->scene->snapshots.count));
+    OZ_TRY(oz_state_bool(visit, "over", &s->over));
+    oz_state_leave(visit);
+    s->snapshots = (int)snapshots;
+done:
+    return status;
+}

@@ -2,6 +2,7 @@
  * nearest to k T), so that a frame rate never changes the physics. */
 #pragma once
 
+#include "base/state.h"
 #include "model/step_clock.h"
 #include "scene/scene.h"
 
@@ -45,3 +46,6 @@ bool oz_schedule_missed(const OzSchedule *schedule, char *text, size_t size);
 
 /* Whether two schedules have their events at the same times. */
 bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b);
+
+/* Saves or loads (base/state.h) which events have been due. */
+OzStatus oz_schedule_state(OzSchedule *schedule, OzStateVisit *visit);

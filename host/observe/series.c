@@ -84,8 +84,9 @@ static OzStatus write_header(OzSeries *series)
     return end_row(series);
 }
 
-OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *scene,
-                          const OzGrains *grains)
+/* mode: of fopen; a header is written into an empty file. */
+static OzStatus open_series(OzSeries **series, const char *path, const OzScene *scene,
+                            const OzGrains *grains, const char *mode)
 {
     OzStatus status = OZ_OK;
     bool all_phases = scene->observe.at == OZ_OBSERVE_MEAN && scene->observe.samples_per_tap > 0;
@@ -97,17 +98,63 @@ OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *sc
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         OZ_TRY(ring_create(&(*series)->mean[k], 2 * samples));
     }
-    (*series)->file = fopen(path, "w");
+    (*series)->file = fopen(path, mode);
     if (!(*series)->file) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
         goto done;
     }
-    OZ_TRY(write_header(*series));
+    if (mode[0] == 'w') {
+        OZ_TRY(write_header(*series));
+    }
 done:
     if (status != OZ_OK) {
         oz_series_free(*series);
         *series = NULL;
     }
+    return status;
+}
+
+OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *scene,
+                          const OzGrains *grains)
+{
+    return open_series(series, path, scene, grains, "w");
+}
+
+OzStatus oz_series_go_on(OzSeries **series, const char *path, const OzScene *scene,
+                         const OzGrains *grains)
+{
+    return open_series(series, path, scene, grains, "r+");
+}
+
+static OzStatus ring_state(Ring *ring, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_index(visit, "count", &ring->count, 0, ring->capacity));
+    OZ_TRY(oz_state_index(visit, "next", &ring->next, 0, ring->capacity - 1));
+    OZ_TRY(oz_state_double(visit, "value", "as the column", ring->value, ring->capacity));
+done:
+    return status;
+}
+
+OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_enter(visit, "series", 1));
+    OZ_TRY(oz_state_index(visit, "file_bytes", &series->whole, 0, INT64_MAX));
+    OZ_TRY(oz_state_bool(visit, "has_start", &series->has_start));
+    OZ_TRY(oz_state_double(visit, "energy_start", "J", &series->energy_start, 1));
+    for (int k = 0; k < OZ_TAP_MEANS; k++) {
+        oz_state_enter_one(visit, "mean", k);
+        OZ_TRY(ring_state(&series->mean[k], visit));
+        oz_state_leave(visit);
+    }
+    OZ_TRY(oz_surplus_state(&series->surplus, visit));
+    OZ_TRY(oz_flow_state(&series->flow, visit));
+    oz_state_leave(visit);
+    if (visit->is_loading) {
+        status = oz_file_go_on(series->file, series->whole, series->path);
+    }
+done:
     return status;
 }
 

@@ -2,6 +2,7 @@
 #ifndef OZ_OBSERVE_SERIES_H
 #define OZ_OBSERVE_SERIES_H
 
+#include "base/state.h"
 #include "observe/observables.h"
 
 typedef struct OzSeries OzSeries;
@@ -14,6 +15,14 @@ const OzColumn *oz_series_columns(void);
  * model) are absent. scene and grains are borrowed. Fails with OZ_ERR_FILE, naming path. */
 OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *scene,
                           const OzGrains *grains);
+
+/* The same for rows that are there already: they are left alone until oz_series_state loads how
+ * many of their bytes count, cuts off the others and lets rows follow. */
+OzStatus oz_series_go_on(OzSeries **series, const char *path, const OzScene *scene,
+                         const OzGrains *grains);
+
+/* Saves or loads (base/state.h) all that later rows depend on. */
+OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit);
 
 /* Takes one sample for the tap means (positions, axes and wall offsets of the snapshot are read;
  * called samples_per_tap times a period, or once, at the phase of observe.at). Cheap: no contacts

@@ -106,3 +106,15 @@ OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot)
         snapshot->scene->path, (long long)snapshot->step, snapshot->time, gain,
         gain / surplus->scale);
 }
+
+OzStatus oz_surplus_state(OzSurplus *surplus, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_enter(visit, "surplus", 1));
+    OZ_TRY(oz_state_bool(visit, "has_start", &surplus->has_start));
+    OZ_TRY(oz_state_double(visit, "start", "J", &surplus->start, 1));
+    OZ_TRY(oz_state_double(visit, "scale", "J", &surplus->scale, 1));
+    oz_state_leave(visit);
+done:
+    return status;
+}

@@ -3,6 +3,7 @@
  * the grains a row. */
 #pragma once
 
+#include "base/state.h"
 #include "model/snapshot.h"
 
 /* Zeroed is valid: nothing seen yet. */
@@ -20,3 +21,6 @@ typedef struct OzSurplus {
  * contacts (their springs are unknown), nor without a ledger where walls move or with `slip:
  * scale`. */
 OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot);
+
+/* Saves or loads it (base/state.h). */
+OzStatus oz_surplus_state(OzSurplus *surplus, OzStateVisit *visit);

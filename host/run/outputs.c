@@ -90,14 +90,18 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
         OZ_TRY(oz_folder_open(&outputs->owned, outputs->folder, &use));
     }
     OZ_TRY(oz_snapshot_create(&outputs->now, scene, grains));
-    OZ_TRY(write_scene(outputs));
+    if (!outputs->goes_on) {
+        OZ_TRY(write_scene(outputs));
+    }
     OZ_TRY(claim(&outputs->final, outputs, "final.csv", "final.csv.part"));
     OZ_TRY(oz_final_reserve(grains, outputs->final));
     OZ_TRY(claim(&series, outputs, "series.csv", NULL));
-    OZ_TRY(oz_series_create(&outputs->series, series, scene, grains));
+    OZ_TRY((outputs->goes_on ? oz_series_go_on : oz_series_create)(&outputs->series, series, scene,
+                                                                   grains));
     if (pictures) {
         OZ_TRY(claim(&frames, outputs, "frames.bin", NULL));
-        OZ_TRY(oz_frames_create(&outputs->frames, frames, scene, grains));
+        OZ_TRY((outputs->goes_on ? oz_frames_go_on : oz_frames_create)(&outputs->frames, frames,
+                                                                       scene, grains));
     }
     if (pictures && !options->no_video) {
         outputs->picture_settings =
@@ -156,28 +160,40 @@ done:
     return status;
 }
 
-OzStatus oz_outputs_close(OzOutputs *outputs)
+OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
 {
-    char first[1024] = "";
     OzStatus status = OZ_OK;
-    for (int i = 0; i < 3; i++) {
-        OzStatus closed = i == 0 ? oz_render_queue_finish(outputs->render_queue, outputs->pictures)
-                          : i == 1 ? oz_frames_finish(outputs->frames)
-                                   : oz_series_free(outputs->series);
-        if (status == OZ_OK && closed != OZ_OK) {
-            status = closed;
-            snprintf(first, sizeof first, "%s", oz_status_text());
-        }
+    bool is_open = o->is_open;
+    OZ_TRY(oz_state_enter(visit, "outputs", 1));
+    OZ_TRY(oz_state_bool(visit, "is_open", &is_open));
+#define VISIT(type, member, state, close)                                                          \
+    if (is_open && o->member) {                                                                    \
+        OZ_TRY(state);                                                                             \
     }
-    outputs->pictures = NULL;
-    outputs->frames = NULL;
-    outputs->series = NULL;
-    outputs->is_open = false;
-    if (outputs->final) {
-        oz_final_give_up(outputs->final);
+    OZ_OUTPUTS_OWNERS(VISIT)
+#undef VISIT
+    oz_state_leave(visit);
+    if (o->is_open && !is_open) {
+        OZ_TRY(oz_outputs_close(o));
     }
-    oz_folder_close(&outputs->owned);
-    return status == OZ_OK ? OZ_OK : oz_status_fail(status, "%s", first);
+done:
+    return status;
+}
+
+OzStatus oz_outputs_close(OzOutputs *o)
+{
+    OzStatus status = OZ_OK;
+#define CLOSE(type, member, state, close)                                                          \
+    OZ_AFTER(status, close);                                                                       \
+    o->member = NULL;
+    OZ_OUTPUTS_OWNERS(CLOSE)
+#undef CLOSE
+    o->is_open = false;
+    if (o->final) {
+        oz_final_give_up(o->final);
+    }
+    oz_folder_close(&o->owned);
+    return status;
 }
 
 void oz_outputs_free(OzOutputs *outputs)

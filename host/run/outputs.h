@@ -19,6 +19,16 @@ typedef enum OzOutcome {
     OZ_OUTCOME_FAILED
 } OzOutcome;
 
+/* THE list of what is handed a member's states, in the order in which they are closed: X(type,
+ * member, what saves or loads what it remembers of them, what closes it), of OzOutputs *o and
+ * OzStateVisit *visit. What later rows or pictures depend on belongs to one of these. */
+#define OZ_OUTPUTS_OWNERS(X)                                                                       \
+    X(OzPictures, pictures,                                                                        \
+      oz_render_queue_state(o->render_queue, o->pictures, &o->grains, visit),                      \
+      oz_render_queue_finish(o->render_queue, o->pictures))                                        \
+    X(OzFrames, frames, oz_frames_state(o->frames, visit), oz_frames_finish(o->frames))            \
+    X(OzSeries, series, oz_series_state(o->series, visit), oz_series_free(o->series))
+
 /* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while
  * open. */
 typedef struct OzOutputs {
@@ -29,12 +39,13 @@ typedef struct OzOutputs {
     char *folder;   /* owned */
     char *final;    /* owned: path of final.csv, once its room is reserved */
     OzFolder owned; /* of a member of an ensemble: its folder, in use */
-    OzSeries *series;
-    OzFrames *frames;
-    OzPictures *pictures;
+#define OZ_OUTPUTS_MEMBER(type, member, state, close) type *member;
+    OZ_OUTPUTS_OWNERS(OZ_OUTPUTS_MEMBER)
+#undef OZ_OUTPUTS_MEMBER
     OzPicturesSettings picture_settings;
     OzRenderQueue *render_queue; /* borrowed: draws the pictures' pictures */
     int64_t number;              /* of the member in its plan */
+    bool goes_on; /* set by who opens it: its files are there, oz_outputs_state will load */
     bool is_open;
     OzOutcome outcome;
     OzStatus loss; /* of a member that was lost while others went on: why */
@@ -50,6 +61,10 @@ OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const
  * queue is shared with other members and must outlive this one. */
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
                          OzRenderQueue *render_queue);
+
+/* Saves or loads (base/state.h) all that later rows and pictures depend on, and whether the member
+ * is open; loading closes one that was not. */
+OzStatus oz_outputs_state(OzOutputs *outputs, OzStateVisit *visit);
 
 /* What is due (OZ_DUE_ bits) of outputs->now. */
 OzStatus oz_outputs_look(OzOutputs *outputs, int due);

@@ -9,6 +9,7 @@
 #include "model/calibrate.h"
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
+#include "sim/sim_state.h"
 #include "sim/stiffness.h"
 
 #include <pthread.h>
@@ -29,6 +30,25 @@ OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *so
                          source_dir));
 done:
     free(members);
+    return status;
+}
+
+OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_enter(visit, "worker", 1));
+    OZ_TRY(oz_schedule_state(&worker->schedule, visit));
+    OZ_TRY(oz_state_int64(visit, "event_step", "step", &worker->event_step));
+    OZ_TRY(oz_state_int(visit, "event_due", "bits, OZ_DUE_", &worker->event_due));
+    OZ_TRY(oz_state_bool(visit, "is_due", &worker->is_due));
+    OZ_TRY(oz_sim_state_visit(worker->sim, visit));
+    for (int64_t m = 0; m < worker->member_count; m++) {
+        oz_state_enter_one(visit, "member", m);
+        OZ_TRY(oz_outputs_state(worker->members[m], visit));
+        oz_state_leave(visit);
+    }
+    oz_state_leave(visit);
+done:
     return status;
 }
 
@@ -162,21 +182,28 @@ static OzStatus launch(OzWorker *worker, int64_t step, double *shown)
     return status;
 }
 
+static bool next_event(OzWorker *worker)
+{
+    worker->is_due = worker->is_due ||
+                     oz_schedule_next(&worker->schedule, &worker->event_step, &worker->event_due);
+    return worker->is_due;
+}
+
 static OzStatus walk(OzWorker *worker)
 {
     OzStatus status = OZ_OK;
-    int64_t step = 0, open = worker->member_count;
-    int due = 0;
+    int64_t open = worker->member_count;
     double shown = 0;
     worker->first_step = oz_clock_now();
     if (worker->leads) {
         oz_log_line("first step %.2f s after start", worker->first_step - worker->started);
     }
-    while (open > 0 && oz_schedule_next(&worker->schedule, &step, &due)) {
-        while (oz_sim_step(worker->sim) < step) {
-            OZ_TRY(launch(worker, step, &shown));
+    while (open > 0 && next_event(worker)) {
+        while (oz_sim_step(worker->sim) < worker->event_step) {
+            OZ_TRY(launch(worker, worker->event_step, &shown));
         }
-        OZ_TRY(look(worker, due, &open));
+        OZ_TRY(look(worker, worker->event_due, &open));
+        worker->is_due = false;
     }
 done:
     worker->spent = oz_clock_now() - worker->first_step;

@@ -16,6 +16,9 @@ typedef struct OzWorker {
     OzOutputs **members; /* borrowed; they fit together (oz_batch_fit_agrees)           */
     int64_t member_count;
     OzSchedule schedule; /* of all of them                                        */
+    int64_t event_step;  /* of the event that is next, or that has been looked at last */
+    int event_due;       /* and what is due there                                      */
+    bool is_due;         /* it has not been looked at yet                              */
     bool is_ensemble;    /* a member that fails leaves the others alone           */
     bool leads;          /* shows progress                                        */
     double started;      /* wall clock, of the program                            */
@@ -35,6 +38,11 @@ OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *so
  * interruption or success, so far as they came after a failure; each member's outcome says which.
  * Returns the first worker's failure that was one of its own. */
 OzStatus oz_worker_run(OzWorker *workers, int count);
+
+/* Saves or loads (base/state.h), between launches and not while members are looked at, all that the
+ * rest of the run depends on. Opened and not run yet, a worker that has loaded goes on from there.
+ */
+OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit);
 
 /* Frees the simulation. */
 void oz_worker_close(OzWorker *worker);

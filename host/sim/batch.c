@@ -131,3 +131,36 @@ void oz_batch_start_clock(OzBatch *batch)
     batch->walls_still = false;
     batch->counts = (OzSimCounts){0};
 }
+
+static OzStatus member_state(OzBatch *batch, int m, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    oz_state_enter_one(visit, "member", m);
+    OZ_TRY(oz_state_int64(visit, "reached", "step", &batch->reached[m]));
+    OZ_TRY(oz_step_clock_state(&batch->clock[m], visit, "clock"));
+    OZ_TRY(oz_state_bool(visit, "waits", &batch->waits[m]));
+    OZ_TRY(oz_state_text(visit, "stopped", &batch->stopped[m]));
+    OZ_TRY(oz_state_int64(visit, "deep_count", "none", &batch->deep_count[m]));
+    OZ_TRY(oz_state_bool(visit, "deep_told", &batch->deep_told[m]));
+    oz_state_leave(visit);
+done:
+    return status;
+}
+
+OzStatus oz_batch_state(OzBatch *batch, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    int64_t settling = batch->settling;
+    OZ_TRY(oz_state_enter(visit, "batch", 1));
+    OZ_TRY(oz_state_int64(visit, "step", "step", &batch->step));
+    OZ_TRY(oz_state_bool(visit, "walls_still", &batch->walls_still));
+    OZ_TRY(oz_state_index(visit, "settling", &settling, OZ_SETTLING_AHEAD, OZ_SETTLING_OVER));
+    OZ_TRY(oz_state_int64(visit, "settling_last", "step", &batch->settling_last));
+    for (int m = 0; m < batch->member_count; m++) {
+        OZ_TRY(member_state(batch, m, visit));
+    }
+    oz_state_leave(visit);
+    batch->settling = (OzSettling)settling;
+done:
+    return status;
+}

@@ -3,23 +3,34 @@
 #ifndef OZ_SIM_BATCH_H
 #define OZ_SIM_BATCH_H
 
+#include "base/state.h"
 #include "model/step_clock.h"
 #include "sim/sim.h"
 
 #include <stdbool.h>
 
+/* Settling is not begun, damps, rests, is over. */
+typedef enum OzSettling {
+    OZ_SETTLING_AHEAD,
+    OZ_SETTLING_DAMPS,
+    OZ_SETTLING_RESTS,
+    OZ_SETTLING_OVER
+} OzSettling;
+
 typedef struct OzBatch {
     OzMember *members;
     int member_count;
-    int64_t step;        /* made since time 0 (or since settling began) by those that go on */
-    int64_t *reached;    /* one a member: steps that it has made itself                     */
-    OzStepClock *clock;  /* one a member: alike in all that go on                           */
-    bool *waits;         /* one a member: makes no steps for now (settled before others)    */
-    char **stopped;      /* one a member: what a guard said; NULL while it goes on          */
-    int64_t *deep_count; /* one a member: deep contacts, each counted once a step        */
-    bool *deep_told;     /* one a member: the first of them has been said                */
-    int launch_steps;    /* of the next launch */
-    bool walls_still;    /* while settling     */
+    int64_t step;          /* made since time 0 (or since settling began) by those that go on */
+    int64_t *reached;      /* one a member: steps that it has made itself                     */
+    OzStepClock *clock;    /* one a member: alike in all that go on                           */
+    bool *waits;           /* one a member: makes no steps for now (settled before others)    */
+    char **stopped;        /* one a member: what a guard said; NULL while it goes on          */
+    int64_t *deep_count;   /* one a member: deep contacts, each counted once a step        */
+    bool *deep_told;       /* one a member: the first of them has been said                */
+    int launch_steps;      /* of the next launch */
+    bool walls_still;      /* while settling     */
+    OzSettling settling;   /* how far settling has come */
+    int64_t settling_last; /* step that ends its part */
     OzSimCounts counts;
 } OzBatch;
 
@@ -61,5 +72,8 @@ double oz_batch_time(const OzBatch *batch, int member, int64_t step);
 /* Time 0: no steps made, nothing counted or said, walls free to move. Members that wait or are
  * stopped stay so. */
 void oz_batch_start_clock(OzBatch *batch);
+
+/* Saves or loads (base/state.h) how far members have come and what was said of them. */
+OzStatus oz_batch_state(OzBatch *batch, OzStateVisit *visit);
 
 #endif

@@ -39,7 +39,7 @@ size_t oz_element_fields_bytes(int field, const void *switches, const void *size
 }
 
 const OzField oz_element_fields_rows[] = {
-#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class},
+#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class, OZ_FIELD_KIND_##kind},
     OZ_ELEMENT_FIELDS(ROW)
 #undef ROW
 };

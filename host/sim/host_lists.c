@@ -70,26 +70,31 @@ static void keep_spring(Work *w, int a, int b, const void *history, int64_t pair
     }
 }
 
-/* The springs of the list before. */
+/* The springs of the list before, or of the saved ones, whose grains are given by id. */
 static OzStatus read_springs(Work *w)
 {
     OzStatus status = OZ_OK;
     const OzSizes *z = sizes_of(w);
-    int *a = NULL, *b = NULL, *count = NULL;
+    const OzArrays *arrays = &w->sim->arrays;
+    int *a = NULL, *b = NULL, *count = NULL, truth = oz_rods_control(w->sim, w->member)->truth;
+    bool saved = truth == OZ_SPRINGS_AT_SAVED;
+    int64_t capacity = saved ? z->inner_capacity : z->outer_capacity;
     void *history = NULL;
-    if (!switches_of(w)->history ||
-        oz_rods_control(w->sim, w->member)->truth != OZ_SPRINGS_AT_OUTER) {
+    if (!switches_of(w)->history || truth == OZ_SPRINGS_AT_NONE) {
         return OZ_OK;
     }
-    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_a, w->member, &a));
-    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_b, w->member, &b));
-    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_count, w->member, &count));
-    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_outer_history, w->member, &history));
-    OZ_TRY(OZ_NEW(&w->springs, (int64_t)z->regions * z->outer_capacity));
+#define FIELD(name) saved ? OZ_FIELD_saved_##name : OZ_FIELD_outer_##name
+    OZ_TRY(oz_arrays_download(arrays, FIELD(a), w->member, &a));
+    OZ_TRY(oz_arrays_download(arrays, FIELD(b), w->member, &b));
+    OZ_TRY(oz_arrays_download(arrays, FIELD(count), w->member, &count));
+    OZ_TRY(oz_arrays_download(arrays, FIELD(history), w->member, &history));
+#undef FIELD
+    OZ_TRY(OZ_NEW(&w->springs, (int64_t)z->regions * capacity));
     for (int r = 0; r < z->regions; r++) {
-        int64_t begin = (int64_t)r * z->outer_capacity;
+        int64_t begin = (int64_t)r * capacity;
         for (int64_t p = begin; p < begin + count[r]; p++) {
-            keep_spring(w, a[p], b[p], history, p);
+            keep_spring(w, saved ? w->slot_of[a[p]] : a[p], saved ? w->slot_of[b[p]] : b[p],
+                        history, p);
         }
     }
     qsort(w->springs, (size_t)w->spring_count, sizeof *w->springs, by_slots);
@@ -290,8 +295,9 @@ static void free_work(Work *w)
 
 static bool waits(const OzControl *control)
 {
-    return !control->stop_bits && (control->truth == OZ_SPRINGS_AT_NONE ||
-                                   (control->truth == OZ_SPRINGS_AT_OUTER && control->outer_stale));
+    return !control->stop_bits &&
+           (control->truth == OZ_SPRINGS_AT_NONE || control->truth == OZ_SPRINGS_AT_SAVED ||
+            (control->truth == OZ_SPRINGS_AT_OUTER && control->outer_stale));
 }
 
 OzStatus oz_host_lists_make(OzSim *sim)

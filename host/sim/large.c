@@ -118,6 +118,17 @@ done:
     return status;
 }
 
+static OzStatus queue_save(OzLarge *large, OzArrays *arrays, const OzControl *control)
+{
+    OzStatus status = OZ_OK;
+    if (control->truth == OZ_SPRINGS_AT_OUTER) {
+        OZ_TRY(queue_phase(large, arrays, PHASE_save, 0));
+        OZ_TRY(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_SAVED));
+    }
+done:
+    return status;
+}
+
 /* The outer lists anew, with the grains put in the order of cells on the way. */
 static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControl *control)
 {
@@ -125,10 +136,7 @@ static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControl 
                                  PHASE_fill,    PHASE_arrange, PHASE_move_out,
                                  PHASE_move_in, PHASE_search,  PHASE_restore};
     OzStatus status = OZ_OK;
-    if (control->truth == OZ_SPRINGS_AT_OUTER) {
-        OZ_TRY(queue_phase(large, arrays, PHASE_save, 0));
-        OZ_TRY(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_SAVED));
-    }
+    OZ_TRY(queue_save(large, arrays, control));
     OZ_TRY(queue_phases(large, arrays, sort, sizeof sort / sizeof sort[0]));
     OZ_TRY(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_OUTER));
 done:
@@ -154,17 +162,26 @@ static bool hold(const OzControl *control)
            control->stale_positions == OZ_NEVER;
 }
 
-/* Lists that hold, from whatever there is. *waits: the host has to make one. */
-static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool *waits)
+/* Skins as they are used up now, and springs back to the outer lists. */
+static OzStatus harvest(OzLarge *large, OzArrays *arrays, OzControl *control)
 {
     OzStatus status = OZ_OK;
-    *waits = false;
     OZ_TRY(queue_phase(large, arrays, PHASE_measure, 0));
     OZ_TRY(read_control(arrays, control));
     if (control->truth == OZ_SPRINGS_AT_INNER) {
         control->truth = OZ_SPRINGS_AT_OUTER; /* measuring has harvested the springs */
         OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
     }
+done:
+    return status;
+}
+
+/* Lists that hold, from whatever there is. *waits: the host has to make one. */
+static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool *waits)
+{
+    OzStatus status = OZ_OK;
+    *waits = false;
+    OZ_TRY(harvest(large, arrays, control));
     bool holds = control->truth == OZ_SPRINGS_AT_OUTER && !control->outer_stale;
     if (!holds && oz_rods_fields_switches(arrays)->host_lists) {
         *waits = true;
@@ -257,6 +274,17 @@ OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControl *control, bo
     control->outer_stale = outer;
     OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
     OZ_TRY(renew(large, arrays, control, &waits));
+done:
+    return status;
+}
+
+OzStatus oz_large_save_springs(OzLarge *large, OzArrays *arrays, OzControl *control)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(bind_all(large, arrays));
+    OZ_TRY(harvest(large, arrays, control));
+    OZ_TRY(queue_save(large, arrays, control));
+    OZ_TRY(read_control(arrays, control));
 done:
     return status;
 }

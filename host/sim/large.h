@@ -20,6 +20,9 @@ void oz_large_free(OzLarge *large); /* NULL is fine */
  */
 OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControl *control, int steps);
 
+/* Springs of pairs to the saved lists; all lists are then made anew. */
+OzStatus oz_large_save_springs(OzLarge *large, OzArrays *arrays, OzControl *control);
+
 /* The inner lists anew, and first the outer ones and the order of grains if asked, whether they
  * hold or not: for timing. The lists must have been made once. */
 OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool outer);

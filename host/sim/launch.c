@@ -189,7 +189,7 @@ OzStatus oz_launch_steps(OzSim *sim, int64_t wanted, int *made)
     int64_t first = sim->batch.step, most = oz_arrays_sizes(&sim->arrays)->motion_steps;
     OZ_TRY(oz_batch_check(&sim->batch));
     int64_t steps = wanted < most ? wanted : most;
-    for (int m = 0; sim->model->steps_alike && m < sim->batch.member_count; m++) {
+    for (int m = 0; steps > 0 && sim->model->steps_alike && m < sim->batch.member_count; m++) {
         steps = oz_batch_goes_on(&sim->batch, m) ? sim->model->steps_alike(sim, m, steps) : steps;
     }
     OZ_TRY(begin_launch(sim, (int)steps));

@@ -6,6 +6,7 @@
 #define OZ_SIM_MODEL_H
 
 #define OZ_HOST
+#include "base/state.h"
 #include "compute/device.h"
 #include "kernels/head.h"
 #include "model/grains.h"
@@ -40,10 +41,22 @@ typedef enum OzFieldClass {
     OZ_FIELD_SCRATCH
 } OzFieldClass;
 
+/* kind: of its words in single precision; widens: they are doubles in double precision. */
 typedef struct OzField {
     const char *name;
     OzFieldClass class;
+    OzStateKind kind;
+    bool widens;
 } OzField;
+
+/* Kind and widening of each kind of element. */
+#define OZ_FIELD_KIND_parameters     OZ_STATE_FLOAT, true
+#define OZ_FIELD_KIND_control        OZ_STATE_INT32, false
+#define OZ_FIELD_KIND_scalar         OZ_STATE_FLOAT, true
+#define OZ_FIELD_KIND_real           OZ_STATE_FLOAT, true
+#define OZ_FIELD_KIND_fixed_position OZ_STATE_INT32, true
+#define OZ_FIELD_KIND_integer        OZ_STATE_INT32, false
+#define OZ_FIELD_KIND_ledger         OZ_STATE_DOUBLE, false
 
 /* A guard's bit and what it says. */
 typedef struct OzStop {
@@ -109,6 +122,12 @@ typedef struct OzModel {
     bool (*is_through)(const void *control, int steps);
     OzStatus (*supply)(OzSim *sim);
     OzStatus (*let_go)(OzSim *sim);
+
+    /* Puts contacts' memory where it outlives the lists, which are then made anew; control words
+     * are as the device has them before and after. state (may be NULL): what the model's own part
+     * holds of the state, saved or loaded. */
+    OzStatus (*save_springs)(OzSim *sim);
+    OzStatus (*state)(OzSim *sim, OzStateVisit *visit);
 
     /* A member's state now, walls included; the sums over its contacts and, with the ledger on, its
      * energies, unless a guard has stopped it. */

@@ -80,18 +80,17 @@ static OzStatus advance(const OzRelax *rest, int64_t step)
     return status;
 }
 
-/* Advances by so long a time, or with judging until every member waits. The energy is looked at
- * after fixed numbers of steps, not of launches, whose length depends on the machine: the same bits
- * on any. */
-static OzStatus run_for(const OzRelax *rest, double time, bool judging, OzSettleWatch watch,
-                        void *context)
+/* Advances to the end of the part in hand, or with judging until every member waits. The energy is
+ * looked at after fixed numbers of steps, not of launches, whose length depends on the machine: the
+ * same bits on any. */
+static OzStatus run_part(const OzRelax *rest, bool judging, OzSettleWatch watch, void *context)
 {
     OzStatus status = OZ_OK;
     const OzBatch *batch = rest->batch;
     const OzScene *scene = batch->members[0].scene;
     double worst = 0;
     int going = batch->member_count;
-    int64_t last = batch->step + (int64_t)ceil(time / batch->clock[0].dt - 1e-9);
+    int64_t last = batch->settling_last;
     while (batch->step < last && going > 0) {
         int64_t next = batch->step + rest->judge_steps;
         OZ_TRY(advance(rest, next < last ? next : last));
@@ -111,24 +110,47 @@ done:
     return status;
 }
 
+static void begin_part(OzBatch *batch, OzSettling part, double time)
+{
+    batch->settling = part;
+    batch->settling_last = batch->step + (int64_t)ceil(time / batch->clock[0].dt - 1e-9);
+}
+
+static OzStatus damp(const OzRelax *rest, OzSettleWatch watch, void *context)
+{
+    OzStatus status = OZ_OK;
+    OzBatch *batch = rest->batch;
+    const OzSettle *settle = &batch->members[0].scene->settle;
+    OZ_TRY(rest->set_drag(rest->sim, settle->drag));
+    OZ_TRY(run_part(rest, true, watch, context));
+    OZ_TRY(rest->set_drag(rest->sim, 0));
+    memset(batch->waits, 0, (size_t)batch->member_count * sizeof *batch->waits);
+    begin_part(batch, OZ_SETTLING_RESTS, settle->rest_time);
+done:
+    return status;
+}
+
 OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch, void *context)
 {
     OzStatus status = OZ_OK;
     OzBatch *batch = rest->batch;
     const OzScene *scene = batch->members[0].scene;
     *seconds = 0;
-    batch->walls_still = false;
-    if (!scene->settle.present || rest->is_empty) {
+    if (batch->settling == OZ_SETTLING_AHEAD) {
+        bool any = scene->settle.present && !rest->is_empty;
+        batch->walls_still = any;
+        begin_part(batch, any ? OZ_SETTLING_DAMPS : OZ_SETTLING_OVER, scene->settle.time_max);
+    }
+    if (batch->settling == OZ_SETTLING_OVER) {
         return OZ_OK;
     }
-    batch->walls_still = true;
-    OZ_TRY(rest->set_drag(rest->sim, scene->settle.drag));
-    OZ_TRY(run_for(rest, scene->settle.time_max, true, watch, context));
-    OZ_TRY(rest->set_drag(rest->sim, 0));
-    memset(batch->waits, 0, (size_t)batch->member_count * sizeof *batch->waits);
-    OZ_TRY(run_for(rest, scene->settle.rest_time, false, watch, context));
+    if (batch->settling == OZ_SETTLING_DAMPS) {
+        OZ_TRY(damp(rest, watch, context));
+    }
+    OZ_TRY(run_part(rest, false, watch, context));
     *seconds = oz_batch_time(batch, 0, batch->step);
     oz_batch_start_clock(batch);
+    batch->settling = OZ_SETTLING_OVER;
     OZ_TRY(rest->start_ledger(rest->sim));
 done:
     return status;

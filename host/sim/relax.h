@@ -34,6 +34,7 @@ bool oz_relax_is_same(const OzSettle *a, const OzSettle *b);
 /* Lets the grains come to rest as scene.settle says: walls still, with drag until a member's
  * kinetic energy is below threshold x N m g d (it then waits for the others) or time_max is reached
  * (logged), then rest_time without drag. The step count is 0 again afterwards. Does nothing without
- * scene.settle. *seconds receives the simulated time of the member that took longest. Fails with
- * OZ_ERR_INTERRUPTED when watch (may be NULL) says no. */
+ * scene.settle, nor a second time; settling whose state was loaded goes on where it was. *seconds
+ * receives the simulated time of the member that took longest. Fails with OZ_ERR_INTERRUPTED when
+ * watch (may be NULL) says no. */
 OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch, void *context);

@@ -218,17 +218,17 @@ static bool is_through(const void *words, int steps)
            control->stale_step == OZ_NEVER && control->stale_positions == OZ_NEVER;
 }
 
-/* Springs of every member to where they outlive new list sizes: a member that is through holds its
- * lists, which do not. It makes them again, with the same contacts, when it goes on. */
-static OzStatus let_go(OzSim *sim)
+/* Springs of every member to the saved lists. */
+static OzStatus save_springs(OzSim *sim)
 {
     OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     cl_kernel kernel = NULL;
-    if (sim->batch.member_count == 1) {
-        return OZ_OK;
+    OzLarge *large = oz_rods_own(sim)->large;
+    if (large) {
+        return oz_large_save_springs(large, &sim->arrays, oz_rods_control(sim, 0));
     }
-    kernel = clCreateKernel(sim->program, "oz_shelve", &code);
+    kernel = clCreateKernel(sim->program, "oz_save_springs", &code);
     CL_TRY(code);
     OZ_TRY(oz_launch_enqueue(sim, kernel, -1));
     OZ_TRY(oz_launch_read_control(sim));
@@ -236,6 +236,23 @@ done:
     if (kernel) {
         clReleaseKernel(kernel);
     }
+    return status;
+}
+
+/* A member that is through holds its lists, which do not outlive new sizes. It makes them again,
+ * with the same contacts, when it goes on. */
+static OzStatus let_go(OzSim *sim)
+{
+    return sim->batch.member_count == 1 ? OZ_OK : save_springs(sim);
+}
+
+static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OzRods *own = oz_rods_own(sim);
+    OZ_TRY(oz_state_bool(visit, "primed", &own->primed));
+    OZ_TRY(oz_state_double(visit, "spring_start", "J", own->spring_start, sim->batch.member_count));
+done:
     return status;
 }
 
@@ -272,6 +289,8 @@ const OzModel oz_rods_model = {
     .is_through = is_through,
     .supply = oz_host_lists_make,
     .let_go = let_go,
+    .save_springs = save_springs,
+    .state = own_state,
     .unpack = oz_rods_read_snapshot_state,
     .contacts = oz_rods_read_snapshot_contacts,
     .energy = oz_rods_read_snapshot_energy,

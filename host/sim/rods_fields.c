@@ -39,7 +39,7 @@ size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes)
 }
 
 const OzField oz_rods_fields_rows[] = {
-#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class},
+#define ROW(kind, name, count, class) {#name, OZ_FIELD_##class, OZ_FIELD_KIND_##kind},
     OZ_FIELDS(ROW)
 #undef ROW
 };

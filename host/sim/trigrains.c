@@ -117,6 +117,12 @@ static OzStatus let_go(OzSim *sim)
     return OZ_OK;
 }
 
+static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
+{
+    return oz_state_items(visit, "present", "bits, one a wall", OZ_STATE_INT32,
+                          oz_element_own(sim)->present, sim->batch.member_count);
+}
+
 const OzModel oz_trigrains_model = {
     .name = "trigrains",
     .field_count = OZ_ELEMENT_FIELD_COUNT,
@@ -146,6 +152,8 @@ const OzModel oz_trigrains_model = {
     .prepare = oz_element_motion_prepare,
     .is_through = is_through,
     .let_go = let_go,
+    .save_springs = let_go,
+    .state = own_state,
     .unpack = oz_element_read_snapshot_state,
     .contacts = oz_element_read_snapshot_contacts,
     .energy = oz_element_read_snapshot_energy,
