@@ -1,4 +1,5 @@
 /* The program: one sub-command, its exit status. */
+#include "base/interrupt.h"
 #include "base/log.h"
 #include "base/streams.h"
 #include "bench/bench.h"
@@ -18,6 +19,7 @@
 
 static OzStatus run_command(const OzOptions *options)
 {
+    oz_interrupt_watch();
     return oz_run_scene(options);
 }
 

@@ -1,5 +1,6 @@
 /* `orzo run` and its companions as a user meets them: outputs, exit statuses, signals. One scene
  * of rods serves nearly all, with few changes of what its kernels do. ORZO_NEEDS_DEVICE. */
+#include "base/interrupt.h"
 #include "program.h"
 #include "run_bed.h"
 
@@ -278,6 +279,28 @@ static void test_interrupted(void **state)
     assert_true(is_playable("cut/movie.mp4"));
 }
 
+/* A program that hangs ends by a later signal, not by one that comes twice at once. */
+static void test_second_signal_ends_what_hangs(void **state)
+{
+    (void)state;
+    int outcome;
+    pid_t child = fork();
+    if (child == 0) {
+        oz_interrupt_watch();
+        raise(SIGINT);
+        raise(SIGINT);
+        if (oz_interrupt_asked()) {
+            usleep(1100 * 1000); /* more than the second that tells them apart */
+            raise(SIGTERM);
+        }
+        _exit(0);
+    }
+    assert_int_equal(waitpid(child, &outcome, 0), child);
+    assert_true(WIFSIGNALED(outcome));
+    assert_int_equal(WTERMSIG(outcome), SIGTERM); /* so the first two ended nothing */
+    assert_false(oz_interrupt_asked());
+}
+
 /* Without movie and snapshots neither GL nor libav is opened. */
 static void test_maps_no_more_than_it_needs(void **state)
 {
@@ -316,6 +339,7 @@ int main(void)
         cmocka_unit_test(test_wrong_arguments_are_named),
         cmocka_unit_test(test_blowup),
         cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_second_signal_ends_what_hangs),
         cmocka_unit_test(test_maps_no_more_than_it_needs),
     };
     return cmocka_run_group_tests(tests, make_bed, leave_work);

@@ -1,15 +1,16 @@
 /* Ctrl-C and friends as a question that a loop asks. */
-#pragma once
+#ifndef OZ_BASE_INTERRUPT_H
+#define OZ_BASE_INTERRUPT_H
 
 #include <stdbool.h>
 
-/* From now on SIGINT, SIGTERM and SIGHUP (unless it was ignored, as under nohup) end the process
- * with status 130, at once: nothing is being written yet. A file-size limit becomes a failed write.
- */
+/* For a program's main alone: it changes what signals do to the whole process. From now on the
+ * first SIGINT, SIGTERM or SIGHUP (unless it was ignored, as under nohup) is only noted. One that
+ * comes more than a second later ends the process as it does by default. A file-size limit becomes
+ * a failed write. */
 void oz_interrupt_watch(void);
 
-/* From now on they end nothing by themselves. */
-void oz_interrupt_hold(void);
-
-/* Whether one has come since. */
+/* Whether one was noted; never, where nobody watches. */
 bool oz_interrupt_asked(void);
+
+#endif

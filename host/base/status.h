@@ -1,7 +1,7 @@
 /* What a call came to, and the one text that says why. OZ_OK is 0 and nothing else means success.
  * The innermost place that knows the facts writes the text once with oz_status_fail (what was
  * wanted, what happened, where, what to try); callers pass the status on unchanged. The text is
- * kept per thread, so several simulations may run in one process. */
+ * a thread's own, as errno is, so several simulations may run in one process. */
 #pragma once
 
 #include <stdio.h>

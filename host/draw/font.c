@@ -41,7 +41,6 @@ static bool open_faces(OzFont *font, const char *const paths[OZ_WEIGHT_COUNT])
 
 void oz_font_open(OzFont *font)
 {
-    static bool told;
     memset(font, 0, sizeof *font);
     if (FT_Init_FreeType(&font->library)) {
         font->library = NULL;
@@ -50,8 +49,7 @@ void oz_font_open(OzFont *font)
     for (size_t i = 0; i < sizeof FONTS / sizeof *FONTS && !font->faces[0]; i++) {
         open_faces(font, FONTS[i]);
     }
-    if (!font->faces[0] && !told) {
-        told = true;
+    if (!font->faces[0]) {
         oz_log_line("pictures carry no text: no font found; install fonts-dejavu-core");
     }
 }

@@ -131,7 +131,8 @@ static OzCalibrated find_constants(OzContactConstants *constants, const OzScene 
 }
 
 /* The constants found last: every look at the contacts asks again, and a search takes milliseconds.
- */
+ * What is found hangs on the key alone, all of which is compared, so it does not matter who asked
+ * before. Each thread keeps its own and needs no lock. */
 typedef struct Found {
     OzIntegrator integrator;
     double step;

@@ -140,12 +140,20 @@ static OzStatus open_folder(Run *run)
     return oz_folder_open(&run->owned, run->folder, &use);
 }
 
+static OzStatus check_interrupt(void)
+{
+    return oz_interrupt_asked()
+               ? oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted before the first step")
+               : OZ_OK;
+}
+
 static OzStatus open_run(Run *run)
 {
     const OzOptions *options = run->options;
     OZ_PASS(oz_members_create(&run->plan, options));
     OZ_PASS(OZ_NEW(&run->outcomes, run->plan.count));
     OZ_PASS(load_next(run, &run->loaded));
+    OZ_PASS(check_interrupt());
     if (!run->loaded) {
         return oz_status_fail(run->loss, "%s: no member can be run", run->plan.scene.path);
     }
@@ -213,13 +221,6 @@ static OzStatus open_workers(Run *run)
     return OZ_OK;
 }
 
-static OzStatus check_interrupt(void)
-{
-    return oz_interrupt_asked()
-               ? oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted before the first step")
-               : OZ_OK;
-}
-
 /* A member's folder lies in the run's, which says so; a plain run's is the run's own. */
 static OzStatus choose_member_folder(const Run *run, OzOutputs *member)
 {
@@ -243,7 +244,6 @@ static OzStatus open_group(Run *run)
 {
     char missed[512];
     OZ_PASS(open_workers(run));
-    oz_interrupt_hold();
     for (int64_t m = 0; m < run->member_count; m++) {
         OzOutputs *member = run->members[m];
         OZ_PASS(check_interrupt());
@@ -397,7 +397,6 @@ OzStatus oz_run_scene(const OzOptions *options)
 {
     Run run = {.options = options, .started = oz_clock_now()};
     OzStatus status = OZ_OK;
-    oz_interrupt_watch();
     OZ_TRY(open_run(&run));
     while (run.loaded) {
         OZ_TRY(run_group(&run));
