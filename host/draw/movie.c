@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -193,10 +194,9 @@ done:
 /* Says in the log, once a process, that the better encoder is missing. */
 static void log_fallback(const Encoder *encoder, const char *asked)
 {
-    static bool said;
-    if (encoder != &encoders[0] && !asked && !said) {
+    static atomic_flag said = ATOMIC_FLAG_INIT; /* movies of several runs open in their threads */
+    if (encoder != &encoders[0] && !asked && !atomic_flag_test_and_set(&said)) {
         oz_log_line("movie: libav has no %s, using %s", encoders[0].name, encoder->name);
-        said = true;
     }
 }
 
