@@ -127,10 +127,16 @@ static OzStatus obey(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    OzLog *log = NULL;
     oz_streams_open();
-    OzStatus status = obey(argc, argv), printed = oz_streams_flush();
+    OzStatus status = oz_log_create(&log, stderr, false);
+    oz_log_use(log);
+    status = status == OZ_OK ? obey(argc, argv) : status;
+    OzStatus printed = oz_streams_flush();
     if (printed != OZ_OK) {
         oz_log_line("%s", oz_status_text());
     }
+    oz_log_use(NULL);
+    oz_log_free(log);
     return oz_status_exit_code(status == OZ_OK ? printed : status);
 }

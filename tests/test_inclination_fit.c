@@ -85,7 +85,10 @@ static void test_too_little(void **state)
 static void end_ensemble(const char *key, int count)
 {
     OzEnsemble *ensemble = NULL;
-    assert_int_equal(OZ_OK, oz_log_open("log.txt"));
+    OzLog *log = NULL;
+    assert_int_equal(OZ_OK, oz_log_create(&log, NULL, false));
+    assert_int_equal(OZ_OK, oz_log_open(log, "log.txt"));
+    oz_log_use(log);
     assert_int_equal(OZ_OK, oz_ensemble_tables_create(&ensemble, ".", key));
     for (int m = 0; m < 2 * count; m++) {
         char name[32], file[64], value[32];
@@ -100,7 +103,8 @@ static void end_ensemble(const char *key, int count)
         assert_int_equal(OZ_OK, oz_ensemble_tables_add(ensemble, &row));
     }
     assert_int_equal(OZ_OK, oz_ensemble_tables_finish(ensemble));
-    assert_int_equal(OZ_OK, oz_log_open(NULL));
+    oz_log_use(NULL);
+    oz_log_free(log);
 }
 
 static void test_ensemble(void **state)

@@ -20,21 +20,25 @@
 
 static char folder[] = "/tmp/orzo_log_XXXXXX", said[64], kept[64];
 
-/* What stderr was given while it was a file: `said`. */
-static int real_stderr = -1;
-
-static void divert(void)
+/* A log of this thread on the file `said`, whose progress has this pace, s. */
+static OzLog *begin(double pace)
 {
-    int file = creat(said, 0600);
-    real_stderr = dup(STDERR_FILENO);
-    assert_true(file >= 0 && dup2(file, STDERR_FILENO) >= 0);
-    close(file);
+    OzLog *log = NULL;
+    FILE *stream = fopen(said, "w");
+    assert_non_null(stream);
+    setvbuf(stream, NULL, _IONBF, 0);
+    assert_int_equal(oz_log_create(&log, stream, false), OZ_OK);
+    assert_null(oz_log_use(log));
+    oz_log_pace(pace);
+    return log;
 }
 
-static void restore(void)
+static void end(OzLog *log)
 {
-    assert_true(dup2(real_stderr, STDERR_FILENO) >= 0);
-    close(real_stderr);
+    FILE *stream = oz_log_stream();
+    assert_ptr_equal(oz_log_use(NULL), log);
+    oz_log_free(log);
+    fclose(stream);
 }
 
 static int count_lines(const char *path, const char *holding)
@@ -63,8 +67,7 @@ static void test_progress_in_a_file_is_a_line_a_pace(void **state)
     (void)state;
     const double pace = 0.2;
     double start = oz_clock_now(), spent = 0;
-    divert();
-    oz_log_pace(pace);
+    OzLog *log = begin(pace);
     while (spent < 3.5 * pace) {
         oz_log_progress("%.0f %% done", 12.0);
         nap(1e-3);
@@ -72,7 +75,7 @@ static void test_progress_in_a_file_is_a_line_a_pace(void **state)
     }
     oz_log_progress("%.0f %% done", 12.0);
     spent = oz_clock_now() - start;
-    restore();
+    end(log);
     int count = count_lines(said, "12 % done\n");
     assert_in_range(count, 1, (int)(spent / pace));
     assert_int_equal(count_lines(said, ""), count);
@@ -81,12 +84,11 @@ static void test_progress_in_a_file_is_a_line_a_pace(void **state)
 static void test_blank_progress_is_no_line(void **state)
 {
     (void)state;
-    divert();
-    oz_log_pace(0);
+    OzLog *log = begin(0);
     oz_log_progress(" ");
     oz_log_progress("%s", "");
     oz_log_progress("here");
-    restore();
+    end(log);
     assert_int_equal(count_lines(said, ""), 1);
     assert_int_equal(count_lines(said, "here"), 1);
 }
@@ -94,28 +96,50 @@ static void test_blank_progress_is_no_line(void **state)
 static void test_progress_never_reaches_the_log(void **state)
 {
     (void)state;
-    divert();
-    oz_log_pace(0);
-    assert_int_equal(oz_log_open(kept), OZ_OK);
+    OzLog *log = begin(0);
+    assert_int_equal(oz_log_open(log, kept), OZ_OK);
     oz_log_line("begun");
     oz_log_progress("half");
-    oz_log_open(NULL);
-    restore();
+    end(log);
     assert_int_equal(count_lines(said, "half"), 1);
     assert_int_equal(count_lines(kept, "half"), 0);
     assert_int_equal(count_lines(kept, "begun"), 1);
+}
+
+/* Lines from before the file are its first, in their order, and each is there once. */
+static void test_lines_wait_for_their_file(void **state)
+{
+    (void)state;
+    OzLog *log = NULL;
+    char text[256];
+    assert_int_equal(oz_log_create(&log, NULL, true), OZ_OK);
+    oz_log_use(log);
+    oz_log_line("first");
+    oz_log_detail("second");
+    for (int i = 0; i < 3; i++) {
+        oz_log_once("%d: said once", i);
+    }
+    assert_int_equal(oz_log_open(log, kept), OZ_OK);
+    oz_log_line("third");
+    oz_log_once("said %s", "after");
+    oz_log_use(NULL);
+    oz_log_free(log);
+    FILE *file = fopen(kept, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    assert_string_equal(text, "first\nsecond\n0: said once\nthird\nsaid after\n");
 }
 
 /* /dev/full takes nothing: said once, and lines go on on stderr. */
 static void test_log_that_cannot_be_written_is_said_once(void **state)
 {
     (void)state;
-    divert();
-    assert_int_equal(oz_log_open("/dev/full"), OZ_OK);
+    OzLog *log = begin(0);
+    assert_int_equal(oz_log_open(log, "/dev/full"), OZ_OK);
     oz_log_line("one");
     oz_log_line("two");
-    oz_log_open(NULL);
-    restore();
+    end(log);
     assert_int_equal(count_lines(said, "log.txt cannot be written"), 1);
     assert_int_equal(count_lines(said, "No space left"), 1);
     assert_int_equal(count_lines(said, "two"), 1);
@@ -136,9 +160,8 @@ static void test_stage_that_lasts_is_named(void **state)
     (void)state;
     OzStage stage;
     double start = oz_clock_now();
-    divert();
-    oz_log_pace(0);
-    assert_int_equal(oz_log_open(kept), OZ_OK);
+    OzLog *log = begin(0);
+    assert_int_equal(oz_log_open(log, kept), OZ_OK);
     oz_stage_begin(&stage, "baking %d loaves", 7);
     wait_for_line("baking");
     double named = oz_clock_now() - start;
@@ -148,8 +171,7 @@ static void test_stage_that_lasts_is_named(void **state)
     oz_stage_end(&stage);
     int lines = count_lines(said, "");
     nap(0.4);
-    oz_log_open(NULL);
-    restore();
+    end(log);
     assert_true(named >= 1);
     assert_int_equal(count_lines(said, "baking 7 loaves ...\n"), 1);
     assert_int_equal(count_lines(said, ""), lines);
@@ -186,12 +208,11 @@ static void test_short_stage_says_nothing(void **state)
 {
     (void)state;
     OzStage stage;
-    divert();
-    oz_log_pace(0);
+    OzLog *log = begin(0);
     oz_stage_begin(&stage, "crumbs");
     oz_stage_say(&stage, "crumbs: 3");
     oz_stage_end(&stage);
-    restore();
+    end(log);
     assert_int_equal(count_lines(said, ""), 0);
 }
 
@@ -218,6 +239,7 @@ int main(void)
         cmocka_unit_test(test_progress_in_a_file_is_a_line_a_pace),
         cmocka_unit_test(test_blank_progress_is_no_line),
         cmocka_unit_test(test_progress_never_reaches_the_log),
+        cmocka_unit_test(test_lines_wait_for_their_file),
         cmocka_unit_test(test_log_that_cannot_be_written_is_said_once),
         cmocka_unit_test(test_stage_that_lasts_is_named),
         cmocka_unit_test(test_short_stage_says_nothing),

@@ -129,6 +129,22 @@ static bool is_logged(const char *text)
     return found;
 }
 
+/* This thread's lines go to log_path. */
+static OzLog *begin_log(void)
+{
+    OzLog *log = NULL;
+    must(oz_log_create(&log, NULL, false));
+    must(oz_log_open(log, log_path));
+    oz_log_use(log);
+    return log;
+}
+
+static void end_log(OzLog *log)
+{
+    oz_log_use(NULL);
+    oz_log_free(log);
+}
+
 /* Lying on the bottom: settled when the energy says so and not before, and then at time 0. */
 static void test_comes_to_rest(void **state)
 {
@@ -138,9 +154,9 @@ static void test_comes_to_rest(void **state)
     double seconds = 0;
     open_drop(&rig, LOW, REST);
     OzSim *sim = start_alone(&rig);
-    must(oz_log_open(log_path));
+    OzLog *log = begin_log();
     must(oz_settle_run(sim, &seconds, watch, &seen));
-    must(oz_log_open(NULL));
+    end_log(log);
     assert_false(is_logged("still"));
     assert_true(seen.ratio < threshold);
     assert_close("looks at the energy", fabs(seen.time - seen.judged * JUDGED_EVERY * step), 1e-12);
@@ -174,9 +190,9 @@ static void test_time_max_ends_it(void **state)
     double seconds = 0, fall = STEPS * step;
     open_drop(&rig, 0.05, "{drag: 500, threshold: 1e-6, rest_time: 1e-3, time_max: 4e-3}");
     OzSim *sim = start_alone(&rig);
-    must(oz_log_open(log_path));
+    OzLog *log = begin_log();
     must(oz_settle_run(sim, &seconds, NULL, NULL));
-    must(oz_log_open(NULL));
+    end_log(log);
     assert_true(is_logged("N m g d after 0.004 s (threshold 1e-06)"));
     assert_close("time", fabs(seconds - 5e-3), 1e-12);
     assert_nothing_counted(sim);

@@ -2,12 +2,17 @@
 #include "base/interrupt.h"
 
 #include <signal.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <time.h>
 
-/* A signal is sent to the process, so what came of it is the process's too. */
-static volatile sig_atomic_t interrupted;
-static struct timespec first; /* when, on the monotonic clock; used by the handler alone */
+/* A signal is sent to the process, so what came of it is the process's too. Free of locks: a
+ * handler sets it and threads ask. */
+static atomic_bool asked;
+
+/* Whether a signal came, and when, on the monotonic clock; used by the handler alone. */
+static bool came;
+static struct timespec first;
 
 /* s: what comes sooner is the same wish; timeout(1) sends each signal twice at once. */
 static const double REPEAT = 1;
@@ -17,9 +22,10 @@ static void note_signal(int number)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    if (!interrupted) {
+    oz_interrupt_ask();
+    if (!came) {
+        came = true;
         first = now;
-        interrupted = 1;
     } else if ((double)(now.tv_sec - first.tv_sec) + 1e-9 * (double)(now.tv_nsec - first.tv_nsec) >
                REPEAT) {
         signal(number, SIG_DFL);
@@ -38,11 +44,14 @@ void oz_interrupt_watch(void)
     if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
         sigaction(SIGHUP, &action, NULL); /* under nohup it stays ignored */
     }
-    signal(SIGXFSZ,
-           SIG_IGN); /* a file-size limit is then an error of the write, which has a name */
+}
+
+void oz_interrupt_ask(void)
+{
+    atomic_store(&asked, true);
 }
 
 bool oz_interrupt_asked(void)
 {
-    return interrupted != 0;
+    return atomic_load(&asked);
 }

@@ -1,16 +1,16 @@
-/* Ctrl-C and friends as a question that a loop asks. */
-#ifndef OZ_BASE_INTERRUPT_H
-#define OZ_BASE_INTERRUPT_H
+/* Being asked to end: a question that long work asks between its steps. */
+#pragma once
 
 #include <stdbool.h>
 
 /* For a program's main alone: it changes what signals do to the whole process. From now on the
- * first SIGINT, SIGTERM or SIGHUP (unless it was ignored, as under nohup) is only noted. One that
- * comes more than a second later ends the process as it does by default. A file-size limit becomes
- * a failed write. */
+ * first SIGINT, SIGTERM or SIGHUP (unless it was ignored, as under nohup) asks as oz_interrupt_ask
+ * does. One that comes more than a second later ends the process as it does by default. */
 void oz_interrupt_watch(void);
 
-/* Whether one was noted; never, where nobody watches. */
-bool oz_interrupt_asked(void);
+/* Asks all runs of the process to end in order, from any thread: for a user of the library, who
+ * watches no signals. It cannot be taken back. */
+void oz_interrupt_ask(void);
 
-#endif
+/* Whether the process was asked to end. From any thread. */
+bool oz_interrupt_asked(void);

@@ -2,88 +2,142 @@
 #include "base/log.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdarg.h>
-#include <stdbool.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-/* stderr's lock is that of these too. */
-static FILE *file;
-static bool opened; /* a log.txt, once at least */
-static char *early; /* lines from before        */
-static bool progress_shown;
-static double pace = 10;       /* s between plain progress lines              */
-static double next_plain = -1; /* on oz_clock_now, of the next; -1: not begun */
+enum { ONCE_MOST = 4 }; /* lines that a log says once */
 
-static void clear_progress(void)
+struct OzLog {
+    pthread_mutex_t mutex;
+    FILE *stream, *file; /* either may be NULL                 */
+    bool waits;          /* for a file: lines are kept till then */
+    char *early;         /* those lines                        */
+    const char *said[ONCE_MOST];
+    bool progress_shown;
+    double pace;       /* s between plain progress lines              */
+    double next_plain; /* on oz_clock_now, of the next; -1: not begun */
+};
+
+/* As errno is: what a thread's code speaks to without being handed it. */
+static _Thread_local OzLog *used;
+
+OzStatus oz_log_create(OzLog **log, FILE *stream, bool waits)
 {
-    if (progress_shown) {
-        fputs("\r\033[K", stderr);
-        progress_shown = false;
+    OZ_PASS(OZ_NEW(log, 1));
+    pthread_mutex_init(&(*log)->mutex, NULL);
+    (*log)->stream = stream;
+    (*log)->waits = waits;
+    (*log)->pace = 10;
+    (*log)->next_plain = -1;
+    return OZ_OK;
+}
+
+OzStatus oz_log_open(OzLog *log, const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (!file) {
+        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
+    }
+    pthread_mutex_lock(&log->mutex);
+    if (log->file) {
+        fclose(log->file);
+    }
+    fputs(log->early ? log->early : "", file);
+    free(log->early);
+    log->early = NULL;
+    log->waits = false;
+    log->file = file;
+    pthread_mutex_unlock(&log->mutex);
+    return OZ_OK;
+}
+
+void oz_log_free(OzLog *log)
+{
+    if (!log) {
+        return;
+    }
+    if (log->file) {
+        fclose(log->file);
+    }
+    pthread_mutex_destroy(&log->mutex);
+    free(log->early);
+    free(log);
+}
+
+OzLog *oz_log_use(OzLog *log)
+{
+    OzLog *before = used;
+    used = log;
+    return before;
+}
+
+OzLog *oz_log_used(void)
+{
+    return used;
+}
+
+FILE *oz_log_stream(void)
+{
+    return used ? used->stream : stderr;
+}
+
+/* The rest down to the functions of log.h wants the mutex held. */
+static void clear_progress(OzLog *log)
+{
+    if (log->progress_shown) {
+        fputs("\r\033[K", log->stream);
+        log->progress_shown = false;
     }
 }
 
-/* Adds a line to those that wait for a log.txt to be opened. Without memory for it it is lost
- * there. */
-static void keep_early(const char *format, va_list arguments)
+/* Adds a line to those that wait for a file. Without memory for it it is lost there. */
+static void keep_early(OzLog *log, const char *line)
 {
-    char *longer = NULL, *line = NULL;
-    if (vasprintf(&line, format, arguments) < 0) {
-        return;
+    char *longer = NULL;
+    if (asprintf(&longer, "%s%s\n", log->early ? log->early : "", line) >= 0) {
+        free(log->early);
+        log->early = longer;
     }
-    if (asprintf(&longer, "%s%s\n", early ? early : "", line) >= 0) {
-        free(early);
-        early = longer;
-    }
-    free(line);
 }
 
 /* A file that takes no more is said once, then left alone. */
-static void write_file(const char *format, va_list arguments)
+static void write_file(OzLog *log, const char *line)
 {
-    if (!file) {
-        if (!opened) {
-            keep_early(format, arguments);
-        }
+    if (log->waits) {
+        keep_early(log, line);
+    }
+    if (!log->file) {
         return;
     }
-    vfprintf(file, format, arguments);
-    fputc('\n', file);
-    if (fflush(file) != 0) {
-        clear_progress();
-        fprintf(stderr, "warning: log.txt cannot be written any more: %s\n", strerror(errno));
-        fclose(file);
-        file = NULL;
+    fprintf(log->file, "%s\n", line);
+    if (fflush(log->file) != 0) {
+        if (log->stream) {
+            clear_progress(log);
+            fprintf(log->stream, "warning: log.txt cannot be written any more: %s\n",
+                    strerror(errno));
+        }
+        fclose(log->file);
+        log->file = NULL;
     }
 }
 
-void oz_log_line(const char *format, ...)
+/* Whether this format has been said; notes it. */
+static bool was_said(OzLog *log, const char *format)
 {
-    va_list arguments;
-    flockfile(stderr);
-    clear_progress();
-    va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
-    va_end(arguments);
-    fputc('\n', stderr);
-    va_start(arguments, format);
-    write_file(format, arguments);
-    va_end(arguments);
-    funlockfile(stderr);
-}
-
-void oz_log_detail(const char *format, ...)
-{
-    va_list arguments;
-    flockfile(stderr);
-    va_start(arguments, format);
-    write_file(format, arguments);
-    va_end(arguments);
-    funlockfile(stderr);
+    for (int i = 0; i < ONCE_MOST; i++) {
+        if (!log->said[i] || log->said[i] == format) {
+            bool before = log->said[i] != NULL;
+            log->said[i] = format;
+            return before;
+        }
+    }
+    return false;
 }
 
 static bool is_blank(const char *text)
@@ -91,68 +145,102 @@ static bool is_blank(const char *text)
     return text[strspn(text, " ")] == '\0';
 }
 
-static void draw_progress(const char *text)
+static void draw_progress(OzLog *log, const char *text)
 {
-    clear_progress();
+    clear_progress(log);
     if (!is_blank(text)) {
-        fputs(text, stderr);
-        progress_shown = true;
+        fputs(text, log->stream);
+        log->progress_shown = true;
     }
-    fflush(stderr);
+    fflush(log->stream);
 }
 
-static void print_progress(const char *text)
+static void print_progress(OzLog *log, const char *text)
 {
     double now = oz_clock_now();
-    if (next_plain < 0) {
-        next_plain = now + pace;
+    if (log->next_plain < 0) {
+        log->next_plain = now + log->pace;
     }
-    if (now >= next_plain && !is_blank(text)) {
-        fprintf(stderr, "%s\n", text);
-        next_plain = now + pace;
+    if (now >= log->next_plain && !is_blank(text)) {
+        fprintf(log->stream, "%s\n", text);
+        log->next_plain = now + log->pace;
     }
+}
+
+/* A line for the stream (unless it is a detail) and for the file, unless it was said. */
+static void write_line(bool detail, const char *once, const char *format, va_list arguments)
+{
+    char *line = NULL;
+    OzLog *log = used;
+    if (vasprintf(&line, format, arguments) < 0) {
+        return;
+    }
+    if (log) {
+        pthread_mutex_lock(&log->mutex);
+        if (!once || !was_said(log, once)) {
+            if (log->stream && !detail) {
+                clear_progress(log);
+                fprintf(log->stream, "%s\n", line);
+            }
+            write_file(log, line);
+        }
+        pthread_mutex_unlock(&log->mutex);
+    } else if (!detail) {
+        fprintf(stderr, "%s\n", line);
+    }
+    free(line);
+}
+
+void oz_log_line(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(false, NULL, format, arguments);
+    va_end(arguments);
+}
+
+void oz_log_once(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(false, format, format, arguments);
+    va_end(arguments);
+}
+
+void oz_log_detail(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(true, NULL, format, arguments);
+    va_end(arguments);
 }
 
 void oz_log_progress(const char *format, ...)
 {
     char text[512];
     va_list arguments;
+    OzLog *log = used;
+    if (!log || !log->stream) {
+        return;
+    }
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    flockfile(stderr);
-    if (isatty(STDERR_FILENO)) {
-        draw_progress(text);
+    pthread_mutex_lock(&log->mutex);
+    if (isatty(fileno(log->stream))) {
+        draw_progress(log, text);
     } else {
-        print_progress(text);
+        print_progress(log, text);
     }
-    funlockfile(stderr);
+    pthread_mutex_unlock(&log->mutex);
 }
 
 void oz_log_pace(double seconds)
 {
-    flockfile(stderr);
-    pace = seconds;
-    next_plain = -1;
-    funlockfile(stderr);
-}
-
-OzStatus oz_log_open(const char *path)
-{
-    if (file) {
-        fclose(file);
-        file = NULL;
+    if (used) {
+        pthread_mutex_lock(&used->mutex);
+        used->pace = seconds;
+        used->next_plain = -1;
+        pthread_mutex_unlock(&used->mutex);
     }
-    if (!path) {
-        return OZ_OK;
-    }
-    file = fopen(path, "w");
-    if (!file) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-    }
-    fputs(early ? early : "", file);
-    free(early);
-    early = NULL;
-    opened = true;
-    return OZ_OK;
 }

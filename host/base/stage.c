@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "base/thread.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -66,7 +67,7 @@ void oz_stage_begin(OzStage *stage, const char *format, ...)
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
     pthread_cond_init(&stage->ended_now, &monotonic);
     pthread_condattr_destroy(&monotonic);
-    stage->has_thread = pthread_create(&stage->thread, NULL, watch, stage) == 0;
+    stage->has_thread = oz_thread_start(&stage->thread, watch, stage) == 0;
 }
 
 void oz_stage_say(OzStage *stage, const char *format, ...)

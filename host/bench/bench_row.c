@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/subprocess.h"
+#include "base/thread.h"
 #include "bench/bench_cost.h"
 #include "compute/limits.h"
 #include "observe/series.h"
@@ -220,7 +221,7 @@ static OzStatus time_workers(Bench *bench)
     int started = 1;
     for (; started < bench->count && status == OZ_OK; started++) {
         Worker *worker = &bench->workers[started];
-        int code = pthread_create(&worker->thread, NULL, time_thread, worker);
+        int code = oz_thread_start(&worker->thread, time_thread, worker);
         if (code != 0) {
             status = oz_status_fail(OZ_ERR_DEVICE, "no more threads than %d: %s", started,
                                     strerror(code));

@@ -50,7 +50,7 @@ void oz_font_open(OzFont *font)
         open_faces(font, FONTS[i]);
     }
     if (!font->faces[0]) {
-        oz_log_line("pictures carry no text: no font found; install fonts-dejavu-core");
+        oz_log_once("pictures carry no text: no font found; install fonts-dejavu-core");
     }
 }
 

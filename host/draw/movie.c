@@ -9,7 +9,6 @@
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,6 +40,7 @@
     F(sws_setColorspaceDetails)
 /* clang-format on */
 
+/* What the libraries export, the same for every movie of the process: a constant once loaded. */
 #define MEMBER(function) __typeof__(function) *function;
 static struct Libav {
     AVUTIL_FUNCTIONS(MEMBER)
@@ -92,7 +92,8 @@ static OzStatus av_fail(int code, const char *call, int line)
 /* For what returns a pointer, NULL for out of memory. */
 #define AV_TRY_NEW(pointer, call) AV_TRY(((pointer) = (call)) ? 0 : AVERROR(ENOMEM))
 
-/* libav's own words: warnings and worse go to our log, everything else nowhere. */
+/* libav's own words: warnings and worse go to the log of the thread that they come from, everything
+ * else nowhere. */
 static void take_log(void *source, int level, const char *format, va_list arguments)
 {
     char line[1024];
@@ -149,7 +150,8 @@ done:
     return status;
 }
 
-/* Once a process. */
+/* Once a process, whatever the thread: the table of functions is written here and read alone after.
+ */
 static OzStatus load(void)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -191,12 +193,11 @@ done:
     return status;
 }
 
-/* Says in the log, once a process, that the better encoder is missing. */
+/* Says that the better encoder is missing. */
 static void log_fallback(const Encoder *encoder, const char *asked)
 {
-    static atomic_flag said = ATOMIC_FLAG_INIT; /* movies of several runs open in their threads */
-    if (encoder != &encoders[0] && !asked && !atomic_flag_test_and_set(&said)) {
-        oz_log_line("movie: libav has no %s, using %s", encoders[0].name, encoder->name);
+    if (encoder != &encoders[0] && !asked) {
+        oz_log_once("movie: libav has no %s, using %s", encoders[0].name, encoder->name);
     }
 }
 

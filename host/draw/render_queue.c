@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/thread.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -122,7 +123,7 @@ static void *work(void *argument)
 static OzStatus start(OzRenderQueue *render_queue)
 {
     int code =
-        render_queue->started ? 0 : pthread_create(&render_queue->thread, NULL, work, render_queue);
+        render_queue->started ? 0 : oz_thread_start(&render_queue->thread, work, render_queue);
     if (code != 0) {
         return oz_status_fail(OZ_ERR_MEMORY, "cannot start a thread for pictures: %s",
                               strerror(code));

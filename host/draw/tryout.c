@@ -64,7 +64,7 @@ static size_t count_threads(void)
 static void fall_silent(void)
 {
     int nowhere = open("/dev/null", O_RDWR);
-    oz_log_open(NULL);
+    oz_log_use(NULL);
     if (nowhere >= 0) {
         dup2(nowhere, STDOUT_FILENO);
         dup2(nowhere, STDERR_FILENO);

@@ -27,6 +27,7 @@ static const char *const outcome_names[] = {[OZ_OUTCOME_NOT_STARTED] = "not star
 /* Everything one run owns. Zeroed is valid: what was not opened is not closed. */
 typedef struct Run {
     const OzOptions *options;
+    OzLog *log; /* of all its threads */
     OzMembers plan;
     OzDevice device;
     OzRenderQueue *render_queue; /* of all members */
@@ -51,7 +52,7 @@ static OzStatus open_log(const Run *run)
     char *path = NULL;
     OZ_TRY(oz_file_join(&path, run->folder, "log.txt"));
     OZ_TRY(oz_folder_note(run->folder, "log.txt"));
-    OZ_TRY(oz_log_open(path));
+    OZ_TRY(oz_log_open(run->log, path));
 done:
     free(path);
     return status;
@@ -397,6 +398,9 @@ OzStatus oz_run_scene(const OzOptions *options)
 {
     Run run = {.options = options, .started = oz_clock_now()};
     OzStatus status = OZ_OK;
+    OzLog *before = oz_log_used();
+    OZ_TRY(oz_log_create(&run.log, oz_log_stream(), true));
+    oz_log_use(run.log);
     OZ_TRY(open_run(&run));
     while (run.loaded) {
         OZ_TRY(run_group(&run));
@@ -410,6 +414,7 @@ done:
         oz_log_line("%s", oz_status_text());
     }
     close_run(&run);
-    oz_log_open(NULL);
+    oz_log_use(before);
+    oz_log_free(run.log);
     return status;
 }

@@ -6,13 +6,13 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/stage.h"
+#include "base/thread.h"
 #include "model/calibrate.h"
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
 #include "sim/sim_state.h"
 #include "sim/stiffness.h"
 
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -291,7 +291,7 @@ OzStatus oz_worker_run(OzWorker *workers, int count)
     int started = 1;
     OZ_TRY(OZ_NEW(&threads, count));
     for (; started < count; started++) {
-        int code = pthread_create(&threads[started], NULL, run_thread, &workers[started]);
+        int code = oz_thread_start(&threads[started], run_thread, &workers[started]);
         if (code != 0) {
             oz_log_line("no more threads than %d: %s", started, strerror(code));
             break;
