@@ -31,9 +31,11 @@ static const struct {
 static const struct {
     const char *header, *place;
 } keepers[] = {
-    {"CL/", "host/compute/"},  {"GL/", "host/draw/"},        {"EGL/", "host/draw/"},
-    {"KHR/", "host/draw/"},    {"libav", "host/draw/movie"}, {"libsw", "host/draw/movie"},
-    {"yaml.h", "host/scene/"}, {"ft2build.h", "host/draw/"}, {"png.h", "host/draw/"},
+    {"CL/", "host/compute/"},     {"GL/", "host/draw/"},
+    {"EGL/", "host/draw/"},       {"KHR/", "host/draw/"},
+    {"libav", "host/draw/movie"}, {"libsw", "host/draw/movie"},
+    {"yaml.h", "host/scene/"},    {"ft2build.h", "host/draw/"},
+    {"png.h", "host/draw/"},      {"hdf5.h", "host/run/state_file"},
 };
 
 static bool begins(const char *text, const char *start)
