@@ -110,8 +110,8 @@ OZ_INLINE void oz_mean_euler_after(OzBody *body, OzShape shape, OzLoad load, rea
     OzVec3 u = oz_quaternion_axis(body->turn), before = body->velocity;
     body->velocity = oz_along(before, dt * shape.inverse_mass, load.force);
     body->spin = oz_body_kick_spin(body->spin, load.torque, u, shape, dt);
-    oz_place_move(&body->place, &body->rest, oz_scale(oz_add(before, body->velocity), REAL(0.5) * dt),
-                  inverse_unit);
+    oz_fixed_position_move(&body->position, &body->rest,
+                           oz_scale(oz_add(before, body->velocity), REAL(0.5) * dt), inverse_unit);
     oz_body_turn(body, body->spin, shape, dt);
 }
 #endif
@@ -172,26 +172,26 @@ static void shape_cone(OzWallShape *shape, const OzWall *wall)
 }
 CODE
 put before host/model/fill_region.c '#define ROW(NAME' <<'CODE'
-static void bound_by_cone(OzColumn *column, const OzWall *wall)
+static void bound_by_cone(OzFillRegion *region, const OzWall *wall)
 {
-    column->low[2] = fmax(column->low[2], wall->point[2]);
-    column->walled_low[2] = true;
+    region->low[2] = fmax(region->low[2], wall->point[2]);
+    region->walled_low[2] = true;
 }
 CODE
 sed -i 's/\.kinds = PLANE/.kinds = PLANE | CONE/' host/scene/rows.c
 
 # A shape: half as high as it is wide, of four triangles about the middle.
 put before host/model/shape.c 'static OzStatus make_polygon' <<'CODE'
-static OzStatus make_rhombus(OzPatch *patch, const OzScene *scene, const OzPopulation *population,
+static OzStatus make_rhombus(OzTriangleSet *set, const OzScene *scene, const OzPopulation *population,
                              OzRandom *random)
 {
     (void)scene;
     double edge = draw(random, &population->edge);
-    OzStatus status = oz_patch_create(patch, 5, 4);
+    OzStatus status = oz_triangle_set_create(set, 5, 4);
     for (int i = 0; status == OZ_OK && i < 4; i++) {
-        put(patch, i, 0.5 * PI * i, i % 2 ? edge / 4 : edge / 2);
+        put(set, i, 0.5 * PI * i, i % 2 ? edge / 4 : edge / 2);
     }
-    return status == OZ_OK ? fan(patch) : status;
+    return status == OZ_OK ? fan(set) : status;
 }
 CODE
 sed -i 's/\.shapes = SQUARE/.shapes = SQUARE | RHOMBUS/' host/scene/rows.c
