@@ -197,6 +197,19 @@ static void check_grain_count(Checker *checker)
     }
 }
 
+static void check_interval(Checker *checker, const char *key, double interval, const char *file)
+{
+    const OzScene *scene = checker->scene;
+    if (scene->duration / interval > OZ_CHECK_ROWS_MAX) {
+        fault(checker, key, "%.3g rows of %s; expected at most %g", scene->duration / interval,
+              file, OZ_CHECK_ROWS_MAX);
+    }
+    if (is_written(checker, key) && interval < scene->step) {
+        fault(checker, key, "%s is shorter than a time step; expected at least %g s", key,
+              scene->step);
+    }
+}
+
 static void check_run_length(Checker *checker)
 {
     const OzScene *scene = checker->scene;
@@ -204,13 +217,14 @@ static void check_run_length(Checker *checker)
         fault(checker, is_written(checker, "time.taps") ? "time.taps" : "time.duration",
               "%.3g steps; expected at most %g", scene->duration / scene->step, OZ_CHECK_STEPS_MAX);
     }
-    if (scene->duration / scene->observe.interval > OZ_CHECK_ROWS_MAX) {
-        fault(checker, "observe.interval", "%.3g rows of series.csv; expected at most %g",
-              scene->duration / scene->observe.interval, OZ_CHECK_ROWS_MAX);
-    }
-    if (is_written(checker, "observe.interval") && scene->observe.interval < scene->step) {
-        fault(checker, "observe.interval",
-              "observe.interval is shorter than a time step; expected at least %g s", scene->step);
+    check_interval(checker, "observe.interval", scene->observe.interval, "series.csv");
+    if (is_written(checker, "observe.contacts_interval")) {
+        check_interval(checker, "observe.contacts_interval", scene->observe.contacts_interval,
+                       "contacts.csv, one for each contact");
+        if (!scene->observe.contacts) {
+            fault(checker, "observe.contacts_interval",
+                  "observe.contacts_interval without contacts; expected observe.contacts: true");
+        }
     }
 }
 
