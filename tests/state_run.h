@@ -67,7 +67,7 @@ static inline void look_at_event(Run *run)
 {
     OzWorker *worker = &run->worker;
     for (int m = 0; m < worker->member_count; m++) {
-        bool row = (worker->event_due & OZ_DUE_LISTED) != 0;
+        bool row = (worker->event_due & OZ_DUE_ROW) != 0;
         must(oz_read_snapshot_snapshot(worker->sim, m, &run->members[m]->now, row));
         must(oz_outputs_look(run->members[m], worker->event_due));
     }
@@ -78,9 +78,7 @@ static inline void look_at_event(Run *run)
 static inline void walk_run(Run *run, int64_t until)
 {
     OzWorker *worker = &run->worker;
-    while (worker->is_due ||
-           oz_schedule_next(&worker->schedule, &worker->event_step, &worker->event_due)) {
-        worker->is_due = true;
+    while (oz_worker_next_event(worker)) {
         while (oz_sim_step(worker->sim) < worker->event_step) {
             int64_t next = until < worker->event_step ? until : worker->event_step;
             if (oz_sim_step(worker->sim) >= until) {

@@ -326,35 +326,6 @@ static void test_header(void **state)
     bed_free(&bed);
 }
 
-/* A column stands once for each wall and axis. */
-static void test_walls_feel_their_contacts(void **state)
-{
-    (void)state;
-    Bed bed;
-    char *text = NULL;
-    static const char end[] = ",deep_count,wall0_fx,wall0_fy,wall0_fz,wall1_fx,wall1_fy,wall1_fz\n";
-    bed_create(&bed, 2, 1e-3, 3e-3);
-    bed.scene.observe.walls = true;
-    assert_empty(&bed, "wall1_fz"); /* without contacts nothing is known */
-    hand_contact(&bed.snapshot, (OzContactEntry){.b = 1, .push = 64, .normal = {1, 0, 0}});
-    hand_contact(
-        &bed.snapshot,
-        (OzContactEntry){.b = -1, .push = 3, .normal = {0, 0, -1}, .tangential = {0.5, 0, 0}});
-    hand_contact(&bed.snapshot, (OzContactEntry){.a = 1, .b = -1, .push = 4, .normal = {0, 0, -1}});
-    hand_contact(&bed.snapshot, (OzContactEntry){.a = 1, .b = -2, .push = 2, .normal = {0, 1, 0}});
-    assert_near(value_of(&bed, "wall0_fx"), 0.5, 0);
-    assert_near(value_of(&bed, "wall0_fy"), 0, 0);
-    assert_near(value_of(&bed, "wall0_fz"), -7, 0);
-    assert_near(value_of(&bed, "wall1_fy"), 2, 0);
-    assert_near(value_of(&bed, "wall1_fz"), 0, 0);
-    assert_int_equal(oz_file_read(&text, NULL, in_folder("one.csv")), OZ_OK);
-    char *line = strchr(text, '\n');
-    line[1] = '\0';
-    assert_string_equal(line + 1 - strlen(end), end);
-    free(text);
-    bed_free(&bed);
-}
-
 static void test_spheres_have_no_angle(void **state)
 {
     (void)state;
@@ -441,7 +412,6 @@ int main(void)
         cmocka_unit_test(test_energies),
         cmocka_unit_test(test_tap_means),
         cmocka_unit_test(test_header),
-        cmocka_unit_test(test_walls_feel_their_contacts),
         cmocka_unit_test(test_spheres_have_no_angle),
         cmocka_unit_test(test_sample_is_cheap),
     };

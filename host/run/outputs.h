@@ -5,7 +5,6 @@
 #include "base/folder.h"
 #include "cli.h"
 #include "draw/render_queue.h"
-#include "observe/contact_rows.h"
 #include "observe/frames.h"
 #include "observe/series.h"
 
@@ -28,8 +27,6 @@ typedef enum OzOutcome {
       oz_render_queue_state(o->render_queue, o->pictures, &o->grains, visit),                      \
       oz_render_queue_finish(o->render_queue, o->pictures))                                        \
     X(OzFrames, frames, oz_frames_state(o->frames, visit), oz_frames_finish(o->frames))            \
-    X(OzContactRows, contact_rows, oz_contact_rows_state(o->contact_rows, visit),                  \
-      oz_contact_rows_free(o->contact_rows))                                                       \
     X(OzSeries, series, oz_series_state(o->series, visit), oz_series_free(o->series))
 
 /* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while
@@ -64,6 +61,9 @@ OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const
  * queue is shared with other members and must outlive this one. */
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
                          OzRenderQueue *render_queue);
+
+/* A scene as the scene.yaml of a folder. */
+OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder);
 
 /* Saves or loads (base/state.h) all that later rows and pictures depend on, and whether the member
  * is open; loading closes one that was not. */

@@ -135,23 +135,35 @@ static int sort_unique(double *numbers, int count)
     return kept;
 }
 
-static OzStatus derive_snapshots(Checker *checker)
+/* Moments in order, each once; those written in taps become the times. */
+static OzStatus derive_moments(Checker *checker, const char *key, double *taps, int *tap_count,
+                               double **times, int *count)
 {
-    OzSnapshotSettings *snapshots = &checker->scene->snapshots;
-    snapshots->tap_count = sort_unique(snapshots->taps, snapshots->tap_count);
-    snapshots->count = sort_unique(snapshots->times, snapshots->count);
-    if (!check_taps(checker, "snapshots.taps") || snapshots->tap_count == 0) {
+    *tap_count = sort_unique(taps, *tap_count);
+    *count = sort_unique(*times, *count);
+    if (!check_taps(checker, key) || *tap_count == 0) {
         return OZ_OK;
     }
-    free(snapshots->times);
-    snapshots->times = NULL;
-    snapshots->count = 0;
-    OZ_PASS(OZ_NEW(&snapshots->times, snapshots->tap_count));
-    snapshots->count = snapshots->tap_count;
-    for (int i = 0; i < snapshots->count; i++) {
-        snapshots->times[i] = snapshots->taps[i] * checker->scene->period;
+    free(*times);
+    *times = NULL;
+    *count = 0;
+    OZ_PASS(OZ_NEW(times, *tap_count));
+    *count = *tap_count;
+    for (int i = 0; i < *count; i++) {
+        (*times)[i] = taps[i] * checker->scene->period;
     }
     return OZ_OK;
+}
+
+static OzStatus derive_snapshots(Checker *checker)
+{
+    OzSnapshotSettings *shots = &checker->scene->snapshots;
+    OzCheckpoints *kept = &checker->scene->checkpoint;
+    OZ_PASS(derive_moments(checker, "snapshots.taps", shots->taps, &shots->tap_count, &shots->times,
+                           &shots->count));
+    check_taps(checker, "checkpoint.interval_taps");
+    return derive_moments(checker, "checkpoint.taps", kept->taps, &kept->tap_count, &kept->times,
+                          &kept->count);
 }
 
 static void derive_populations(Checker *checker)
@@ -197,19 +209,6 @@ static void check_grain_count(Checker *checker)
     }
 }
 
-static void check_interval(Checker *checker, const char *key, double interval, const char *file)
-{
-    const OzScene *scene = checker->scene;
-    if (scene->duration / interval > OZ_CHECK_ROWS_MAX) {
-        fault(checker, key, "%.3g rows of %s; expected at most %g", scene->duration / interval,
-              file, OZ_CHECK_ROWS_MAX);
-    }
-    if (is_written(checker, key) && interval < scene->step) {
-        fault(checker, key, "%s is shorter than a time step; expected at least %g s", key,
-              scene->step);
-    }
-}
-
 static void check_run_length(Checker *checker)
 {
     const OzScene *scene = checker->scene;
@@ -217,14 +216,13 @@ static void check_run_length(Checker *checker)
         fault(checker, is_written(checker, "time.taps") ? "time.taps" : "time.duration",
               "%.3g steps; expected at most %g", scene->duration / scene->step, OZ_CHECK_STEPS_MAX);
     }
-    check_interval(checker, "observe.interval", scene->observe.interval, "series.csv");
-    if (is_written(checker, "observe.contacts_interval")) {
-        check_interval(checker, "observe.contacts_interval", scene->observe.contacts_interval,
-                       "contacts.csv, one for each contact");
-        if (!scene->observe.contacts) {
-            fault(checker, "observe.contacts_interval",
-                  "observe.contacts_interval without contacts; expected observe.contacts: true");
-        }
+    if (scene->duration / scene->observe.interval > OZ_CHECK_ROWS_MAX) {
+        fault(checker, "observe.interval", "%.3g rows of series.csv; expected at most %g",
+              scene->duration / scene->observe.interval, OZ_CHECK_ROWS_MAX);
+    }
+    if (is_written(checker, "observe.interval") && scene->observe.interval < scene->step) {
+        fault(checker, "observe.interval",
+              "observe.interval is shorter than a time step; expected at least %g s", scene->step);
     }
 }
 

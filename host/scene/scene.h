@@ -191,9 +191,6 @@ typedef struct OzObserve {
     OzObserveAt at;          /* when rows are written, and of which phase tap means are     */
     double layer_thickness;  /* m; default 4e-3                                             */
     bool ledger;             /* energy columns                                              */
-    bool walls;              /* columns of the force on each wall                           */
-    bool contacts;           /* contacts.csv                                                */
-    double contacts_interval; /* s between its looks; 0: at every row of series.csv         */
     double outlet;           /* m, trigrains: grains below this height have flowed out      */
     bool has_outlet;
 } OzObserve;
@@ -238,6 +235,17 @@ typedef struct OzSnapshotSettings {
     int view_count;
     OzColour colour;
 } OzSnapshotSettings;
+
+/* When a run's state is put into a file. */
+typedef struct OzCheckpoints {
+    double every; /* s of wall time between states that replace each other, and at each ending; 0:
+                     none */
+    double interval_taps; /* periods between states that are kept; 0: none          */
+    double *taps;         /* of states that are kept, as written, ascending, or NULL */
+    int tap_count;
+    double *times; /* s, of states that are kept, ascending; taps are converted */
+    int count;
+} OzCheckpoints;
 
 /* One key that takes several values. */
 typedef struct OzSweepKey {
@@ -288,6 +296,7 @@ typedef struct OzScene {
     OzObserve observe;
     OzMovieSettings movie;
     OzSnapshotSettings snapshots;
+    OzCheckpoints checkpoint;
     OzSweep sweep;
 } OzScene;
 
