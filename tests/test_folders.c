@@ -57,6 +57,7 @@ static void test_what_no_run_wrote(void **state)
                                         "final.csv",
                                         "movie.mp4",
                                         "movie.mp4.part",
+                                        "movie.mp4.new",
                                         "final.csv.part",
                                         "members.csv",
                                         "ensemble.csv",

@@ -253,6 +253,51 @@ static void test_taken_up_again(void **state)
     }
 }
 
+static void add_moments(Show *show, OzPictures *pictures, int first, int last)
+{
+    for (int i = first; i < last; i++) {
+        set_moment(show, i);
+        must(oz_render_queue_add(show->render_queue, pictures, &show->now, OZ_FRAME_MOVIE));
+    }
+}
+
+static void visit_pictures(Show *show, OzPictures *pictures, OzState *state)
+{
+    OzStateVisit visit = state->count == 0 ? oz_state_save(state) : oz_state_load(state);
+    must(oz_render_queue_state(show->render_queue, pictures, &show->grains, &visit));
+    must(oz_state_finish(&visit));
+}
+
+/* A folder as a kill leaves it, some frames after the state: the movie that goes on there is that
+ * of the straight run. */
+static void test_movie_goes_on(void **state)
+{
+    (void)state;
+    const int saved = 5, left = 7, all = 12;
+    Show show;
+    OzState kept = {0};
+    OzPicturesSettings settings[2];
+    open_show(&show);
+    OzPictures *pictures = open_gallery(&show, &settings[0], "whole", true);
+    add_moments(&show, pictures, 0, saved);
+    visit_pictures(&show, pictures, &kept);
+    assert_true(is_playable("whole/movie.mp4.part"));
+    add_moments(&show, pictures, saved, left);
+    assert_int_equal(system("cp whole/movie.mp4.part left.part"), 0);
+    add_moments(&show, pictures, left, all);
+    must(oz_render_queue_finish(show.render_queue, pictures));
+    pictures = open_gallery(&show, &settings[1], "killed", true);
+    assert_int_equal(rename("left.part", "killed/movie.mp4.part"), 0);
+    visit_pictures(&show, pictures, &kept);
+    add_moments(&show, pictures, saved, all);
+    must(oz_render_queue_finish(show.render_queue, pictures));
+    close_show(&show);
+    oz_state_free(&kept);
+    assert_true(is_playable("killed/movie.mp4"));
+    assert_true(same_files("whole/movie.mp4", "killed/movie.mp4"));
+    assert_int_equal(count_entries("killed"), 1);
+}
+
 /* A picture that cannot be written fails a later call with its text, and the movie so far is whole.
  */
 static void test_failure_comes_back(void **state)
@@ -287,6 +332,7 @@ int main(void)
         cmocka_unit_test(test_stills_of_their_own),
         cmocka_unit_test(test_queue_is_bounded),
         cmocka_unit_test(test_taken_up_again),
+        cmocka_unit_test(test_movie_goes_on),
         cmocka_unit_test(test_failure_comes_back),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);

@@ -33,7 +33,8 @@ typedef struct Redraw {
  */
 static OzStatus own_folder(Redraw *r)
 {
-    static const char *const writes[] = {"movie.mp4", "movie.mp4.part", "snapshots/*.png*", NULL};
+    static const char *const writes[] = {"movie.mp4", "movie.mp4.part", "movie.mp4.new",
+                                         "snapshots/*.png*", NULL};
     OzFolderUse use = {.writes = writes};
     OZ_PASS(oz_inputs_add(&r->inputs, r->frames_path));
     OZ_PASS(oz_inputs_add_scene(&r->inputs, &r->scene));

@@ -86,6 +86,16 @@ static bool looks_are_one(const OzPictures *pictures)
            (a->view_count < 2 || a->views[1] == b->views[1]);
 }
 
+/* The path of the movie, whose names are noted before there is one. */
+static OzStatus claim_movie(char **path, const OzPictures *pictures)
+{
+    static const char *const names[] = {"movie.mp4", "movie.mp4.part", "movie.mp4.new"};
+    for (int i = 0; i < 3; i++) {
+        OZ_PASS(oz_folder_note(pictures->settings->folder, names[i]));
+    }
+    return oz_file_join(path, pictures->settings->folder, "movie.mp4");
+}
+
 static OzStatus open_movie(OzPictures *pictures)
 {
     OzStatus status = OZ_OK;
@@ -105,9 +115,7 @@ static OzStatus open_movie(OzPictures *pictures)
                               "seed",
                               seed,
                               NULL};
-    OZ_TRY(oz_folder_note(pictures->settings->folder, "movie.mp4"));
-    OZ_TRY(oz_folder_note(pictures->settings->folder, "movie.mp4.part"));
-    OZ_TRY(oz_file_join(&path, pictures->settings->folder, "movie.mp4"));
+    OZ_TRY(claim_movie(&path, pictures));
     OZ_TRY(oz_movie_create(&pictures->movie, path, pictures->look.width, pictures->look.height,
                            pictures->scene->movie.fps, metadata));
 done:
@@ -226,7 +234,8 @@ static OzStatus draw_on_trial(void *argument)
     }
     OZ_PASS(draw(pictures, trial->snapshot, 1, &pictures->look, &pictures->image));
     double start = oz_clock_now();
-    for (int i = 0; pictures->scene->movie.present && i < FRAMES; i++) {
+    bool tries_movie = pictures->scene->movie.present && !pictures->movie; /* none that goes on */
+    for (int i = 0; tries_movie && i < FRAMES; i++) {
         OZ_PASS(oz_clock_now() - start < longest ? add_to_movie(pictures) : OZ_OK);
     }
     return OZ_OK;
@@ -243,7 +252,7 @@ static OzStatus try_drawing(OzPictures *pictures, const OzSnapshot *snapshot)
         return OZ_OK;
     }
     status = oz_tryout_run(draw_on_trial, &trial);
-    if (pictures->scene->movie.present &&
+    if (pictures->scene->movie.present && !pictures->movie &&
         oz_file_join(&part, pictures->settings->folder, "movie.mp4.part") == OZ_OK) {
         remove(part); /* the trial's */
     }
@@ -297,13 +306,26 @@ done:
     return status;
 }
 
+/* Loading takes up the movie that is there. */
+static OzStatus movie_state(OzPictures *pictures, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    char *path = NULL;
+    OZ_TRY(oz_file_join(&path, pictures->settings->folder, "movie.mp4"));
+    OZ_TRY(oz_movie_state(&pictures->movie, path, visit));
+done:
+    free(path);
+    return status;
+}
+
 OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "pictures", 1));
+    OZ_TRY(oz_state_enter(visit, "pictures", 2));
     OZ_TRY(oz_state_bool(visit, "has_frame", &pictures->has_frame));
     OZ_TRY(oz_framing_state(&pictures->frame, visit));
     OZ_TRY(strobe_state(pictures, grains, visit));
+    OZ_TRY(movie_state(pictures, visit));
     oz_state_leave(visit);
 done:
     return status;

@@ -30,8 +30,9 @@ void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot);
  * those for the strobe copies are kept, at most OZ_PICTURES_STATES of them. */
 OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose);
 
-/* Saves or loads (base/state.h) all that later pictures depend on: the framing, and the states kept
- * for the strobe, of these grains. */
+/* Saves or loads (base/state.h) all that later pictures depend on: the framing, the states kept for
+ * the strobe, of these grains, and the movie (oz_movie_state: saving puts all its frames so far on
+ * the disk, loading goes on with the movie that is in the folder). */
 OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit);
 
 /* The movie's last frame once more; there must be one. */
