@@ -15,6 +15,9 @@ static const struct {
 } command_rows[] = {
     {"run", "SCENE", "oOsedtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1,
      1, "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
+    {"resume", "DIR", "sdtguS",
+     "goes on with a run that was interrupted or killed, or to a later end, from its last state", 1,
+     1, "orzo resume runs/an6 --set time.taps=600"},
     {"check", "SCENE", "vsdtpgfS",
      "validate; restitution, stability and cost to expect, what follows from the scene", 1, 1,
      "orzo check scenes/an6.yaml --set time.step=2e-5 --verbose"},
@@ -339,13 +342,15 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     memset(options, 0, sizeof *options);
     options->until = -1;
     if (argc < 2) {
-        return oz_status_fail(OZ_ERR_INPUT, "orzo: no command; expected one of run, check, draw, "
-                                            "keys, bench, report, devices (see orzo --help)");
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "orzo: no command; expected one of run, resume, check, draw, "
+                              "keys, bench, report, devices (see orzo --help)");
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
-        return wrong(argv[1], "run, check, draw, keys, bench, report or devices (see orzo --help)");
+        return wrong(argv[1],
+                     "run, resume, check, draw, keys, bench, report or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
         OZ_PASS(take_argument(options, command, argc, argv, &i));

@@ -13,24 +13,26 @@ typedef struct OzOptions {
     const char *command;
     const char *paths[OZ_CLI_PATHS_MAX]; /* scenes, or the folder of `draw` */
     int path_count;
-    const char *out;                      /* -o                               */
-    char *settings[OZ_CLI_SETTINGS_MAX];  /* --set, in order; not owned        */
+    const char *out;                     /* -o                               */
+    char *settings[OZ_CLI_SETTINGS_MAX]; /* --set, in order; not owned        */
     int setting_count;
-    const char *device;                   /* --device                         */
-    int threads;                          /* --threads; 0: the driver's choice */
-    OzGlBackend gl;                       /* --gl                             */
-    double until;                         /* --until, s; negative: not given   */
-    bool has_seeds;                       /* --seeds                          */
+    const char *device; /* --device                         */
+    int threads;        /* --threads; 0: the driver's choice */
+    OzGlBackend gl;     /* --gl                             */
+    double until;       /* --until, s; negative: not given   */
+    bool has_seeds;     /* --seeds                          */
     uint64_t seed_first, seed_last;
+    bool resumes;     /* the command goes on with a run   */
+    int own_settings; /* which began with so many settings */
     bool overwrite, no_video, force, columns, help, verbose;
-    const char *source_dir;               /* --source-dir                     */
-    bool features, quick;                 /* bench                            */
-    double budget;                        /* --budget, s; 0: not given        */
-    double tolerance;                     /* --tolerance of report; 0: not given */
-    double share;                         /* --share of report --hits; 0: not given */
+    const char *source_dir;                       /* --source-dir                     */
+    bool features, quick;                         /* bench                            */
+    double budget;                                /* --budget, s; 0: not given        */
+    double tolerance;                             /* --tolerance of report; 0: not given */
+    double share;                                 /* --share of report --hits; 0: not given */
     bool extreme, map, stability, ensemble, hits; /* report                   */
-    const char *sizes;                    /* --sizes, as written              */
-    const char *yardstick;                /* --yardstick                      */
+    const char *sizes;                            /* --sizes, as written              */
+    const char *yardstick;                        /* --yardstick                      */
 } OzOptions;
 
 /* Reads argv. Fails with OZ_ERR_INPUT, naming the argument and what was expected. */

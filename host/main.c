@@ -23,6 +23,12 @@ static OzStatus run_command(const OzOptions *options)
     return oz_run_scene(options);
 }
 
+static OzStatus resume_command(const OzOptions *options)
+{
+    oz_interrupt_watch();
+    return oz_run_resume(options);
+}
+
 static OzStatus check_command(const OzOptions *options)
 {
     return oz_inspect_scene(options, stdout);
@@ -87,9 +93,9 @@ static const struct {
     const char *name;
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
-    {"run", run_command},         {"check", check_command}, {"draw", draw_command},
-    {"keys", keys_command},       {"bench", bench_command}, {"report", report_command},
-    {"devices", devices_command},
+    {"run", run_command},       {"resume", resume_command},   {"check", check_command},
+    {"draw", draw_command},     {"keys", keys_command},       {"bench", bench_command},
+    {"report", report_command}, {"devices", devices_command},
 };
 
 static OzStatus help_or_run(const OzOptions *options)

@@ -35,14 +35,21 @@ typedef struct OzResponse {
     real tangential_damping;   /* kg/s                                                      */
 } OzResponse;
 
-/* What a contact does. Only `force` enters the motion; the rest is for the energy ledger and costs nothing
- * when that is off. */
+/* What friction does, and whether it is all that it can: a contact without friction slips. */
+typedef struct OzFriction {
+    OzVec3 force, dashpot; /* N, on b; the dashpot's part of it, none while slipping            */
+    mask slips;
+} OzFriction;
+
+/* What a contact does. Only `force` enters the motion; the rest is for the energy ledger and for
+ * lists of contacts, and costs nothing when nobody asks. */
 typedef struct OzContactForce {
     OzVec3 force;              /* N, on b                                                   */
     OzVec3 spring;             /* N, on b: the tangential spring's part                     */
     OzVec3 dashpot;            /* N, on b: the dashpots' part; tangential none while sliding */
     real energy;               /* J, in the normal spring                                   */
     real tangential_stiffness; /* N/m                                                       */
+    mask slips;
 } OzContactForce;
 
 /* The stored spring turned with the normal as the pair turns (Pournin et al. 2005 take the normal as

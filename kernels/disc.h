@@ -21,6 +21,7 @@ typedef struct OzDiscForce {
     real power_normal;     /* W, dissipated along the normal                     */
     real power_tangential; /* W, dissipated across it                            */
     mask touching;
+    mask slips; /* the drag is all that friction lets it be                      */
 } OzDiscForce;
 
 OZ_INLINE OzDiscPlace oz_disc_meet(OzVec2 a, real radius_a, OzVec2 b, real radius_b)
@@ -80,6 +81,7 @@ OZ_INLINE OzDiscForce oz_disc_force(OzDiscPlace place, OzVec2 velocity, real mas
     dashpot = law.clamp > 0 ? oz_larger(dashpot, -spring) : dashpot;
     real most = law.friction * oz_magnitude(spring + dashpot);
     real drag = mass * law.tangential_damping * sliding;
+    f.slips = oz_magnitude(drag) >= most;
     drag = oz_larger(-most, oz_smaller(most, drag));
     f.touching = place.overlap > REAL(0.0);
     f.force = oz_along2(oz_scale2(place.normal, spring + dashpot), -drag, across);

@@ -36,7 +36,6 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
 {
     OzContact *c = &pair->contact;
     OzLine sum = oz_line_sum(a, b, apart, law, *c, pair->arm_a, pair->arm_b);
-    OzVec3 dashpot;
     OzResponse response = {sum.push, REAL(0.0), sum.energy, sum.tangential_stiffness,
                            sum.tangential_damping};
     c->touching = sum.overlap > REAL(0.0);
@@ -51,13 +50,12 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
     c->velocity =
         oz_minus(oz_grain_velocity_at(b, pair->arm_b), oz_grain_velocity_at(a, pair->arm_a));
     c->rate = -oz_dot(c->velocity, c->normal);
-    OzVec3 tangential =
-        oz_contact_friction(*c, response, sum.push, law.friction, history, dt, share, &dashpot);
-    tangential = oz_where(c->touching, tangential);
-    dashpot = oz_where(c->touching, dashpot);
+    OzFriction f = oz_contact_friction(*c, response, sum.push, law.friction, history, dt, share);
+    OzVec3 tangential = oz_where(c->touching, f.force), dashpot = oz_where(c->touching, f.dashpot);
     pair->parts.force = oz_add(sum.force, tangential);
     pair->parts.spring = oz_minus(tangential, dashpot);
     pair->parts.dashpot = oz_add(sum.dashpot, dashpot);
+    pair->parts.slips = f.slips;
     pair->parts.energy = sum.energy;
     pair->parts.tangential_stiffness = sum.tangential_stiffness;
     pair->torque_a = oz_add(sum.torque_a, oz_cross(tangential, pair->arm_a));

@@ -33,6 +33,7 @@ typedef struct OzOverlap {
     real energy;    /* m^3, integral of depth: kind i's potential, an estimate for others       */
     real kind;      /* 0 none, 1..6 for kinds i..vi                                             */
     real share;     /* the largest part of one of them that is inside the other; 0 apart        */
+    OzVec2 centroid; /* of the overlap, m                                                        */
     mask deep;      /* more than half of one of them is inside the other                        */
     mask swallowed; /* one of them is inside the other, and feels nothing                       */
 } OzOverlap;
@@ -238,6 +239,7 @@ OZ_INLINE OzOverlap oz_triangle_overlap(const OzTriangle *a, const OzTriangle *b
     if (OZ_ANY(many)) {
         oz_triangle_many(&o, many, a, b, &of_a, &of_b, sides_a, sides_b, centroid);
     }
+    o.centroid = centroid;
     o.moment = OZ_FORCE_POINT ? o.moment : oz_cross2(centroid, o.push);
     o.kind = crosses ? oz_triangle_kind(doubles) : REAL(0.0);
     /* all of the smaller one; edges that coincide leave some rounding's area */

@@ -146,7 +146,7 @@ static inline double rig_kinetic(const OzSnapshot *s)
 
 static inline double rig_energy(const OzSnapshot *s)
 {
-    return rig_kinetic(s) + s->elements.contact_energy + s->elements.beam_energy;
+    return rig_kinetic(s) + oz_contact_list_sum(&s->contacts).energy + s->beams.energy;
 }
 
 #endif

@@ -78,9 +78,7 @@ static inline void look_at_event(Run *run)
 static inline void walk_run(Run *run, int64_t until)
 {
     OzWorker *worker = &run->worker;
-    while (worker->is_due ||
-           oz_schedule_next(&worker->schedule, &worker->event_step, &worker->event_due)) {
-        worker->is_due = true;
+    while (oz_worker_next_event(worker)) {
         while (oz_sim_step(worker->sim) < worker->event_step) {
             int64_t next = until < worker->event_step ? until : worker->event_step;
             if (oz_sim_step(worker->sim) >= until) {

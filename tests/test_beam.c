@@ -151,7 +151,7 @@ static void check_momentum(const char *shear, double angular_change)
     double energy = rig_energy(&rig.now), most = 0;
     for (int64_t step = 50; step <= 2000; step += 50) {
         rig_advance(&rig, step);
-        most = fmax(most, rig.now.elements.bend_max);
+        most = fmax(most, rig.now.beams.bend_max);
     }
     rig_momentum(&rig.now, after);
     /* 2000 additions of numbers whose largest is the momentum: 1e-13 of it is some hundred of its
@@ -197,8 +197,8 @@ static void test_turning(void **state)
     }
     rig_start(&rig);
     /* the last digit of an angle of 31 rad is 4e-15; energy goes with its square */
-    assert_true(rig.now.elements.bend_max < 2e-14);
-    assert_true(rig.now.elements.beam_energy < 1e-31);
+    assert_true(rig.now.beams.bend_max < 2e-14);
+    assert_true(rig.now.beams.energy < 1e-31);
     rig_close(&rig);
 }
 
@@ -215,8 +215,8 @@ static void test_rest(void **state)
     oz_elements_rest_beam(elements, 0);
     rig_start(&rig);
     /* a last digit of angles below 1 rad */
-    assert_true(rig.now.elements.bend_max < 1e-15);
-    assert_true(rig.now.elements.stretch_max == 1 && rig.now.elements.stretch_min == 1);
+    assert_true(rig.now.beams.bend_max < 1e-15);
+    assert_true(rig.now.beams.stretch_max == 1 && rig.now.beams.stretch_min == 1);
     rig_close(&rig);
 }
 

@@ -1,5 +1,6 @@
 /* `orzo check` as a user meets it: the verdict first, what it rests on after that, exit statuses as
  * those of `run`. Kernels are those of test_run's bed. ORZO_NEEDS_DEVICE. */
+#include "hand_contacts.h"
 #include "program.h"
 #include "run_bed.h"
 
@@ -183,9 +184,9 @@ static void find_empty(const OzScene *scene, const OzGrains *grains, char names[
     memcpy(now.position, grains->position, 3 * (size_t)now.count * sizeof(double));
     memcpy(now.quaternion, grains->quaternion, 4 * (size_t)now.count * sizeof(double));
     oz_snapshot_turn_axes(&now);
-    now.has_contacts = now.has_ledger = true;
-    for (int kind = 0; kind < OZ_TOUCH_KINDS; kind++) {
-        now.elements.touches[kind] = 1;
+    now.has_ledger = true;
+    for (int kind = 0; kind < OZ_CONTACT_KINDS; kind++) {
+        hand_contact(&now, (OzContactEntry){.b = 1, .kind = (OzContactKind)kind});
     }
     assert_int_equal(oz_series_create(&series, "probe.csv", scene, grains), OZ_OK);
     for (int row = 0; row < 3; row++) {

@@ -113,7 +113,7 @@ static double deepest(const char *scene, double time, double speed, double secon
     OzSim *sim = start_sim(&rig, &rig_device);
     for (int k = 1; k <= 100; k++) {
         OzSnapshot now = state_at(&rig, sim, (int64_t)(k * seconds / 100 / rig.scene.step));
-        worst = fmax(worst, now.contacts.overlap_max);
+        worst = fmax(worst, oz_contact_list_sum(&now.contacts).overlap_max);
         oz_snapshot_free(&now);
     }
     oz_sim_free(sim);

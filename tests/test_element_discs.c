@@ -55,7 +55,7 @@ static void test_disc_hertz(void **state)
     start = rig_energy(&rig.now);
     for (int64_t step = 1; step < 2000; step += 5) {
         rig_advance(&rig, step);
-        stored = fmax(stored, rig.now.elements.contact_energy);
+        stored = fmax(stored, oz_contact_list_sum(&rig.now.contacts).energy);
         /* thousands of steps a hit; where it begins gear4 loses order: 4e-8 */
         assert_true(fabs(rig_energy(&rig.now) / start - 1) < 1e-6);
         const double *x = rig.now.element_position;
@@ -144,9 +144,11 @@ static void check_rest(const double corners[6])
     /* sunk is 3e-8 m of a coordinate whose last digit is 2e-19: 1e-11; what swung is gone after 25
      * contact times */
     assert_true(fabs((1e-3 - rig.now.element_position[1]) / sunk - 1) < 1e-9);
-    assert_int_equal(rig.now.elements.wall_touches, 1);
-    assert_int_equal(rig.now.elements.touches[OZ_TOUCH_DISC], 1);
-    assert_int_equal(rig.now.elements.grain_pairs, 0);
+    const OzContactEntry *e = rig.now.contacts.entry;
+    assert_true(rig.now.contacts.count == 1 && e->a == 0 && e->b == -1);
+    assert_true(e->kind == OZ_CONTACT_DISC && e->normal[1] == -1);
+    /* its weight, as exactly as it sank */
+    assert_true(fabs(e->push / (10 * rig.grains.elements->mass[0]) - 1) < 1e-9);
     rig_close(&rig);
 }
 
@@ -157,12 +159,44 @@ static void test_disc_on_triangle(void **state)
     check_rest((double[6]){0, 0, -2e-3, -3e-3, 2e-3, -3e-3});
 }
 
+/* A disc at rest that is thrown along a floor slips, and the floor feels all of friction; rolling,
+ * it does not. */
+static void test_disc_slips_until_it_rolls(void **state)
+{
+    (void)state;
+    ElementRig rig;
+    rig_read(&rig, "gravity: [0, -10]\nintegrator: velocity-verlet\n"
+                   "time: {step: 2e-6, duration: 1}\n"
+                   "contact: {contact_time: 2e-4, restitution: 0.1, friction: 0.5}\n"
+                   "walls:\n  - {kind: segment, from: [1, 0], to: [-1, 0]}");
+    OzElements *p = rig_grains(&rig, 1, 1, 0);
+    oz_elements_set_disc(p, 0, (double[2]){0, 1e-3}, 1e-3, 4);
+    must(oz_elements_set_triangle(p, 1, (double[6]){-0.05, 0, 0, -0.05, 0.05, 0}, 0));
+    p->velocity[0] = 0.1;
+    rig_start(&rig);
+    rig_advance(&rig, 1000);
+    const OzContactEntry *e = rig.now.contacts.entry;
+    double force[1][3];
+    oz_contact_list_push_walls(&rig.now.contacts, force, 1);
+    assert_true(rig.now.contacts.count == 1 && e->slips);
+    /* rounding */
+    assert_true(fabs(e->tangential[0] / (0.5 * e->push) - 1) < 1e-12);
+    assert_true(force[0][0] == e->tangential[0] && force[0][1] == -e->push);
+    rig_advance(&rig, 10000); /* 0.1 m/s / 3 / (0.5 x 10 m/s^2) are 6.7 ms, 3300 steps */
+    e = rig.now.contacts.entry;
+    assert_true(rig.now.contacts.count == 1 && !e->slips);
+    rig_close(&rig);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_disc_restitution),       cmocka_unit_test(test_disc_hertz),
-        cmocka_unit_test(test_deep_discs_are_counted), cmocka_unit_test(test_disc_friction),
+        cmocka_unit_test(test_disc_restitution),
+        cmocka_unit_test(test_disc_hertz),
+        cmocka_unit_test(test_deep_discs_are_counted),
+        cmocka_unit_test(test_disc_friction),
         cmocka_unit_test(test_disc_on_triangle),
+        cmocka_unit_test(test_disc_slips_until_it_rolls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,6 +73,7 @@ static void test_sums(void **state)
     (void)state;
     ElementRig rig;
     OzElementForces forces;
+    OzContactList list = {0};
     rig_read(&rig, "gravity: [0, 0]\ntime: {step: 1e-6, duration: 1}\n"
                    "beams: {damping_shear: balanced}");
     scatter(&rig, 30, 8e-3);
@@ -82,7 +83,9 @@ static void test_sums(void **state)
     }
     OzElementState now = {p->position, p->angle, p->velocity, p->angular_velocity, 0, false};
     must(oz_element_forces_create(&forces, &rig.scene, &rig.grains));
+    forces.list = &list;
     must(oz_element_forces_evaluate(&forces, &now));
+    oz_contact_list_sort(&list);
     double sum[3] = {0}, size = 0;
     for (int64_t i = 0; i < p->count; i++) {
         const double *f = &forces.force[2 * i], *x = &p->position[2 * i];
@@ -91,12 +94,123 @@ static void test_sums(void **state)
         sum[2] += x[0] * f[1] - x[1] * f[0] + forces.torque[i];
         size += hypot(f[0], f[1]);
     }
-    assert_true(forces.sums.grain_pairs > 10);
-    assert_true(forces.sums.touches[OZ_TOUCH_I] > 10);
+    OzContactSums sums = oz_contact_list_sum(&list);
+    assert_true(sums.pairs > 10 && sums.kinds[OZ_CONTACT_I] > 10);
     /* a hundred forces, each exact to 1e-16 of itself, of random signs, at some millimetres */
     assert_true(hypot(sum[0], sum[1]) < 1e-15 * size);
     assert_true(fabs(sum[2]) < 1e-18 * size);
     oz_element_forces_free(&forces);
+    oz_contact_list_free(&list);
+    rig_close(&rig);
+}
+
+/* What a list says acts on every element, about its centre: 3 x free_count, N and N m. */
+static void add_up(const OzContactList *list, const OzElements *p, const double *position,
+                   double *load)
+{
+    memset(load, 0, 3 * (size_t)p->free_count * sizeof *load);
+    for (int64_t i = 0; i < list->count; i++) {
+        const OzContactEntry *e = &list->entry[i];
+        for (int side = 0; side < (e->b < 0 ? 1 : 2); side++) {
+            int64_t part = side ? e->part_b : e->part_a;
+            double on[2], arm[2];
+            for (int k = 0; k < 2; k++) {
+                on[k] = (side ? 1 : -1) * (e->push * e->normal[k] + e->tangential[k]);
+                arm[k] = e->point[k] - position[2 * part + k];
+                load[3 * part + k] += on[k];
+            }
+            load[3 * part + 2] += arm[0] * on[1] - arm[1] * on[0];
+        }
+    }
+}
+
+/* Contacts as data are what the elements feel, with either point of attack. */
+static void test_lists_hold_all_forces(void **state)
+{
+    (void)state;
+    for (int midpoint = 0; midpoint < 2; midpoint++) {
+        ElementRig rig;
+        OzElementForces forces;
+        OzContactList list = {0};
+        double load[3 * 4 * 30];
+        rig_read(&rig, "time: {step: 1e-6, duration: 1}\ntriangles: {force_point: %s}",
+                 midpoint ? "midpoint" : "centroid");
+        scatter(&rig, 30, 8e-3);
+        const OzElements *p = rig.grains.elements;
+        OzElementState now = {p->position, p->angle, p->velocity, p->angular_velocity, 0, false};
+        must(oz_element_forces_create(&forces, &rig.scene, &rig.grains));
+        forces.list = &list;
+        must(oz_element_forces_touch(&forces, &now));
+        add_up(&list, p, p->position, load);
+        double size = 0, worst = 0, worst_torque = 0;
+        for (int64_t i = 0; i < p->free_count; i++) {
+            size = fmax(size, hypot(forces.force[2 * i], forces.force[2 * i + 1]));
+            worst = fmax(worst, hypot(load[3 * i] - forces.force[2 * i],
+                                      load[3 * i + 1] - forces.force[2 * i + 1]));
+            worst_torque = fmax(worst_torque, fabs(load[3 * i + 2] - forces.torque[i]));
+        }
+        assert_true(list.count > 30 && size > 0);
+        /* rounding: of forces, and of places of 8 mm from which arms are differences */
+        assert_true(worst < 1e-14 * size);
+        assert_true(worst_torque < 1e-16 * size);
+        oz_element_forces_free(&forces);
+        oz_contact_list_free(&list);
+        rig_close(&rig);
+    }
+}
+
+static const char mixed_heap[] =
+    "model: trigrains\nseed: 4\nintegrator: velocity-verlet\ntime: {step: 2e-6, duration: 1}\n"
+    "contact: {law: hertz, hertz_stiffness: 1e6, normal_damping_rate: 0,"
+    " tangential_damping_rate: 0}\n"
+    "grains:\n  - {kind: random, count: 8, shape: polygon, corners: [4, 7], radius: 1e-3}\n"
+    "  - {kind: random, count: 4, shape: disc, radius: 1e-3}\n"
+    "walls: [{kind: vessel, width: 10e-3, height: 20e-3, thickness: 4e-3}]\n";
+
+/* Contact forces on every grain, 2 x count. */
+static void push_grains(const OzSnapshot *s, double *force)
+{
+    const OzElements *p = s->grains->elements;
+    double load[3 * 128];
+    assert_true(p->free_count <= 128);
+    add_up(&s->contacts, p, s->element_position, load);
+    memset(force, 0, 2 * (size_t)s->count * sizeof *force);
+    for (int64_t i = 0; i < p->free_count; i++) {
+        force[2 * p->body[i]] += load[3 * i];
+        force[2 * p->body[i] + 1] += load[3 * i + 1];
+    }
+}
+
+/* Newton's second law over a heap of polygons and discs without damping, by velocity-verlet, whose
+ * step takes half the forces at its start and half of those at its end. */
+static void test_contacts_move_grains(void **state)
+{
+    (void)state;
+    enum { COUNT = 12, FIRST = 20000, STEPS = 200 };
+    ElementRig rig = {0};
+    double before[2 * COUNT], now[2 * COUNT], velocity[3 * COUNT], worst = 0, size = 0;
+    must(oz_scene_parse(&rig.scene, "rig.yaml", mixed_heap, NULL, 0));
+    must(oz_insert_grains(&rig.grains, &rig.scene));
+    rig_start(&rig);
+    rig_advance(&rig, FIRST);
+    push_grains(&rig.now, before);
+    for (int64_t step = FIRST + 1; step <= FIRST + STEPS; step++) {
+        memcpy(velocity, rig.now.velocity, sizeof velocity);
+        rig_advance(&rig, step);
+        push_grains(&rig.now, now);
+        for (int64_t i = 0; i < 2 * COUNT; i++) {
+            int64_t at = 3 * (i / 2) + i % 2;
+            double gained = (rig.now.velocity[at] - velocity[at]) / rig.scene.step;
+            double felt = rig.grains.mass[i / 2] * (gained - rig.scene.gravity[i % 2]);
+            worst = fmax(worst, fabs(felt - 0.5 * (before[i] + now[i])));
+            size = fmax(size, fabs(now[i]));
+        }
+        memcpy(before, now, sizeof before);
+    }
+    OzContactSums sums = oz_contact_list_sum(&rig.now.contacts);
+    assert_true(sums.kinds[OZ_CONTACT_I] > 3 && sums.kinds[OZ_CONTACT_DISC] > 0);
+    /* rounding of a velocity of 0.1 m/s, over a step and times 1e-5 kg: 1e-16 N of 0.02 */
+    assert_true(worst < 1e-12 * size);
     rig_close(&rig);
 }
 
@@ -112,14 +226,15 @@ static void test_counts(void **state)
     rig_square(&rig, 1, 2e-3, (double[2]){2.4e-3, 0.1e-3}, pi / 4, rest, 4);
     rig_square(&rig, 2, 2e-3, (double[2]){-2.4e-3, 0.1e-3}, pi / 4, rest, 4);
     rig_start(&rig);
-    assert_int_equal(rig.now.elements.touches[OZ_TOUCH_I], 4);
-    assert_int_equal(rig.now.elements.grain_pairs, 2);
-    assert_int_equal(rig.now.elements.wall_touches, 0);
+    OzContactSums sums = oz_contact_list_sum(&rig.now.contacts);
+    assert_int_equal(sums.kinds[OZ_CONTACT_I], 4);
+    assert_int_equal(sums.pairs, 2);
+    assert_int_equal(sums.walls, 0);
     /* sqrt 2 mm from centre to corner: a right-angled corner of height h has the area h^2 */
     /* its 14 digits leave 3e-12 of h */
     double h = 2.4142135623731e-3 - 2.4e-3;
-    assert_true(fabs(rig.now.elements.overlap_sum / (2 * h * h) - 1) < 2e-11);
-    assert_true(fabs(rig.now.elements.overlap_max / (h * h / 2) - 1) < 2e-11);
+    assert_true(fabs(sums.overlap_sum / (2 * h * h) - 1) < 2e-11);
+    assert_true(fabs(sums.overlap_max / (h * h / 2) - 1) < 2e-11);
     rig_close(&rig);
 }
 
@@ -201,11 +316,11 @@ static void test_walls_go_and_turn(void **state)
     must(oz_elements_set_triangle(p, 1, (double[6]){-0.05, 0, 0, -0.05, 0.05, 0}, 0));
     must(oz_elements_set_triangle(p, 2, (double[6]){0.3, 0.1, 0.31, 0.1, 0.3, 0.13}, 0));
     rig_start(&rig);
-    assert_int_equal(rig.now.elements.wall_touches, 1);
+    assert_int_equal(oz_contact_list_sum(&rig.now.contacts).walls, 1);
     rig_advance(&rig, 99);
-    assert_int_equal(rig.now.elements.wall_touches, 1);
+    assert_int_equal(oz_contact_list_sum(&rig.now.contacts).walls, 1);
     rig_advance(&rig, 101);
-    assert_int_equal(rig.now.elements.wall_touches, 0);
+    assert_int_equal(oz_contact_list_sum(&rig.now.contacts).walls, 0);
     double speed = rig.now.velocity[1], x = p->position[4] - 0.2, y = p->position[5] - 0.1;
     rig_advance(&rig, 1000);
     assert_true(rig.now.velocity[1] == speed);
@@ -312,10 +427,16 @@ static void test_guards(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pairs),        cmocka_unit_test(test_sums),
-        cmocka_unit_test(test_counts),       cmocka_unit_test(test_a_limit_of_ones_own_ends_a_run),
-        cmocka_unit_test(test_moving_floor), cmocka_unit_test(test_walls_go_and_turn),
-        cmocka_unit_test(test_substeps),     cmocka_unit_test(test_guards),
+        cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_sums),
+        cmocka_unit_test(test_lists_hold_all_forces),
+        cmocka_unit_test(test_contacts_move_grains),
+        cmocka_unit_test(test_counts),
+        cmocka_unit_test(test_a_limit_of_ones_own_ends_a_run),
+        cmocka_unit_test(test_moving_floor),
+        cmocka_unit_test(test_walls_go_and_turn),
+        cmocka_unit_test(test_substeps),
+        cmocka_unit_test(test_guards),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,8 +27,10 @@ static void follow(Rig *rig, double *overlap, double *duration)
     *overlap = 0;
     for (int64_t step = 1; step <= last; step++) {
         rig_advance(rig, step);
-        *overlap = fmax(*overlap, rig->now.contacts.overlap_max);
-        touched += rig->now.contacts.pair_count + rig->now.contacts.wall_count > 0;
+        *overlap = fmax(*overlap, oz_contact_list_sum(&rig->now.contacts).overlap_max);
+        touched += oz_contact_list_sum(&rig->now.contacts).pairs +
+                       oz_contact_list_sum(&rig->now.contacts).walls >
+                   0;
     }
     *duration = (double)touched * rig->scene.step;
 }

@@ -1,6 +1,7 @@
 /* Observables against beds written by hand whose answers are known, and series.csv, which holds
  * them. */
 #include "hand_bed.h"
+#include "hand_contacts.h"
 #include "hand_series.h"
 
 #include "base/clock.h"
@@ -224,8 +225,11 @@ static void test_energies(void **state)
     put(&bed, 0, 2e-3, 0.6, 0, 0.8);
     memcpy(bed.snapshot.velocity, (double[]){3, 0, 4}, 3 * sizeof(double));
     memcpy(bed.snapshot.angular_velocity, (double[]){0.6 * 20, 5, 0.8 * 20}, 3 * sizeof(double));
-    bed.snapshot.has_contacts = bed.snapshot.has_ledger = true;
-    bed.snapshot.contacts = (OzContactSums){3, 1, 2e-5, 4e-5};
+    bed.snapshot.has_ledger = true;
+    hand_contact(&bed.snapshot, (OzContactEntry){.a = 0, .b = 1, .overlap = 5e-6});
+    hand_contact(&bed.snapshot, (OzContactEntry){.a = 0, .b = -1, .overlap = 2e-5});
+    hand_contact(&bed.snapshot, (OzContactEntry){.a = 1, .b = 2, .overlap = 5e-6});
+    hand_contact(&bed.snapshot, (OzContactEntry){.a = 0, .b = 2, .overlap = 1e-5});
     double m = *bed.grains.mass, i_axis = *bed.grains.inertia_axis, i_across = *bed.grains.inertia;
     /* nine digits are written */
     assert_near(value_of(&bed, "speed_max"), 5, 1e-8);

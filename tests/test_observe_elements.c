@@ -1,4 +1,5 @@
 /* Observables of flat grains against states written by hand whose answers are known. */
+#include "hand_contacts.h"
 #include "hand_heap.h"
 #include "hand_series.h"
 
@@ -72,15 +73,15 @@ static void residual_counts_every_account(void **state)
     Heap heap;
     heap_create(&heap, 1, 0, 0);
     heap.scene.observe.ledger = true;
-    heap.snapshot.has_contacts = heap.snapshot.has_ledger = true;
+    heap.snapshot.has_ledger = true;
+    hand_contact(&heap.snapshot, (OzContactEntry){.b = -1, .energy = 8e-6});
     heap_put_square(&heap, 0, 0, 0, 2e-3, 0);
     heap_start(&heap);
     OzSeries *series = open_series(&heap);
-    heap.snapshot.elements.contact_energy = 8e-6;
     assert_int_equal(oz_series_write(series, &heap.snapshot), OZ_OK);
     heap.snapshot.time = 0.1;
-    heap.snapshot.elements.contact_energy = 1e-6;
-    heap.snapshot.elements.beam_energy = 2e-6;
+    heap.snapshot.contacts.entry[0].energy = 1e-6;
+    heap.snapshot.beams.energy = 2e-6;
     heap.snapshot.element_ledger = (OzElementLedger){1e-7, 2e-7, 4e-7, 8e-7, 16e-7};
     assert_int_equal(oz_series_write(series, &heap.snapshot), OZ_OK);
     close_series(series);
@@ -119,6 +120,21 @@ static void each_model_has_its_columns(void **state)
     heap_free(&heap);
 }
 
+/* 25 contacts: 7 at the wall, the others of three pairs of grains. Of their overlaps those of
+ * triangles have the sum 4e-8; discs' are lengths and do not count. */
+static void put_contacts(OzSnapshot *snapshot)
+{
+    const int counts[OZ_CONTACT_KINDS] = {0, 12, 1, 2, 3, 0, 2, 5};
+    for (int kind = 0, i = 0; kind < OZ_CONTACT_KINDS; kind++) {
+        for (int k = 0; k < counts[kind]; k++, i++) {
+            OzContactEntry entry = {.a = i % 3, .b = i < 7 ? -1 : i % 3 + 1, .part_a = i};
+            entry.kind = (OzContactKind)kind;
+            entry.overlap = kind == OZ_CONTACT_DISC ? 1 : i == 3 ? 9e-9 : 31e-9 / 19;
+            hand_contact(snapshot, entry);
+        }
+    }
+}
+
 static void contacts_are_counted_by_kind(void **state)
 {
     (void)state;
@@ -129,15 +145,9 @@ static void contacts_are_counted_by_kind(void **state)
     heap_put_disc(&heap, 2, 4e-3, 0, 1e-3);
     heap_put_disc(&heap, 3, 6e-3, 0, 1e-3);
     heap_start(&heap);
-    heap.snapshot.has_contacts = true;
-    heap.snapshot.elements = (OzElementSums){.touches = {12, 1, 2, 3, 0, 2, 5},
-                                             .grain_pairs = 3,
-                                             .wall_touches = 7,
-                                             .overlap_sum = 4e-8,
-                                             .overlap_max = 9e-9,
-                                             .stretch_min = 0.98,
-                                             .stretch_max = 1.01,
-                                             .bend_max = PI / 90};
+    heap.snapshot.beams =
+        (OzBeamSums){.stretch_min = 0.98, .stretch_max = 1.01, .bend_max = PI / 90};
+    put_contacts(&heap.snapshot);
     write_once(&heap);
     assert_near(value_in(1, "touches_i"), 12, 0);
     assert_near(value_in(1, "touches_vi"), 2, 0);
@@ -391,10 +401,10 @@ static OzStatus heat_up(double gain, double lost, bool moving_wall)
     heap_start(&heap);
     heap.wall.motion.present = moving_wall;
     heap.snapshot.has_contacts = true;
-    heap.snapshot.elements.beam_energy = 1e-6;
+    heap.snapshot.beams.energy = 1e-6;
     OzSeries *series = open_series(&heap);
     assert_int_equal(oz_series_write(series, &heap.snapshot), OZ_OK);
-    heap.snapshot.elements.beam_energy += gain;
+    heap.snapshot.beams.energy += gain;
     heap.snapshot.has_ledger = lost > 0;
     heap.snapshot.element_ledger.beam_axial = lost;
     OzStatus status = oz_series_write(series, &heap.snapshot);

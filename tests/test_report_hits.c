@@ -19,8 +19,9 @@ static void look(OzHits *hits, bool touching, double speed)
     double mass[2] = {2, 6};
     double velocity[6] = {speed + 1, -9 * (double)hits->looks, 0, 1, -9 * (double)hits->looks, 0};
     OzGrains grains = {.count = 2, .mass = mass};
+    OzContactEntry entry = {.b = 1};
     OzSnapshot snapshot = {.grains = &grains, .velocity = velocity, .has_contacts = true};
-    snapshot.elements.grain_pairs = touching;
+    snapshot.contacts = (OzContactList){&entry, touching, touching};
     oz_hits_look(hits, &snapshot);
 }
 

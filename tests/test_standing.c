@@ -36,8 +36,8 @@ static OzSnapshot run_bed(const Rig *rig, const OzDevice *device, bool measured)
 {
     OzSim *sim = start_sim(rig, device);
     OzSnapshot there = state_at(rig, sim, MEASURED);
-    assert_true(there.contacts.pair_count > 0);
-    assert_true(there.contacts.wall_count > 0);
+    assert_true(oz_contact_list_sum(&there.contacts).pairs > 0);
+    assert_true(oz_contact_list_sum(&there.contacts).walls > 0);
     if (measured) {
         OzStageTiming phases;
         must(oz_stage_timing_measure(&phases, sim, NULL));

@@ -38,9 +38,9 @@ OzStatus oz_log_create(OzLog **log, FILE *stream, bool waits)
     return OZ_OK;
 }
 
-OzStatus oz_log_open(OzLog *log, const char *path)
+static OzStatus open_file(OzLog *log, const char *path, const char *mode)
 {
-    FILE *file = fopen(path, "w");
+    FILE *file = fopen(path, mode);
     if (!file) {
         return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
     }
@@ -55,6 +55,16 @@ OzStatus oz_log_open(OzLog *log, const char *path)
     log->file = file;
     pthread_mutex_unlock(&log->mutex);
     return OZ_OK;
+}
+
+OzStatus oz_log_open(OzLog *log, const char *path)
+{
+    return open_file(log, path, "w");
+}
+
+OzStatus oz_log_go_on(OzLog *log, const char *path)
+{
+    return open_file(log, path, "a");
 }
 
 void oz_log_free(OzLog *log)

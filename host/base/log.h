@@ -27,6 +27,9 @@ OzStatus oz_log_create(OzLog **log, FILE *stream, bool waits);
  * is closed. */
 OzStatus oz_log_open(OzLog *log, const char *path);
 
+/* The same behind what the file holds already. */
+OzStatus oz_log_go_on(OzLog *log, const char *path);
+
 /* Closes the file. No thread may use the log any more. NULL is allowed. */
 void oz_log_free(OzLog *log);
 

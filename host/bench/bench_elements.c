@@ -25,7 +25,7 @@ typedef struct Result {
     double phase[OZ_ELEMENT_PHASE_COUNT]; /* s a call                                    */
     double refreshes, rebuilds;           /* a step                                      */
     int64_t elements, beams;
-    int64_t touches[OZ_TOUCH_KINDS];
+    int64_t touches[OZ_CONTACT_KINDS];
 } Result;
 
 typedef struct Job {
@@ -70,7 +70,8 @@ static OzStatus count_touches(Job *job)
     OzSnapshot now = {0};
     OZ_TRY(oz_snapshot_create(&now, &job->bed->scene, &job->bed->grains));
     OZ_TRY(oz_read_snapshot_snapshot(job->sim, 0, &now, true));
-    memcpy(job->result->touches, now.elements.touches, sizeof now.elements.touches);
+    OzContactSums sums = oz_contact_list_sum(&now.contacts);
+    memcpy(job->result->touches, sums.kinds, sizeof sums.kinds);
     job->result->elements = job->bed->grains.elements->count;
     job->result->beams = job->bed->grains.elements->beam_count;
 done:
@@ -119,13 +120,13 @@ static void print_row(const char *name, double us, double calls, double step, FI
  * number. */
 static void print_kinds(const Result *result, double us, double step, FILE *text, FILE *csv)
 {
-    static const char *const names[OZ_TOUCH_KINDS] = {
-        "  kind i", "  kind ii", "  kind iii", "  kind iv", "  kind v", "  kind vi", "  discs"};
+    static const char *const names[OZ_CONTACT_KINDS] = {
+        "", "  kind i", "  kind ii", "  kind iii", "  kind iv", "  kind v", "  kind vi", "  discs"};
     double all = 0;
-    for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
+    for (int k = 0; k < OZ_CONTACT_KINDS; k++) {
         all += (double)result->touches[k];
     }
-    for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
+    for (int k = 0; k < OZ_CONTACT_KINDS; k++) {
         if (result->touches[k] > 0) {
             print_row(names[k], us * (double)result->touches[k] / all, 1, step, text, csv);
         }

@@ -57,6 +57,7 @@ void oz_snapshot_free(OzSnapshot *snapshot)
     free(snapshot->element_angle);
     free(snapshot->element_velocity);
     free(snapshot->element_angular_velocity);
+    oz_contact_list_free(&snapshot->contacts);
     memset(snapshot, 0, sizeof *snapshot);
 }
 
@@ -74,7 +75,6 @@ static void copy_elements(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy_words(copy->element_angle, snapshot->element_angle, count);
     copy_words(copy->element_velocity, snapshot->element_velocity, 2 * count);
     copy_words(copy->element_angular_velocity, snapshot->element_angular_velocity, count);
-    copy->elements = snapshot->elements;
     copy->element_ledger = snapshot->element_ledger;
 }
 
@@ -93,8 +93,6 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy->step = snapshot->step;
     copy->time = snapshot->time;
     copy->deep_count = snapshot->deep_count;
-    copy->has_contacts = snapshot->has_contacts;
-    copy->contacts = snapshot->contacts;
     copy->has_ledger = snapshot->has_ledger;
     copy->ledger = snapshot->ledger;
     copy_elements(copy, snapshot);

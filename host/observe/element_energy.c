@@ -37,7 +37,7 @@ double oz_element_energy_potential(const OzSnapshot *snapshot)
 
 double oz_element_energy_stored(const OzSnapshot *snapshot)
 {
-    return snapshot->elements.contact_energy + snapshot->elements.beam_energy;
+    return oz_contact_list_sum(&snapshot->contacts).energy + snapshot->beams.energy;
 }
 
 double oz_element_energy_lost(const OzSnapshot *snapshot)

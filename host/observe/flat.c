@@ -38,66 +38,65 @@ bool oz_flat_spin(const OzObservation *observation, double *value)
 bool oz_flat_contact_number(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
-    *value = 2 * (double)s->elements.grain_pairs / fmax((double)s->count, 1);
+    *value = 2 * (double)observation->contacts.pairs / fmax((double)s->count, 1);
     return s->has_contacts && s->count > 0;
 }
 
 bool oz_flat_wall_touches(const OzObservation *observation, double *value)
 {
-    *value = (double)observation->snapshot->elements.wall_touches;
+    *value = (double)observation->contacts.walls;
     return observation->snapshot->has_contacts;
 }
 
 bool oz_flat_touches(const OzObservation *observation, double *value)
 {
-    *value = (double)observation->snapshot->elements.touches[observation->index];
+    *value = (double)observation->contacts.kinds[observation->index];
     return observation->snapshot->has_contacts;
 }
 
-static double triangle_touches(const OzSnapshot *snapshot)
+static double triangle_touches(const OzContactSums *contacts)
 {
     int64_t sum = 0;
-    for (int k = 0; k < OZ_TOUCH_KINDS; k++) {
-        sum += k == OZ_TOUCH_DISC ? 0 : snapshot->elements.touches[k];
+    for (int k = OZ_CONTACT_I; k <= OZ_CONTACT_VI; k++) {
+        sum += contacts->kinds[k];
     }
     return (double)sum;
 }
 
 bool oz_flat_touch_share(const OzObservation *observation, double *value)
 {
-    const OzSnapshot *s = observation->snapshot;
-    double all = triangle_touches(s);
-    *value = (double)s->elements.touches[observation->index] / fmax(all, 1);
-    return s->has_contacts && all > 0;
+    double all = triangle_touches(&observation->contacts);
+    *value = (double)observation->contacts.kinds[observation->index] / fmax(all, 1);
+    return observation->snapshot->has_contacts && all > 0;
 }
 
 bool oz_flat_overlap_max(const OzObservation *observation, double *value)
 {
-    *value = observation->snapshot->elements.overlap_max;
+    *value = observation->contacts.overlap_max;
     return observation->snapshot->has_contacts;
 }
 
 bool oz_flat_overlap_mean(const OzObservation *observation, double *value)
 {
-    const OzSnapshot *s = observation->snapshot;
-    *value = s->elements.overlap_sum / fmax(triangle_touches(s), 1);
-    return s->has_contacts;
+    const OzContactSums *contacts = &observation->contacts;
+    *value = contacts->overlap_sum / fmax(triangle_touches(contacts), 1);
+    return observation->snapshot->has_contacts;
 }
 
 bool oz_flat_beams(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
-    const double values[] = {s->elements.stretch_min, s->elements.stretch_max,
-                             DEGREES * s->elements.bend_max};
+    const double values[] = {s->beams.stretch_min, s->beams.stretch_max,
+                             DEGREES * s->beams.bend_max};
     *value = values[observation->index];
     return s->has_contacts && s->grains->elements->beam_count > 0;
 }
 
 bool oz_flat_stored(const OzObservation *observation, double *value)
 {
-    const OzElementSums *sums = &observation->snapshot->elements;
-    *value = observation->index == 0 ? sums->contact_energy : sums->beam_energy;
-    return observation->snapshot->has_contacts;
+    const OzSnapshot *s = observation->snapshot;
+    *value = observation->index == 0 ? observation->contacts.energy : s->beams.energy;
+    return s->has_contacts;
 }
 
 bool oz_flat_ledger(const OzObservation *observation, double *value)

@@ -14,7 +14,7 @@ bool oz_flat_spin(const OzObservation *observation, double *value);
 bool oz_flat_contact_number(const OzObservation *observation, double *value);
 bool oz_flat_wall_touches(const OzObservation *observation, double *value);
 
-/* index: OzTouchKind. The share is among contacts of triangles. */
+/* index: OzContactKind. The share is among contacts of triangles. */
 bool oz_flat_touches(const OzObservation *observation, double *value);
 bool oz_flat_touch_share(const OzObservation *observation, double *value);
 

@@ -26,7 +26,7 @@ void oz_hits_look(OzHits *hits, const OzSnapshot *s)
 {
     const double *mass = s->grains->mass, *v = s->velocity;
     double relative[2] = {v[0] - v[3], v[1] - v[4]};
-    bool touching = s->elements.grain_pairs > 0;
+    bool touching = oz_contact_list_sum(&s->contacts).pairs > 0;
     if (hits->touching && !touching) {
         double reduced = mass[0] * mass[1] / (mass[0] + mass[1]);
         keep(hits, reduced * hypot(relative[0] - hits->before[0], relative[1] - hits->before[1]));

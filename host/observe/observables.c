@@ -98,22 +98,20 @@ static bool is_flat(const OzSnapshot *snapshot)
 
 static bool contact_count(const OzObservation *o, double *value)
 {
-    const OzSnapshot *s = o->snapshot;
-    *value = (double)(is_flat(s) ? s->elements.grain_pairs : s->contacts.pair_count);
+    *value = (double)o->contacts.pairs;
     return o->snapshot->has_contacts;
 }
 
 static bool overlap_max(const OzObservation *o, double *value)
 {
-    *value = o->snapshot->contacts.overlap_max;
+    *value = o->contacts.overlap_max;
     return o->snapshot->has_contacts;
 }
 
 static bool overlap_mean(const OzObservation *o, double *value)
 {
-    const OzContactSums *sums = &o->snapshot->contacts;
-    int64_t count = sums->pair_count + sums->wall_count;
-    *value = count > 0 ? sums->overlap_sum / (double)count : 0;
+    int64_t count = o->contacts.pairs + o->contacts.walls;
+    *value = count > 0 ? o->contacts.overlap_sum / (double)count : 0;
     return o->snapshot->has_contacts;
 }
 
@@ -292,24 +290,24 @@ static const OzColumn list[] = {
      oz_flat_contact_number, 0},
     {"wall_touches", "1", "contacts of elements with walls", FLAT, ALWAYS, true, oz_flat_wall_touches, 0},
     {"touches_i", "1", "contacts of triangles, kind i: two crossings on one edge", FLAT, ALWAYS, true,
-     oz_flat_touches, OZ_TOUCH_I},
+     oz_flat_touches, OZ_CONTACT_I},
     {"touches_ii", "1", "two crossings on different edges of both", FLAT, ALWAYS, true,
-     oz_flat_touches, OZ_TOUCH_II},
+     oz_flat_touches, OZ_CONTACT_II},
     {"touches_iii", "1", "four crossings, two on each of two edges of both", FLAT, ALWAYS, true,
-     oz_flat_touches, OZ_TOUCH_III},
+     oz_flat_touches, OZ_CONTACT_III},
     {"touches_iv", "1", "four crossings, one triangle cut on all edges", FLAT, ALWAYS, true,
-     oz_flat_touches, OZ_TOUCH_IV},
-    {"touches_v", "1", "six crossings", FLAT, ALWAYS, true, oz_flat_touches, OZ_TOUCH_V},
+     oz_flat_touches, OZ_CONTACT_IV},
+    {"touches_v", "1", "six crossings", FLAT, ALWAYS, true, oz_flat_touches, OZ_CONTACT_V},
     {"touches_vi", "1", "four crossings, both triangles cut on all edges", FLAT, ALWAYS, true,
-     oz_flat_touches, OZ_TOUCH_VI},
-    {"touches_disc", "1", "contacts of discs", FLAT, ALWAYS, true, oz_flat_touches, OZ_TOUCH_DISC},
+     oz_flat_touches, OZ_CONTACT_VI},
+    {"touches_disc", "1", "contacts of discs", FLAT, ALWAYS, true, oz_flat_touches, OZ_CONTACT_DISC},
     {"share_i", "1", "kind i among the contacts of triangles; empty without any", FLAT, ALWAYS, false,
-     oz_flat_touch_share, OZ_TOUCH_I},
-    {"share_ii", "1", "the same, kind ii", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_II},
-    {"share_iii", "1", "the same, kind iii", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_III},
-    {"share_iv", "1", "the same, kind iv", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_IV},
-    {"share_v", "1", "the same, kind v", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_V},
-    {"share_vi", "1", "the same, kind vi", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_TOUCH_VI},
+     oz_flat_touch_share, OZ_CONTACT_I},
+    {"share_ii", "1", "the same, kind ii", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_CONTACT_II},
+    {"share_iii", "1", "the same, kind iii", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_CONTACT_III},
+    {"share_iv", "1", "the same, kind iv", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_CONTACT_IV},
+    {"share_v", "1", "the same, kind v", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_CONTACT_V},
+    {"share_vi", "1", "the same, kind vi", FLAT, ALWAYS, false, oz_flat_touch_share, OZ_CONTACT_VI},
     {"overlap_area_max", "m^2", "largest overlap of triangles", FLAT, ALWAYS, false,
      oz_flat_overlap_max, 0},
     {"overlap_area_mean", "m^2", "mean overlap of triangles; 0 when none touch", FLAT, ALWAYS, false,

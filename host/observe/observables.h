@@ -30,6 +30,7 @@ typedef struct OzObservation {
     const OzSnapshot *snapshot;
     const OzFlow *flow; /* of flat grains, the snapshot seen */
     int index;          /* of the column asked for                */
+    OzContactSums contacts;
     OzLayer layers[OZ_MEASURE_LAYERS];
     bool has_mean[OZ_TAP_MEANS];
     double mean[OZ_TAP_MEANS]; /* tap means, by the series                  */

@@ -43,6 +43,7 @@ OzSchedule oz_schedule_create(const OzScene *scene, double until)
                                    : 0;
     s.frame = frame_interval(scene, duration);
     s.strobe = scene->snapshots.strobe;
+    s.checkpoint = scene->checkpoint.interval_taps * scene->period;
     return s;
 }
 
@@ -94,6 +95,26 @@ static int64_t snapshot_step(const OzSchedule *s)
                : INT64_MAX;
 }
 
+static int64_t kept_step(const OzSchedule *s)
+{
+    const OzCheckpoints *kept = &s->scene->checkpoint;
+    return s->kept < kept->count ? oz_step_clock_nearest(&s->clock, kept->times[s->kept])
+                                 : INT64_MAX;
+}
+
+/* Counts states to be kept that are due by a step; those by interval begin after the start. */
+static bool pass_checkpoints(OzSchedule *s, int64_t step)
+{
+    bool any = false;
+    for (; step_of(s, s->checkpoint, s->checkpoints + 1) <= step; s->checkpoints++) {
+        any = true;
+    }
+    for (; kept_step(s) <= step; s->kept++) {
+        any = true;
+    }
+    return any;
+}
+
 /* Counts rows and samples that are due by a step, likewise. */
 static bool pass_rows(OzSchedule *s, int64_t step)
 {
@@ -119,6 +140,8 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     next = earlier(next, step_of(s, s->frame, s->frames));
     next = earlier(next, step_of(s, s->strobe, s->strobes));
     next = earlier(next, snapshot_step(s));
+    next = earlier(next, step_of(s, s->checkpoint, s->checkpoints + 1));
+    next = earlier(next, kept_step(s));
     if (s->over) {
         return false;
     }
@@ -130,6 +153,7 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     *due |= pass_samples(s, next) ? OZ_DUE_SAMPLE : 0;
     *due |= pass(s, s->frame, &s->frames, next) ? OZ_DUE_MOVIE : 0;
     *due |= pass(s, s->strobe, &s->strobes, next) ? OZ_DUE_STROBE : 0;
+    *due |= pass_checkpoints(s, next) ? OZ_DUE_CHECKPOINT : 0;
     while (snapshot_step(s) <= next) {
         *due |= OZ_DUE_SNAPSHOT;
         s->snapshots++;
@@ -166,29 +190,38 @@ bool oz_schedule_missed(const OzSchedule *s, char *text, size_t size)
     return missed > 0;
 }
 
+static bool same(const double *a, int a_count, const double *b, int b_count)
+{
+    return a_count == b_count && (a_count == 0 || memcmp(a, b, (size_t)a_count * sizeof *a) == 0);
+}
+
 bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
 {
-    const OzSnapshotSettings *x = &a->scene->snapshots, *y = &b->scene->snapshots;
+    const OzScene *x = a->scene, *y = b->scene;
     return a->last_step == b->last_step && a->row == b->row && a->sample == b->sample &&
            a->phase == b->phase && a->frame == b->frame && a->strobe == b->strobe &&
-           x->count == y->count &&
-           (x->count == 0 || memcmp(x->times, y->times, (size_t)x->count * sizeof *x->times) == 0);
+           a->checkpoint == b->checkpoint &&
+           same(x->snapshots.times, x->snapshots.count, y->snapshots.times, y->snapshots.count) &&
+           same(x->checkpoint.times, x->checkpoint.count, y->checkpoint.times, y->checkpoint.count);
 }
 
 OzStatus oz_schedule_state(OzSchedule *s, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
-    int64_t snapshots = s->snapshots;
-    OZ_TRY(oz_state_enter(visit, "schedule", 1));
+    int64_t snapshots = s->snapshots, kept = s->kept;
+    OZ_TRY(oz_state_enter(visit, "schedule", 2));
     OZ_TRY(oz_step_clock_state(&s->clock, visit, "clock"));
     OZ_TRY(oz_state_index(visit, "rows", &s->rows, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "samples", &s->samples, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "frames", &s->frames, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "strobes", &s->strobes, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "snapshots", &snapshots, 0, s->scene->snapshots.count));
-    OZ_TRY(oz_state_bool(visit, "over", &s->over));
+    OZ_TRY(oz_state_index(visit, "checkpoints", &s->checkpoints, 0, INT64_MAX - 1));
+    OZ_TRY(oz_state_index(visit, "kept", &kept, 0, INT64_MAX));
+    OZ_TRY(oz_state_double(visit, "frame", "s between frames", &s->frame, 1));
     oz_state_leave(visit);
     s->snapshots = (int)snapshots;
+    s->kept = (int)earlier(kept, s->scene->checkpoint.count);
 done:
     return status;
 }

@@ -15,18 +15,20 @@ enum {
     OZ_DUE_SAMPLE = 2,
     OZ_DUE_MOVIE = 4,
     OZ_DUE_SNAPSHOT = 8,
-    OZ_DUE_STROBE = 16
+    OZ_DUE_STROBE = 16,
+    OZ_DUE_CHECKPOINT = 32 /* a state to be kept */
 };
 
 typedef struct OzSchedule {
     const OzScene *scene; /* borrowed */
     OzStepClock clock;    /* of the simulation */
     int64_t last_step;
-    double row, sample, frame, strobe; /* s between events; 0: there are none */
+    double row, sample, frame, strobe, checkpoint; /* s between events; 0: there are none */
     double phase; /* s after whole periods: rows and samples at observe.at; 0: at whole ones too */
     bool over;    /* the last step has been given                                   */
-    int64_t rows, samples, frames, strobes; /* events of each kind that have been due */
-    int snapshots;
+    int64_t rows, samples, frames, strobes,
+        checkpoints;     /* events of each kind that have been due */
+    int snapshots, kept; /* the same of those at moments of their own */
 } OzSchedule;
 
 /* The schedule of a scene, ending at the time `until` if that is earlier (negative: not given). Row
@@ -47,5 +49,7 @@ bool oz_schedule_missed(const OzSchedule *schedule, char *text, size_t size);
 /* Whether two schedules have their events at the same times. */
 bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b);
 
-/* Saves or loads (base/state.h) which events have been due. */
+/* Saves or loads (base/state.h) which events have been due, and how far frames of the movie are
+ * apart: a run that is made longer keeps that. The end is not of it: a schedule that loads has its
+ * own. */
 OzStatus oz_schedule_state(OzSchedule *schedule, OzStateVisit *visit);

@@ -172,6 +172,7 @@ static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
 {
     OzObservation observation = {
         .measure = &series->measure, .snapshot = snapshot, .flow = &series->flow};
+    observation.contacts = oz_contact_list_sum(&snapshot->contacts);
     oz_measure_layers(&series->measure, snapshot, observation.layers);
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         observation.has_mean[k] = ring_mean(&series->mean[k], &observation.mean[k]);

@@ -46,7 +46,7 @@ static OzStatus press(OzElementForces *forces, const OzElements *elements, const
     OZ_PASS(oz_element_forces_evaluate(forces, &state));
     load[0] = forces->force[3];
     load[1] = forces->torque[1];
-    *stored = fmax(*stored, forces->sums.contact_energy);
+    *stored = fmax(*stored, oz_contact_list_sum(forces->list).energy);
     return OZ_OK;
 }
 
@@ -71,17 +71,20 @@ OzStatus oz_report_midpoint_loop(double *share, OzForcePoint point)
     OzScene scene = {0};
     OzGrains grains = {0};
     OzElementForces forces = {0};
+    OzContactList list = {0};
     double work = 0, stored = 0;
     OZ_TRY(oz_scene_parse(&scene, "loop", loop_scene, NULL, 0));
     scene.triangles.force_point = point;
     OZ_TRY(oz_insert_grains(&grains, &scene));
     OZ_TRY(oz_element_forces_create(&forces, &scene, &grains));
+    forces.list = &list;
     for (int leg = 0; leg < LEGS; leg++) {
         OZ_TRY(walk_leg(&forces, grains.elements, leg, &work, &stored));
     }
     *share = work / stored;
 done:
     oz_element_forces_free(&forces);
+    oz_contact_list_free(&list);
     oz_grains_free(&grains);
     oz_scene_free(&scene);
     return status;

@@ -138,9 +138,7 @@ static OzStatus look(Worker *worker, OzSim *sim, OzSnapshot *now, int k)
     size_t words = 3 * (size_t)now->count;
     OZ_PASS(oz_read_snapshot_snapshot(sim, 0, now, true));
     memcpy(worker->place + (size_t)k * words, now->position, words * sizeof(double));
-    worker->touched |= now->contacts.pair_count + now->contacts.wall_count +
-                           now->elements.grain_pairs + now->elements.wall_touches >
-                       0;
+    worker->touched |= now->contacts.count > 0;
     return OZ_OK;
 }
 

@@ -111,10 +111,10 @@ static void take_state(OzGrains *grains, const OzSnapshot *now)
 }
 
 /* Touching pairs and touches of walls. */
-static int64_t touches_of(const OzReportStart *start, const OzSnapshot *now)
+static int64_t touches_of(const OzSnapshot *now)
 {
-    return start->is_flat ? now->elements.grain_pairs + now->elements.wall_touches
-                          : now->contacts.pair_count + now->contacts.wall_count;
+    OzContactSums sums = oz_contact_list_sum(&now->contacts);
+    return sums.pairs + sums.walls;
 }
 
 /* Whether time 0 can be put anywhere in the run, at whole periods. */
@@ -140,7 +140,7 @@ static OzStatus warm(OzReportStart *start, OzSim *sim, OzSnapshot *now, double d
         element = scene->period * fmax(1, floor(element / scene->period));
     }
     element = fmax(element, scene->step);
-    while (touches_of(start, now) * 2 < now->count && time + element <= scene->duration / 2 &&
+    while (touches_of(now) * 2 < now->count && time + element <= scene->duration / 2 &&
            oz_clock_now() < deadline) {
         time += element;
         OZ_PASS(oz_sim_advance(sim, oz_step_clock_nearest(oz_sim_clock(sim), time)));
@@ -203,7 +203,7 @@ static OzStatus prepare(OzReportStart *start, OzSnapshot *now, const OzOptions *
             OZ_TRY(warm(start, sim, now, deadline));
         }
     }
-    start->touches = touches_of(start, now) > 0;
+    start->touches = touches_of(now) > 0;
     OZ_TRY(time_steps(start, sim));
 done:
     oz_sim_free(sim);

@@ -20,6 +20,10 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "final.csv.part",
                                          "movie.mp4",
                                          "movie.mp4.part",
+                                         "state*.h5",
+                                         "state*.h5.part",
+                                         "state*.h5.previous",
+                                         "checkpoints/*.h5*",
                                          "movie.mp4.new",
                                          "members.csv",
                                          "members.csv.part",
@@ -45,28 +49,25 @@ OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const
 }
 
 /* The path of a file that is about to be made there; part: under another name first. */
-static OzStatus claim(char **path, const OzOutputs *outputs, const char *name, const char *part)
+static OzStatus claim(char **path, const char *folder, const char *name, const char *part)
 {
-    OZ_PASS(oz_file_join(path, outputs->folder, name));
-    OZ_PASS(oz_folder_note(outputs->folder, name));
-    if (part) {
-        OZ_PASS(oz_folder_note(outputs->folder, part));
-    }
-    return OZ_OK;
+    OZ_PASS(oz_file_join(path, folder, name));
+    OZ_PASS(oz_folder_note(folder, name));
+    return part ? oz_folder_note(folder, part) : OZ_OK;
 }
 
-static OzStatus write_scene(const OzOutputs *outputs)
+OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder)
 {
     OzStatus status = OZ_OK;
     char *path = NULL;
     FILE *file = NULL;
-    OZ_TRY(claim(&path, outputs, "scene.yaml", NULL));
+    OZ_TRY(claim(&path, folder, "scene.yaml", NULL));
     file = fopen(path, "w");
     if (!file) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
         goto done;
     }
-    OZ_TRY(oz_scene_write(&outputs->scene, file));
+    OZ_TRY(oz_scene_write(scene, file));
 done:
     if (file && fclose(file) != 0 && status == OZ_OK) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
@@ -88,19 +89,20 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     if (outputs->name &&
         outputs->name[0]) { /* a plain run's folder is chosen, with its log in it */
         OzFolderUse use = oz_outputs_use(options->overwrite);
+        use.keep = outputs->goes_on;
         OZ_TRY(oz_folder_open(&outputs->owned, outputs->folder, &use));
     }
     OZ_TRY(oz_snapshot_create(&outputs->now, scene, grains));
     if (!outputs->goes_on) {
-        OZ_TRY(write_scene(outputs));
+        OZ_TRY(oz_outputs_write_scene(scene, outputs->folder));
     }
-    OZ_TRY(claim(&outputs->final, outputs, "final.csv", "final.csv.part"));
+    OZ_TRY(claim(&outputs->final, outputs->folder, "final.csv", "final.csv.part"));
     OZ_TRY(oz_final_reserve(grains, outputs->final));
-    OZ_TRY(claim(&series, outputs, "series.csv", NULL));
+    OZ_TRY(claim(&series, outputs->folder, "series.csv", NULL));
     OZ_TRY((outputs->goes_on ? oz_series_go_on : oz_series_create)(&outputs->series, series, scene,
                                                                    grains));
     if (pictures) {
-        OZ_TRY(claim(&frames, outputs, "frames.bin", NULL));
+        OZ_TRY(claim(&frames, outputs->folder, "frames.bin", NULL));
         OZ_TRY((outputs->goes_on ? oz_frames_go_on : oz_frames_create)(&outputs->frames, frames,
                                                                        scene, grains));
     }
@@ -153,7 +155,7 @@ OzStatus oz_outputs_write_final(OzOutputs *outputs)
     char *spectrum = NULL;
     OZ_TRY(oz_final_write(&outputs->now, outputs->final));
     if (oz_series_has_spectrum(outputs->series)) { /* a name is noted only for a file that comes */
-        OZ_TRY(claim(&spectrum, outputs, "inclination_spectrum.csv", NULL));
+        OZ_TRY(claim(&spectrum, outputs->folder, "inclination_spectrum.csv", NULL));
         OZ_TRY(oz_series_write_spectrum(outputs->series, spectrum));
     }
 done:
@@ -165,8 +167,11 @@ OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
     bool is_open = o->is_open;
-    OZ_TRY(oz_state_enter(visit, "outputs", 1));
+    int outcome = (int)o->outcome, loss = (int)o->loss;
+    OZ_TRY(oz_state_enter(visit, "outputs", 2));
     OZ_TRY(oz_state_bool(visit, "is_open", &is_open));
+    OZ_TRY(oz_state_int(visit, "outcome", "none", &outcome));
+    OZ_TRY(oz_state_int(visit, "loss", "none", &loss));
 #define VISIT(type, member, state, close)                                                          \
     if (is_open && o->member) {                                                                    \
         OZ_TRY(state);                                                                             \
@@ -174,6 +179,8 @@ OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
     OZ_OUTPUTS_OWNERS(VISIT)
 #undef VISIT
     oz_state_leave(visit);
+    o->outcome = (OzOutcome)outcome;
+    o->loss = (OzStatus)loss;
     if (o->is_open && !is_open) {
         OZ_TRY(oz_outputs_close(o));
     }

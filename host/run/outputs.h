@@ -62,6 +62,9 @@ OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
                          OzRenderQueue *render_queue);
 
+/* A scene as the scene.yaml of a folder. */
+OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder);
+
 /* Saves or loads (base/state.h) all that later rows and pictures depend on, and whether the member
  * is open; loading closes one that was not. */
 OzStatus oz_outputs_state(OzOutputs *outputs, OzStateVisit *visit);

@@ -36,11 +36,8 @@ done:
 OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "worker", 1));
-    OZ_TRY(oz_schedule_state(&worker->schedule, visit));
-    OZ_TRY(oz_state_int64(visit, "event_step", "step", &worker->event_step));
-    OZ_TRY(oz_state_int(visit, "event_due", "bits, OZ_DUE_", &worker->event_due));
-    OZ_TRY(oz_state_bool(visit, "is_due", &worker->is_due));
+    OZ_TRY(oz_state_enter(visit, "worker", 2));
+    OZ_TRY(oz_schedule_state(worker->is_due ? &worker->before : &worker->schedule, visit));
     OZ_TRY(oz_sim_state_visit(worker->sim, visit));
     for (int64_t m = 0; m < worker->member_count; m++) {
         oz_state_enter_one(visit, "member", m);
@@ -49,6 +46,40 @@ OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit)
     }
     oz_state_leave(visit);
 done:
+    return status;
+}
+
+static OzStatus check_taken(const OzWorker *worker, const char *device)
+{
+    int64_t step = oz_sim_step(worker->sim), last = worker->schedule.last_step;
+    if (strcmp(device, worker->device.name) != 0) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "the state was made by %s and this is %s; expected the same device",
+                              device, worker->device.name);
+    }
+    if (step > last) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "the run is at %.9g s already (step %lld), beyond the end asked for, "
+                              "%.9g s; expected a later one (--until, --set time.duration)",
+                              oz_sim_time(worker->sim), (long long)step,
+                              oz_step_clock_time(&worker->schedule.clock, last));
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_worker_take(OzWorker *worker, OzState *state, const char *device)
+{
+    OzStatus status = OZ_OK;
+    OzCheckpointHead head = {0};
+    OzStateVisit visit = oz_state_load(state);
+    worker->goes_on = true;
+    OZ_TRY(oz_checkpoint_head_state(&head, &visit));
+    OZ_TRY(oz_worker_state(worker, &visit));
+    OZ_TRY(oz_state_finish(&visit));
+    OZ_TRY(check_taken(worker, device));
+done:
+    oz_checkpoint_head_free(&head);
+    oz_state_free(state);
     return status;
 }
 
@@ -182,11 +213,47 @@ static OzStatus launch(OzWorker *worker, int64_t step, double *shown)
     return status;
 }
 
-static bool next_event(OzWorker *worker)
+bool oz_worker_next_event(OzWorker *worker)
 {
-    worker->is_due = worker->is_due ||
-                     oz_schedule_next(&worker->schedule, &worker->event_step, &worker->event_due);
+    if (!worker->is_due) {
+        worker->before = worker->schedule;
+        worker->is_due =
+            oz_schedule_next(&worker->schedule, &worker->event_step, &worker->event_due);
+    }
     return worker->is_due;
+}
+
+/* The state into its file; kept: another one, which later ones do not replace. */
+static OzStatus save(OzWorker *worker, bool kept)
+{
+    OzState state = {0};
+    OzStateVisit visit = oz_state_save(&state);
+    OzCheckpointHead *head = &worker->checkpoint->head;
+    head->step = oz_sim_step(worker->sim);
+    head->time = oz_sim_time(worker->sim);
+    OzStatus status = oz_checkpoint_head_state(head, &visit);
+    status = status == OZ_OK ? oz_worker_state(worker, &visit) : status;
+    status = status == OZ_OK ? oz_checkpoint_write(worker->checkpoint, &state, kept) : status;
+    oz_state_free(&state);
+    return status;
+}
+
+static OzStatus save_if_due(OzWorker *worker)
+{
+    bool due = worker->checkpoint && oz_checkpoint_is_due(worker->checkpoint);
+    return due ? save(worker, false) : OZ_OK;
+}
+
+/* What cannot be kept is said and costs nothing else. The failure text stays what it was. */
+static void save_at_end(OzWorker *worker)
+{
+    char text[sizeof worker->text];
+    snprintf(text, sizeof text, "%s", oz_status_text());
+    bool wanted = worker->checkpoint && worker->checkpoint->every > 0;
+    if (wanted && save(worker, false) != OZ_OK) {
+        oz_log_line("warning: the state at the end is not kept: %s", oz_status_text());
+    }
+    oz_status_fail(OZ_OK, "%s", text);
 }
 
 static OzStatus walk(OzWorker *worker)
@@ -198,14 +265,24 @@ static OzStatus walk(OzWorker *worker)
     if (worker->leads) {
         oz_log_line("first step %.2f s after start", worker->first_step - worker->started);
     }
-    while (open > 0 && next_event(worker)) {
+    while (open > 0 && oz_worker_next_event(worker)) {
         while (oz_sim_step(worker->sim) < worker->event_step) {
             OZ_TRY(launch(worker, worker->event_step, &shown));
+            OZ_TRY(save_if_due(worker));
+        }
+        if (worker->checkpoint && worker->event_due & OZ_DUE_CHECKPOINT) {
+            OZ_TRY(save(worker, true));
+        }
+        if (worker->schedule.over) {
+            save_at_end(worker);
         }
         OZ_TRY(look(worker, worker->event_due, &open));
         worker->is_due = false;
     }
 done:
+    if (status == OZ_ERR_INTERRUPTED) {
+        save_at_end(worker);
+    }
     worker->spent = oz_clock_now() - worker->first_step;
     oz_log_progress(" ");
     return status;
@@ -254,8 +331,8 @@ static void end_all(OzWorker *worker, OzStatus *status)
 
 static void run_one(OzWorker *worker)
 {
-    OzStatus status = settle(worker);
-    status = status == OZ_OK ? tell_contacts(worker) : status;
+    OzStatus status = worker->goes_on ? OZ_OK : settle(worker);
+    status = status == OZ_OK && !worker->goes_on ? tell_contacts(worker) : status;
     status = status == OZ_OK ? walk(worker) : status;
     end_all(worker, &status);
     /* All its members were stopped: others may do better. */

@@ -5,6 +5,7 @@
 
 #include "base/stage.h"
 #include "observe/schedule.h"
+#include "run/checkpoint.h"
 #include "run/outputs.h"
 #include "sim/sim.h"
 
@@ -15,15 +16,18 @@
 typedef struct OzWorker {
     OzOutputs **members; /* borrowed; they fit together (oz_batch_fit_agrees)           */
     int64_t member_count;
-    OzSchedule schedule; /* of all of them                                        */
-    int64_t event_step;  /* of the event that is next, or that has been looked at last */
-    int event_due;       /* and what is due there                                      */
-    bool is_due;         /* it has not been looked at yet                              */
-    bool is_ensemble;    /* a member that fails leaves the others alone           */
-    bool leads;          /* shows progress                                        */
-    double started;      /* wall clock, of the program                            */
-    atomic_bool *ended;  /* shared: a worker that failed ends the others          */
-    OzDevice device;     /* a branch                                              */
+    OzSchedule schedule;      /* of all of them                                        */
+    OzSchedule before;        /* the same without the event that is next                    */
+    int64_t event_step;       /* of the event that is next, or that has been looked at last */
+    int event_due;            /* and what is due there                                      */
+    bool is_due;              /* it has not been looked at yet                              */
+    bool goes_on;             /* it has loaded a state: there is nothing to settle          */
+    OzCheckpoint *checkpoint; /* borrowed: where its states go; NULL: it leaves none   */
+    bool is_ensemble;         /* a member that fails leaves the others alone           */
+    bool leads;               /* shows progress                                        */
+    double started;           /* wall clock, of the program                            */
+    atomic_bool *ended;       /* shared: a worker that failed ends the others          */
+    OzDevice device;          /* a branch                                              */
     OzSim *sim;
     OzStage stage;            /* in hand, of the worker that leads                     */
     double first_step, spent; /* wall clock; from the first step to the last      */
@@ -40,9 +44,16 @@ OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *so
 OzStatus oz_worker_run(OzWorker *workers, int count);
 
 /* Saves or loads (base/state.h), between launches and not while members are looked at, all that the
- * rest of the run depends on. Opened and not run yet, a worker that has loaded goes on from there.
- */
+ * rest of the run depends on. The event that is next belongs to the rest, so that a run which has
+ * loaded may end elsewhere. Opened and not run yet, a worker that has loaded goes on from there. */
 OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit);
+
+/* Loads the state of a file (run/checkpoint.h), which this device must have made, and frees it. The
+ * run must not end before it. */
+OzStatus oz_worker_take(OzWorker *worker, OzState *state, const char *device);
+
+/* Takes the schedule's next event in hand, unless there is one; false at the end. */
+bool oz_worker_next_event(OzWorker *worker);
 
 /* Frees the simulation. */
 void oz_worker_close(OzWorker *worker);

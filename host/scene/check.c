@@ -135,23 +135,35 @@ static int sort_unique(double *numbers, int count)
     return kept;
 }
 
-static OzStatus derive_snapshots(Checker *checker)
+/* Moments in order, each once; those written in taps become the times. */
+static OzStatus derive_moments(Checker *checker, const char *key, double *taps, int *tap_count,
+                               double **times, int *count)
 {
-    OzSnapshotSettings *snapshots = &checker->scene->snapshots;
-    snapshots->tap_count = sort_unique(snapshots->taps, snapshots->tap_count);
-    snapshots->count = sort_unique(snapshots->times, snapshots->count);
-    if (!check_taps(checker, "snapshots.taps") || snapshots->tap_count == 0) {
+    *tap_count = sort_unique(taps, *tap_count);
+    *count = sort_unique(*times, *count);
+    if (!check_taps(checker, key) || *tap_count == 0) {
         return OZ_OK;
     }
-    free(snapshots->times);
-    snapshots->times = NULL;
-    snapshots->count = 0;
-    OZ_PASS(OZ_NEW(&snapshots->times, snapshots->tap_count));
-    snapshots->count = snapshots->tap_count;
-    for (int i = 0; i < snapshots->count; i++) {
-        snapshots->times[i] = snapshots->taps[i] * checker->scene->period;
+    free(*times);
+    *times = NULL;
+    *count = 0;
+    OZ_PASS(OZ_NEW(times, *tap_count));
+    *count = *tap_count;
+    for (int i = 0; i < *count; i++) {
+        (*times)[i] = taps[i] * checker->scene->period;
     }
     return OZ_OK;
+}
+
+static OzStatus derive_snapshots(Checker *checker)
+{
+    OzSnapshotSettings *shots = &checker->scene->snapshots;
+    OzCheckpoints *kept = &checker->scene->checkpoint;
+    OZ_PASS(derive_moments(checker, "snapshots.taps", shots->taps, &shots->tap_count, &shots->times,
+                           &shots->count));
+    check_taps(checker, "checkpoint.interval_taps");
+    return derive_moments(checker, "checkpoint.taps", kept->taps, &kept->tap_count, &kept->times,
+                          &kept->count);
 }
 
 static void derive_populations(Checker *checker)

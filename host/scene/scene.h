@@ -236,6 +236,17 @@ typedef struct OzSnapshotSettings {
     OzColour colour;
 } OzSnapshotSettings;
 
+/* When a run's state is put into a file. */
+typedef struct OzCheckpoints {
+    double every; /* s of wall time between states that replace each other, and at each ending; 0:
+                     none */
+    double interval_taps; /* periods between states that are kept; 0: none          */
+    double *taps;         /* of states that are kept, as written, ascending, or NULL */
+    int tap_count;
+    double *times; /* s, of states that are kept, ascending; taps are converted */
+    int count;
+} OzCheckpoints;
+
 /* One key that takes several values. */
 typedef struct OzSweepKey {
     char *path;    /* "contact.friction"               */
@@ -285,6 +296,7 @@ typedef struct OzScene {
     OzObserve observe;
     OzMovieSettings movie;
     OzSnapshotSettings snapshots;
+    OzCheckpoints checkpoint;
     OzSweep sweep;
 } OzScene;
 

@@ -2,8 +2,8 @@
 #include "sim/advice.h"
 
 #include "model/predict.h"
+#include "sim/contacts.h"
 #include "sim/stiffness.h"
-#include "sim/touch.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ static const double STEPS_PER_CONTACT = 30;
 
 /* The deepest contact of a grain, and what pushes. */
 typedef struct Press {
-    OzTouchLast contact;
+    OzContactEntry contact;
     double share;    /* overlap in units of kernels/depth.h                    */
     int wall;        /* scene index, -1: with another grain                    */
     int touching;    /* contacts of the grain                                  */
@@ -47,45 +47,39 @@ static bool blame_step(char *text, size_t size, const OzSnapshot *now)
     return !isinf(stable);
 }
 
-/* Takes the contact that was added last if it is deeper. unit: m. */
-static void take(Press *press, const OzTouch *touch, double unit, int wall)
+static OzStatus find(OzContactList *list, const OzSnapshot *now, int64_t grain)
 {
-    double share = touch->last.overlap / unit;
-    press->touching++;
-    if (share > press->share) {
-        press->share = share;
-        press->contact = touch->last;
-        press->wall = wall;
-    }
-}
-
-static void press_by_grains(Press *press, OzTouch *touch, int64_t grain)
-{
-    const OzGrains *g = touch->snapshot->grains;
-    for (int64_t other = 0; other < g->count; other++) {
-        int64_t before = touch->contacts.pair_count;
+    OzContacts contacts;
+    OZ_PASS(oz_contacts_begin(&contacts, now, list));
+    for (int64_t other = 0; other < now->count; other++) {
         if (other != grain) {
-            oz_touch_pair(touch, grain, other, NULL);
-        }
-        if (touch->contacts.pair_count > before) {
-            take(press, touch, fmin(g->diameter[grain], g->diameter[other]) / 2, -1);
-            press->heaviest = fmax(press->heaviest, g->mass[other]);
+            OZ_PASS(oz_contacts_pair(&contacts, grain, other, NULL));
         }
     }
+    for (int at = 0; at < contacts.physics.wall_count * contacts.physics.ends; at++) {
+        int ends = contacts.physics.ends;
+        OZ_PASS(oz_contacts_wall(&contacts, grain, at / ends, at % ends, NULL));
+    }
+    return OZ_OK;
 }
 
-static void press_by_walls(Press *press, OzTouch *touch, int64_t grain)
+/* The deepest of a grain's contacts. */
+static Press press_of(const OzContactList *list, const OzGrains *g, int64_t grain)
 {
-    const OzGrains *g = touch->snapshot->grains;
-    for (int wall = 0; wall < touch->physics.wall_count; wall++) {
-        for (int end = 0; end < touch->physics.ends; end++) {
-            int64_t before = touch->contacts.wall_count;
-            oz_touch_wall(touch, grain, wall, end, NULL);
-            if (touch->contacts.wall_count > before) {
-                take(press, touch, g->diameter[grain] / 4, touch->physics.wall_order[wall]);
-            }
+    Press press = {.wall = -1, .heaviest = g->mass[grain], .touching = (int)list->count};
+    for (int64_t i = 0; i < list->count; i++) {
+        const OzContactEntry *e = &list->entry[i];
+        int64_t other = e->a == grain ? e->b : e->a;
+        double unit =
+            other < 0 ? g->diameter[grain] / 4 : fmin(g->diameter[grain], g->diameter[other]) / 2;
+        press.heaviest = other < 0 ? press.heaviest : fmax(press.heaviest, g->mass[other]);
+        if (e->overlap / unit > press.share) {
+            press.share = e->overlap / unit;
+            press.contact = *e;
+            press.wall = other < 0 ? (int)(-1 - other) : -1;
         }
     }
+    return press;
 }
 
 /* How many times too deep the contact becomes by the energy that it holds and that of its approach.
@@ -107,7 +101,7 @@ static double excess_of_hit(const Press *press, const OzSnapshot *now, int64_t g
 static double excess_of_weight(const Press *press, const OzSnapshot *now)
 {
     const OzGrains *g = now->grains;
-    const OzTouchLast *contact = &press->contact;
+    const OzContactEntry *contact = &press->contact;
     const double *gravity = now->scene->gravity;
     int64_t light = 0, heavy = 0;
     for (int64_t i = 0; i < g->count; i++) {
@@ -152,15 +146,11 @@ static void blame_softness(char *text, size_t size, const OzSnapshot *now, int64
 
 void oz_advice_write(char *text, size_t size, const OzSnapshot *now, int64_t grain)
 {
-    OzTouch touch;
-    Press press = {.wall = -1, .heaviest = now->grains->mass[grain]};
+    OzContactList list = {0};
     snprintf(text, size, "`orzo check` says what step is stable");
-    if (blame_step(text, size, now) || oz_touch_begin(&touch, now) != OZ_OK) {
-        return;
-    }
-    press_by_grains(&press, &touch, grain);
-    press_by_walls(&press, &touch, grain);
-    if (press.touching > 0) {
+    if (!blame_step(text, size, now) && find(&list, now, grain) == OZ_OK && list.count > 0) {
+        Press press = press_of(&list, now->grains, grain);
         blame_softness(text, size, now, grain, &press);
     }
+    oz_contact_list_free(&list);
 }

@@ -61,25 +61,37 @@ static OzTriangle triangle_at(const Forces *f, int i, OzVec2 centre)
     return t;
 }
 
-/* A touching pair, counted: each pair of grains once, since pairs come ordered by their first
- * element and elements by their grains. */
-static void count_touch(Forces *f, OzTouchKind kind, int a, int b)
+/* A contact of elements a and b, whose force on b acts at a point seen from the centre of a. */
+static OzStatus note_contact(Forces *f, const OzElementState *state, OzContactEntry entry,
+                             OzVec2 force, OzVec2 normal, OzVec2 point)
 {
-    int body_a = f->elements->body[a], body_b = f->elements->body[b];
-    f->sums.touches[kind]++;
-    if (b >= f->elements->free_count) {
-        f->sums.wall_touches++;
-    } else if (f->met[body_b] != body_a + 1) {
-        f->met[body_b] = body_a + 1;
-        f->sums.grain_pairs++;
+    const double *at = state->position + 2 * (int64_t)entry.part_a;
+    int body = f->elements->body[entry.part_b], wall = wall_of(f->elements, entry.part_b);
+    if (!f->list) {
+        return OZ_OK;
     }
+    entry.a = f->elements->body[entry.part_a];
+    entry.b = wall < 0 ? body : -1 - wall;
+    entry.push = oz_dot2(force, normal);
+    OzVec2 rest = oz_along2(force, -entry.push, normal);
+    memcpy(entry.point, (double[2]){at[0] + point.x, at[1] + point.y}, 2 * sizeof(double));
+    memcpy(entry.normal, (double[2]){normal.x, normal.y}, 2 * sizeof(double));
+    memcpy(entry.tangential, (double[2]){rest.x, rest.y}, 2 * sizeof(double));
+    return oz_contact_list_add(f->list, &entry);
 }
 
-static void touch_triangles(Forces *f, const OzElementState *state, int a, int b, OzVec2 apart)
+/* The point nearest to the overlap's centroid at which the push has the moment that it has. */
+static OzVec2 point_of(const OzOverlap *o, OzVec2 normal, double size)
+{
+    double off = (o->moment - oz_cross2(o->centroid, o->push)) / size;
+    return oz_along2(o->centroid, off, oz_vec2(normal.y, -normal.x));
+}
+
+static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, int b, OzVec2 apart)
 {
     OzTriangle one = triangle_at(f, a, oz_vec2(0, 0)), other = triangle_at(f, b, apart);
     if (!oz_triangle_near(&one, &other, 0)) {
-        return;
+        return OZ_OK;
     }
     double stiffness = f->scene->triangles.stiffness;
     OzOverlap o = oz_triangle_overlap(&one, &other);
@@ -87,15 +99,21 @@ static void touch_triangles(Forces *f, const OzElementState *state, int a, int b
         note_fault(f, o.swallowed ? OZ_ELEMENT_SWALLOWED : OZ_ELEMENT_DEEP, a, b);
     }
     judge_depth(f, o.share, a, b);
-    if (o.kind > 0) {
-        OzVec2 force = oz_scale2(o.push, stiffness);
-        count_touch(f, (OzTouchKind)((int)o.kind - 1), a, b);
-        f->sums.overlap_sum += o.area;
-        f->sums.overlap_max = fmax(f->sums.overlap_max, o.area);
-        f->sums.contact_energy += stiffness * o.energy;
-        add_load(f, state, a, oz_scale2(force, -1), -stiffness * o.moment);
-        add_load(f, state, b, force, stiffness * o.moment - oz_cross2(apart, force));
+    if (!(o.kind > 0)) {
+        return OZ_OK;
     }
+    OzVec2 force = oz_scale2(o.push, stiffness);
+    double size = fmax(oz_length2(o.push), OZ_TINY);
+    OzVec2 normal = oz_scale2(o.push, 1 / size);
+    add_load(f, state, a, oz_scale2(force, -1), -stiffness * o.moment);
+    add_load(f, state, b, force, stiffness * o.moment - oz_cross2(apart, force));
+    return note_contact(f, state,
+                        (OzContactEntry){.part_a = a,
+                                         .part_b = b,
+                                         .kind = (OzContactKind)(int)o.kind,
+                                         .overlap = o.area,
+                                         .energy = stiffness * o.energy},
+                        force, normal, point_of(&o, normal, size));
 }
 
 /* Where a disc meets a disc or a triangle, seen from the centre of a. */
@@ -134,7 +152,7 @@ static OzVec2 velocity_at(const OzElementState *state, int i, OzVec2 arm)
                      oz_left2(arm));
 }
 
-static void touch_disc(Forces *f, const OzElementState *state, int a, int b, OzVec2 apart)
+static OzStatus touch_disc(Forces *f, const OzElementState *state, int a, int b, OzVec2 apart)
 {
     int wall = wall_of(f->elements, b);
     OzDiscPlace place = disc_place(f, a, b, apart);
@@ -142,18 +160,25 @@ static void touch_disc(Forces *f, const OzElementState *state, int a, int b, OzV
     OzVec2 velocity = oz_minus2(velocity_at(state, b, arm), velocity_at(state, a, place.point));
     OzDiscForce d = oz_disc_force(place, velocity, effective_mass(f->elements, a, b),
                                   wall < 0 ? f->disc : f->disc_wall[wall]);
-    if (d.touching) {
-        count_touch(f, OZ_TOUCH_DISC, a, b);
-        f->sums.contact_energy += d.energy;
-        f->power.disc_damping += d.power_normal;
-        f->power.disc_friction += d.power_tangential;
-        add_load(f, state, a, oz_scale2(d.force, -1), -oz_cross2(place.point, d.force));
-        add_load(f, state, b, d.force, oz_cross2(arm, d.force));
-    }
     judge_depth(f, place.overlap / (2 * smaller_radius(f->elements, a, b)), a, b);
+    if (!d.touching) {
+        return OZ_OK;
+    }
+    f->power.disc_damping += d.power_normal;
+    f->power.disc_friction += d.power_tangential;
+    add_load(f, state, a, oz_scale2(d.force, -1), -oz_cross2(place.point, d.force));
+    add_load(f, state, b, d.force, oz_cross2(arm, d.force));
+    return note_contact(f, state,
+                        (OzContactEntry){.part_a = a,
+                                         .part_b = b,
+                                         .kind = OZ_CONTACT_DISC,
+                                         .slips = d.slips,
+                                         .overlap = place.overlap,
+                                         .energy = d.energy},
+                        d.force, place.normal, place.point);
 }
 
-static void touch_pair(Forces *f, const OzElementState *state, int a, int b)
+static OzStatus touch_pair(Forces *f, const OzElementState *state, int a, int b)
 {
     OzVec2 apart =
         oz_minus2(load2(state->position + 2 * (int64_t)b), load2(state->position + 2 * (int64_t)a));
@@ -162,13 +187,10 @@ static void touch_pair(Forces *f, const OzElementState *state, int a, int b)
     bool gone =
         wall >= 0 && !oz_wall_motion_present(&f->scene->walls[wall], state->time, state->at_rest);
     if (gone || oz_dot2(apart, apart) >= reach * reach) {
-        return;
+        return OZ_OK;
     }
-    if (f->elements->radius[a] > 0 || f->elements->radius[b] > 0) {
-        touch_disc(f, state, a, b, apart);
-    } else {
-        touch_triangles(f, state, a, b, apart);
-    }
+    bool disc = f->elements->radius[a] > 0 || f->elements->radius[b] > 0;
+    return (disc ? touch_disc : touch_triangles)(f, state, a, b, apart);
 }
 
 static void turn_corners(Forces *f, const OzElementState *state)
@@ -184,8 +206,10 @@ static void begin(Forces *f)
     oz_element_dialect_set(f->scene);
     memset(f->force, 0, 2 * (size_t)elements->free_count * sizeof *f->force);
     memset(f->torque, 0, (size_t)elements->free_count * sizeof *f->torque);
-    memset(f->met, 0, (size_t)(elements->grain_count + elements->wall_count) * sizeof *f->met);
-    f->sums = (OzElementSums){.stretch_min = 1, .stretch_max = 1};
+    if (f->list) {
+        f->list->count = 0;
+    }
+    f->beams = (OzBeamSums){.stretch_min = 1, .stretch_max = 1};
     f->power = (OzElementLedger){0};
     f->deep_count = 0;
     f->fault = OZ_ELEMENT_SOUND;
@@ -193,14 +217,12 @@ static void begin(Forces *f)
 
 static OzStatus add_touches(Forces *f, const OzElementState *state)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_element_pairs_renew(&f->pairs, f->elements, state->position));
+    OZ_PASS(oz_element_pairs_renew(&f->pairs, f->elements, state->position));
     turn_corners(f, state);
     for (int64_t p = 0; p < f->pairs.count; p++) {
-        touch_pair(f, state, f->pairs.pair[p].a, f->pairs.pair[p].b);
+        OZ_PASS(touch_pair(f, state, f->pairs.pair[p].a, f->pairs.pair[p].b));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzBeamEnd beam_end(const OzElementState *state, int64_t i)
@@ -212,10 +234,10 @@ static OzBeamEnd beam_end(const OzElementState *state, int64_t i)
 static void sum_beam(Forces *f, const OzBeamForce *beam, int a, int b)
 {
     double bend = fmax(fabs(beam->bend_a), fabs(beam->bend_b));
-    f->sums.beam_energy += beam->energy;
-    f->sums.stretch_min = fmin(f->sums.stretch_min, beam->stretch);
-    f->sums.stretch_max = fmax(f->sums.stretch_max, beam->stretch);
-    f->sums.bend_max = fmax(f->sums.bend_max, bend);
+    f->beams.energy += beam->energy;
+    f->beams.stretch_min = fmin(f->beams.stretch_min, beam->stretch);
+    f->beams.stretch_max = fmax(f->beams.stretch_max, beam->stretch);
+    f->beams.bend_max = fmax(f->beams.bend_max, bend);
     f->power.beam_axial += beam->power_axial;
     f->power.beam_bending += beam->power_bending;
     if (!(beam->stretch >= OZ_BEAM_STRETCH_LEAST && beam->stretch <= OZ_BEAM_STRETCH_MOST)) {
@@ -345,7 +367,6 @@ OzStatus oz_element_forces_create(OzElementForces *forces, const OzScene *scene,
         forces->disc_wall[w] = oz_element_laws_disc(scene, w);
     }
     OZ_TRY(OZ_NEW(&forces->turned, 6 * elements->count));
-    OZ_TRY(OZ_NEW(&forces->met, elements->grain_count + elements->wall_count));
     OZ_TRY(OZ_NEW(&forces->force, 2 * elements->free_count));
     OZ_TRY(OZ_NEW(&forces->torque, elements->free_count));
 done:
@@ -360,26 +381,27 @@ void oz_element_forces_free(OzElementForces *forces)
     free(forces->disc_wall);
     oz_element_pairs_free(&forces->pairs);
     free(forces->turned);
-    free(forces->met);
     free(forces->force);
     free(forces->torque);
     memset(forces, 0, sizeof *forces);
 }
 
-OzStatus oz_element_forces_sums(OzSnapshot *snapshot)
+OzStatus oz_element_forces_contacts(OzSnapshot *snapshot)
 {
     OzStatus status = OZ_OK;
-    OzElementForces forces;
+    OzElementForces forces = {0};
     OzElementState state = {.position = snapshot->element_position,
                             .angle = snapshot->element_angle,
                             .velocity = snapshot->element_velocity,
                             .angular_velocity = snapshot->element_angular_velocity,
                             .time = snapshot->time};
     OZ_TRY(oz_element_forces_create(&forces, snapshot->scene, snapshot->grains));
-    status = oz_element_forces_evaluate(&forces, &state);
-    snapshot->elements = forces.sums;
+    forces.list = &snapshot->contacts;
+    OZ_TRY(oz_element_forces_evaluate(&forces, &state));
+    oz_contact_list_sort(&snapshot->contacts);
+    snapshot->beams = forces.beams;
+done:
     snapshot->has_contacts = status == OZ_OK;
     oz_element_forces_free(&forces);
-done:
     return status;
 }

@@ -1,6 +1,6 @@
 /* All forces between elements at one state, in double on the host: contacts of triangles and discs
- * with grains and walls, beams, gravity. Serves the reference simulation, and the sums and energies
- * of snapshots wherever they come from. */
+ * with grains and walls, beams, gravity. Serves the reference simulation, and the contacts and
+ * beams of snapshots wherever they come from. */
 #ifndef OZ_SIM_ELEMENT_FORCES_H
 #define OZ_SIM_ELEMENT_FORCES_H
 
@@ -34,10 +34,10 @@ typedef struct OzElementForces {
     OzDiscLaw *disc_wall; /* wall_count                                       */
     OzElementPairs pairs;
     double *turned;        /* 6 x count: m, corners about the centre of mass   */
-    int64_t *met;          /* bodies: the last one that each was seen touching */
     double *force;         /* 2 x free_count: N, of the last evaluation        */
     double *torque;        /* free_count: N m                                  */
-    OzElementSums sums;    /* of the last evaluation                           */
+    OzContactList *list;   /* borrowed: receives the contacts of each evaluation; NULL: none */
+    OzBeamSums beams;      /* of the last evaluation                           */
     OzElementLedger power; /* W: how fast each entry of the ledger grows       */
     int64_t deep_count;    /* of the last evaluation: contacts beyond guards.overlap.warn */
     OzElementFault fault;  /* the first found                                  */
@@ -63,7 +63,7 @@ void oz_element_forces_watch(OzElementForces *forces, const OzElementState *stat
  * time. */
 OzStatus oz_element_forces_check(const OzElementForces *forces, int64_t step, double time);
 
-/* Fills snapshot->elements from the snapshot's state, and has_contacts. */
-OzStatus oz_element_forces_sums(OzSnapshot *snapshot);
+/* Fills the snapshot's contacts and beams from its state, and has_contacts. */
+OzStatus oz_element_forces_contacts(OzSnapshot *snapshot);
 
 #endif

@@ -53,7 +53,7 @@ OzStatus oz_element_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *s
     if (sim->batch.stopped[member]) {
         return OZ_OK;
     }
-    OZ_TRY(oz_element_forces_sums(snapshot));
+    OZ_TRY(oz_element_forces_contacts(snapshot));
     if (oz_element_switches(sim)->ledger) {
         OZ_TRY(read_ledger(sim, member, &snapshot->element_ledger));
         snapshot->has_ledger = true;

@@ -335,7 +335,7 @@ OzStatus oz_element_reference_snapshot(const OzElementReference *reference, OzSn
     snapshot->deep_count = r->deep_count;
     snapshot->has_ledger = r->scene->observe.ledger;
     snapshot->element_ledger = r->ledger;
-    return oz_element_forces_sums(snapshot);
+    return oz_element_forces_contacts(snapshot);
 }
 
 static OzStatus create_arrays(Reference *r)

@@ -20,7 +20,7 @@ OzStatus oz_element_reference_create(OzElementReference **reference, const OzSce
  * the state is then that of the failing step. */
 OzStatus oz_element_reference_advance(OzElementReference *reference, int64_t step);
 
-/* Fills a snapshot made for the same scene and grains: elements, grains, walls, sums, and the
+/* Fills a snapshot made for the same scene and grains: elements, grains, walls, contacts, and the
  * ledger when the scene asks for it. */
 OzStatus oz_element_reference_snapshot(const OzElementReference *reference, OzSnapshot *snapshot);
 

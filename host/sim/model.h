@@ -129,8 +129,8 @@ typedef struct OzModel {
     OzStatus (*save_springs)(OzSim *sim);
     OzStatus (*state)(OzSim *sim, OzStateVisit *visit);
 
-    /* A member's state now, walls included; the sums over its contacts and, with the ledger on, its
-     * energies, unless a guard has stopped it. */
+    /* A member's state now, walls included; its contacts and, with the ledger on, its energies,
+     * unless a guard has stopped it. */
     OzStatus (*unpack)(OzSim *sim, int member, OzSnapshot *snapshot);
     OzStatus (*contacts)(OzSim *sim, int member, OzSnapshot *snapshot);
 

@@ -1,5 +1,6 @@
 /* What the physics headers need to know of a scene before the host can use them: switches,
- * constants in double, walls in kernel order. Shared by the reference simulation and by oz_touch.
+ * constants in double, walls in kernel order. Shared by the reference simulation and
+ * sim/contacts.h.
  */
 #pragma once
 

@@ -10,6 +10,7 @@ OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot,
     snapshot->time = oz_batch_time(&sim->batch, member, snapshot->step);
     snapshot->deep_count = sim->batch.deep_count[member];
     snapshot->has_contacts = false;
+    snapshot->contacts.count = 0;
     snapshot->has_ledger = false;
     oz_snapshot_move_walls(snapshot);
     OZ_TRY(sim->model->unpack(sim, member, snapshot));

@@ -5,9 +5,10 @@
 #include "model/snapshot.h"
 #include "sim/sim.h"
 
-/* The state of a member now, into a snapshot made for its scene and grains. contacts: the sums over
- * contacts and, with the ledger on, the energies too (dearer: lists and springs are downloaded, or
- * the host looks for all contacts). They are left out when the run was stopped by a guard. */
+/* The state of a member now, into a snapshot made for its scene and grains. contacts: its
+ * contacts, beams' sums and, with the ledger on, the energies too (dearer: lists and springs are
+ * downloaded, or the host looks for all contacts). They are left out when the run was stopped by a
+ * guard. */
 OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts);
 
 #endif

@@ -2,7 +2,7 @@
 #include "sim/reference_guard.h"
 
 #include "base/memory.h"
-#include "sim/touch.h"
+#include "sim/contacts.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -252,42 +252,41 @@ static void copy_state(const OzReference *r, OzSnapshot *s)
     oz_snapshot_move_walls(s);
 }
 
-static OzStatus sum_contacts(const OzReference *r, OzTouch *touch, const OzSnapshot *snapshot)
+static OzStatus find_contacts(const OzReference *r, OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
+    OzContacts contacts;
     double spring[3];
-    OZ_TRY(oz_touch_begin(touch, snapshot));
+    snapshot->contacts.count = 0;
+    OZ_PASS(oz_contacts_begin(&contacts, snapshot, &snapshot->contacts));
     for (int64_t p = 0; p < r->near.pairs.count; p++) {
         oz_dialect_store3(spring, r->near.spring[p]);
-        oz_touch_pair(touch, r->near.pairs.pair[p].a, r->near.pairs.pair[p].b, spring);
+        OZ_PASS(
+            oz_contacts_pair(&contacts, r->near.pairs.pair[p].a, r->near.pairs.pair[p].b, spring));
     }
     for (int64_t k = 0; k < (int64_t)r->count * r->wall_ends; k++) {
         int slot = (int)(k % r->wall_ends);
         oz_dialect_store3(spring, r->wall_history[k]);
-        oz_touch_wall(touch, k / r->wall_ends, slot / r->physics.ends, slot % r->physics.ends,
-                      spring);
+        OZ_PASS(oz_contacts_wall(&contacts, k / r->wall_ends, slot / r->physics.ends,
+                                 slot % r->physics.ends, spring));
     }
-done:
-    return status;
+    oz_contact_list_sort(&snapshot->contacts);
+    return OZ_OK;
 }
 
 OzStatus oz_reference_snapshot(const OzReference *reference, OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
-    OzTouch touch;
     dialect = reference->physics.switches;
     copy_state(reference, snapshot);
-    OZ_TRY(sum_contacts(reference, &touch, snapshot));
+    OZ_PASS(find_contacts(reference, snapshot));
+    OzContactSums sums = oz_contact_list_sum(&snapshot->contacts);
     snapshot->deep_count = reference->deep_count;
     snapshot->has_contacts = true;
-    snapshot->contacts = touch.contacts;
     snapshot->has_ledger = reference->scene->observe.ledger;
-    snapshot->ledger.elastic = touch.elastic;
+    snapshot->ledger.elastic = sums.energy;
     snapshot->ledger.dissipated = reference->work.dissipated;
-    snapshot->ledger.friction = reference->work.spring - touch.tangential;
+    snapshot->ledger.friction = reference->work.spring - sums.spring_energy;
     snapshot->ledger.work_walls = reference->work.walls;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus create_arrays(OzReference *r)

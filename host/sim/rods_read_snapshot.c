@@ -3,11 +3,11 @@
 #include "sim/rods_read_snapshot.h"
 
 #include "base/memory.h"
+#include "sim/contacts.h"
 #include "sim/pack.h"
 #include "sim/read_snapshot.h"
 #include "sim/rods_private.h"
 #include "sim/scalars.h"
-#include "sim/touch.h"
 #include "sim/units.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static double spring_word(const OzSim *sim, int member, const void *words, size_
                       : 0;
 }
 
-static OzStatus touch_pairs(OzSim *sim, int member, OzTouch *touch)
+static OzStatus find_pairs(OzSim *sim, int member, OzContacts *contacts)
 {
     OzStatus status = OZ_OK;
     const OzSizes *z = oz_rods_sizes(sim);
@@ -40,7 +40,7 @@ static OzStatus touch_pairs(OzSim *sim, int member, OzTouch *touch)
             for (int c = 0; c < 3; c++) {
                 spring[c] = spring_word(sim, member, springs, (size_t)(p * OZ_SPRING + c));
             }
-            oz_touch_pair(touch, id[a[p]], id[b[p]], spring);
+            OZ_TRY(oz_contacts_pair(contacts, id[a[p]], id[b[p]], spring));
         }
     }
 done:
@@ -52,10 +52,10 @@ done:
     return status;
 }
 
-static OzStatus touch_walls(OzSim *sim, int member, OzTouch *touch)
+static OzStatus find_walls(OzSim *sim, int member, OzContacts *contacts)
 {
     OzStatus status = OZ_OK;
-    int ends = touch->physics.ends, indices = ends * touch->physics.wall_count;
+    int ends = contacts->physics.ends, indices = ends * contacts->physics.wall_count;
     int *id = NULL;
     void *springs = NULL;
     double spring[3];
@@ -67,7 +67,7 @@ static OzStatus touch_walls(OzSim *sim, int member, OzTouch *touch)
                 size_t at = oz_pack_lane(oz_rods_switches(sim), slot, 3 * indices, 3 * index + c);
                 spring[c] = spring_word(sim, member, springs, at);
             }
-            oz_touch_wall(touch, id[slot], index / ends, index % ends, spring);
+            OZ_TRY(oz_contacts_wall(contacts, id[slot], index / ends, index % ends, spring));
         }
     }
 done:
@@ -77,17 +77,17 @@ done:
 }
 
 /* The contacts of a snapshot whose state is there. */
-static OzStatus touch_all(OzSim *sim, int member, const OzSnapshot *snapshot, OzTouch *touch)
+static OzStatus find_all(OzSim *sim, int member, OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_touch_begin(touch, snapshot));
-    OZ_TRY(touch_pairs(sim, member, touch));
-    OZ_TRY(touch_walls(sim, member, touch));
-done:
-    return status;
+    OzContacts contacts;
+    OZ_PASS(oz_contacts_begin(&contacts, snapshot, &snapshot->contacts));
+    OZ_PASS(find_pairs(sim, member, &contacts));
+    OZ_PASS(find_walls(sim, member, &contacts));
+    oz_contact_list_sort(&snapshot->contacts);
+    return OZ_OK;
 }
 
-static OzStatus read_ledger(OzSim *sim, int member, const OzTouch *touch, OzLedger *ledger)
+static OzStatus read_ledger(OzSim *sim, int member, double spring_energy, OzLedger *ledger)
 {
     OzStatus status = OZ_OK;
     double *words = NULL, sum[OZ_LEDGER_WORDS] = {0};
@@ -97,8 +97,7 @@ static OzStatus read_ledger(OzSim *sim, int member, const OzTouch *touch, OzLedg
             words[k] * oz_units_energy(&oz_rods_parameters(sim, member)->units);
     }
     ledger->dissipated = sum[OZ_L_DISSIPATED];
-    ledger->friction =
-        sum[OZ_L_SPRING] - touch->tangential + oz_rods_own(sim)->spring_start[member];
+    ledger->friction = sum[OZ_L_SPRING] - spring_energy + oz_rods_own(sim)->spring_start[member];
     ledger->work_walls = sum[OZ_L_WALLS];
 done:
     free(words);
@@ -113,16 +112,15 @@ OzStatus oz_rods_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapsho
 OzStatus oz_rods_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
 {
     OzStatus status = OZ_OK;
-    OzTouch touch;
     if (oz_rods_control(sim, member)->truth != OZ_SPRINGS_AT_INNER) {
         return OZ_OK;
     }
-    OZ_TRY(touch_all(sim, member, snapshot, &touch));
+    OZ_TRY(find_all(sim, member, snapshot));
     snapshot->has_contacts = true;
-    snapshot->contacts = touch.contacts;
-    snapshot->ledger.elastic = touch.elastic;
+    OzContactSums sums = oz_contact_list_sum(&snapshot->contacts);
+    snapshot->ledger.elastic = sums.energy;
     if (oz_rods_switches(sim)->ledger) {
-        OZ_TRY(read_ledger(sim, member, &touch, &snapshot->ledger));
+        OZ_TRY(read_ledger(sim, member, sums.spring_energy, &snapshot->ledger));
         snapshot->has_ledger = true;
     }
 done:
@@ -151,14 +149,13 @@ static OzStatus start_springs(OzSim *sim, int member)
     OzStatus status = OZ_OK;
     const OzMember *of = &sim->batch.members[member];
     OzSnapshot now = {0};
-    OzTouch touch = {0};
     if (oz_rods_control(sim, member)->truth != OZ_SPRINGS_AT_INNER) {
         return OZ_OK;
     }
     OZ_TRY(oz_snapshot_create(&now, of->scene, of->grains));
     OZ_TRY(oz_read_snapshot_snapshot(sim, member, &now, false));
-    OZ_TRY(touch_all(sim, member, &now, &touch));
-    oz_rods_own(sim)->spring_start[member] = touch.tangential;
+    OZ_TRY(find_all(sim, member, &now));
+    oz_rods_own(sim)->spring_start[member] = oz_contact_list_sum(&now.contacts).spring_energy;
 done:
     oz_snapshot_free(&now);
     return status;

@@ -4,9 +4,9 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "model/contact.h"
+#include "sim/contacts.h"
 #include "sim/element_start.h"
 #include "sim/sort_axis.h"
-#include "sim/touch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,7 +49,7 @@ typedef struct Look {
     const OzScene *scene;
     const OzGrains *grains;
     OzSnapshot now;
-    OzTouch touch;
+    OzContacts contacts;
     double load; /* N */
 } Look;
 
@@ -58,15 +58,21 @@ static bool is_read(const Look *look, int64_t i)
     return look->scene->populations[look->grains->population[i]].kind == OZ_GRAINS_FILE;
 }
 
-/* The contact that was added last. */
+/* Takes the contact that was found last, if there is one, off the list. */
 static void take(Look *look, OzStartOverlap overlap, double radius, double stop, bool read)
 {
-    const OzTouchLast *last = &look->touch.last;
+    OzContactList *list = &look->now.contacts;
+    const OzContactEntry *last = list->entry;
+    if (list->count == 0) {
+        return;
+    }
+    list->count = 0;
     double power = oz_contact_is_linear(look->scene->contact.law) ? 2 : 2.5; /* of the energy */
     double force = power * last->energy / last->overlap;
     overlap.depth = last->overlap;
     overlap.energy = last->energy;
     overlap.share = last->overlap / radius;
+    overlap.behind = overlap.b < 0 && last->overlap > radius;
     look->start->energy += last->energy;
     if (overlap.share > OZ_START_ROUNDING && force > look->load) {
         oz_start_add(look->start, &overlap, read ? fmax(stop, OZ_START_MOST) : OZ_START_MOST,
@@ -74,35 +80,28 @@ static void take(Look *look, OzStartOverlap overlap, double radius, double stop,
     }
 }
 
-static void look_at_pair(Look *look, OzPair pair)
+static OzStatus look_at_pair(Look *look, OzPair pair)
 {
     const OzGrains *g = look->grains;
-    int64_t before = look->touch.contacts.pair_count;
     OzStartOverlap overlap = {
         .a = pair.a < pair.b ? pair.a : pair.b, .b = pair.a < pair.b ? pair.b : pair.a, .wall = -1};
-    oz_touch_pair(&look->touch, pair.a, pair.b, NULL);
-    if (look->touch.contacts.pair_count > before) {
-        take(look, overlap, fmin(g->diameter[pair.a], g->diameter[pair.b]) / 2,
-             look->scene->guards.overlap_stop, is_read(look, pair.a) && is_read(look, pair.b));
-    }
+    OZ_PASS(oz_contacts_pair(&look->contacts, pair.a, pair.b, NULL));
+    take(look, overlap, fmin(g->diameter[pair.a], g->diameter[pair.b]) / 2,
+         look->scene->guards.overlap_stop, is_read(look, pair.a) && is_read(look, pair.b));
+    return OZ_OK;
 }
 
-static void look_at_walls(Look *look, int64_t i)
+static OzStatus look_at_walls(Look *look, int64_t i)
 {
     double radius = look->grains->diameter[i] / 2;
-    for (int wall = 0; wall < look->touch.physics.wall_count; wall++) {
-        for (int end = 0; end < look->touch.physics.ends; end++) {
-            int64_t before = look->touch.contacts.wall_count;
-            oz_touch_wall(&look->touch, i, wall, end, NULL);
-            if (look->touch.contacts.wall_count > before) {
-                OzStartOverlap overlap = {.a = i,
-                                          .b = -1,
-                                          .wall = look->touch.physics.wall_order[wall],
-                                          .behind = look->touch.last.overlap > radius};
-                take(look, overlap, radius, look->scene->guards.overlap_stop / 2, is_read(look, i));
-            }
-        }
+    const OzPhysics *physics = &look->contacts.physics;
+    for (int at = 0; at < physics->wall_count * physics->ends; at++) {
+        int wall = at / physics->ends;
+        OzStartOverlap overlap = {.a = i, .b = -1, .wall = physics->wall_order[wall]};
+        OZ_PASS(oz_contacts_wall(&look->contacts, i, wall, at % physics->ends, NULL));
+        take(look, overlap, radius, look->scene->guards.overlap_stop / 2, is_read(look, i));
     }
+    return OZ_OK;
 }
 
 static OzStatus look_at_rods(OzStart *start, const OzScene *scene, const OzGrains *grains)
@@ -116,13 +115,13 @@ static OzStatus look_at_rods(OzStart *start, const OzScene *scene, const OzGrain
         oz_grains_axis(&grains->quaternion[4 * i], &look.now.axis[3 * i]);
         memcpy(&look.now.position[3 * i], &grains->position[3 * i], 3 * sizeof(double));
     }
-    OZ_TRY(oz_touch_begin(&look.touch, &look.now));
+    OZ_TRY(oz_contacts_begin(&look.contacts, &look.now, &look.now.contacts));
     OZ_TRY(oz_sort_axis_pairs(&pairs, grains, grains->position, look.now.axis, 0));
     for (int64_t k = 0; k < pairs.count; k++) {
-        look_at_pair(&look, pairs.pair[k]);
+        OZ_TRY(look_at_pair(&look, pairs.pair[k]));
     }
     for (int64_t i = 0; i < grains->count; i++) {
-        look_at_walls(&look, i);
+        OZ_TRY(look_at_walls(&look, i));
     }
 done:
     oz_sort_axis_free(&pairs);

@@ -148,9 +148,9 @@ static OzStatus throw_once(OzTrial *trial, const Throw *t)
         double push = (now.velocity[1] - before) / (LOOK * t->scene.step) * t->grains.mass[0];
         before = now.velocity[1];
         trial->force = fmax(trial->force, push);
-        trial->bend = fmax(trial->bend, now.elements.bend_max);
+        trial->bend = fmax(trial->bend, now.beams.bend_max);
         trial->stretch =
-            fmax(trial->stretch, fmax(now.elements.stretch_max - 1, 1 - now.elements.stretch_min));
+            fmax(trial->stretch, fmax(now.beams.stretch_max - 1, 1 - now.beams.stretch_min));
     }
 done:
     oz_snapshot_free(&now);

@@ -1,0 +1,83 @@
+/* Keeping, ordering and adding up contacts. */
+#include "model/contact_list.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+OzStatus oz_contact_list_add(OzContactList *list, const OzContactEntry *entry)
+{
+    if (list->count == list->capacity) {
+        int64_t more = list->capacity + list->capacity / 2 + 64;
+        OZ_PASS(oz_memory_grow((void **)&list->entry, (size_t)list->capacity, (size_t)more,
+                               sizeof *list->entry, "contacts"));
+        list->capacity = more;
+    }
+    list->entry[list->count++] = *entry;
+    return OZ_OK;
+}
+
+static int compare_ids(int64_t x, int64_t y)
+{
+    return (x > y) - (x < y);
+}
+
+/* Grains first, then walls in the scene's order. */
+static int64_t rank(int64_t b)
+{
+    return b >= 0 ? b : INT32_MAX - b;
+}
+
+static int by_ids(const void *one, const void *other)
+{
+    const OzContactEntry *x = one, *y = other;
+    int order = compare_ids(x->a, y->a);
+    order = order ? order : compare_ids(rank(x->b), rank(y->b));
+    order = order ? order : compare_ids(x->part_a, y->part_a);
+    return order ? order : compare_ids(x->part_b, y->part_b);
+}
+
+void oz_contact_list_sort(OzContactList *list)
+{
+    if (list->count > 0) {
+        qsort(list->entry, (size_t)list->count, sizeof *list->entry, by_ids);
+    }
+}
+
+void oz_contact_list_free(OzContactList *list)
+{
+    free(list->entry);
+    memset(list, 0, sizeof *list);
+}
+
+OzContactSums oz_contact_list_sum(const OzContactList *list)
+{
+    OzContactSums sums = {0};
+    for (int64_t i = 0; i < list->count; i++) {
+        const OzContactEntry *e = &list->entry[i];
+        bool again = i > 0 && e[-1].a == e->a && e[-1].b == e->b;
+        sums.kinds[e->kind]++;
+        sums.pairs += e->b >= 0 && !again;
+        sums.walls += e->b < 0;
+        if (e->kind != OZ_CONTACT_DISC) {
+            sums.overlap_sum += e->overlap;
+            sums.overlap_max = fmax(sums.overlap_max, e->overlap);
+        }
+        sums.energy += e->energy + e->spring_energy;
+        sums.spring_energy += e->spring_energy;
+    }
+    return sums;
+}
+
+void oz_contact_list_push_walls(const OzContactList *list, double (*force)[3], int count)
+{
+    memset(force, 0, (size_t)count * sizeof *force);
+    for (int64_t i = 0; i < list->count; i++) {
+        const OzContactEntry *e = &list->entry[i];
+        for (int k = 0; e->b < 0 && k < 3; k++) {
+            force[-1 - e->b][k] += e->push * e->normal[k] + e->tangential[k];
+        }
+    }
+}

@@ -1,0 +1,176 @@
+/* Members in the order of the plan, those that have begun first. */
+#include "run/groups.h"
+
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "run/capacity.h"
+#include "sim/batch_fit.h"
+
+#include <stdlib.h>
+
+/* A member of an ensemble that cannot be run: said by name, remembered, and the others go on. */
+static void lose(OzGroups *groups, int64_t number, OzStatus why, const char *text)
+{
+    char *name = NULL;
+    groups->outcomes[number] = OZ_OUTCOME_FAILED;
+    groups->loss = groups->loss == OZ_OK ? why : groups->loss;
+    if (oz_members_name(&groups->plan, number, &name) == OZ_OK) {
+        oz_log_line("%s: %s", name, text);
+    }
+    free(name);
+}
+
+/* Whether there is a state of this member to go on from. */
+static bool has_begun(const OzGroups *groups, int64_t number)
+{
+    for (int k = 0; groups->resume && k < groups->resume->count; k++) {
+        const OzCheckpointHead *head = &groups->resume->heads[k];
+        if (number >= head->first && number < head->first + head->count) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The plan's next member that can be loaded into *loaded; NULL when there is none left. A plain
+ * run's one scene must load. */
+static OzStatus load_next(OzGroups *groups, OzOutputs **loaded)
+{
+    OzStatus status = OZ_OK;
+    OzOutputs *member = NULL;
+    *loaded = NULL;
+    while (!*loaded && groups->loaded_count < groups->plan.count && !oz_interrupt_asked()) {
+        if (has_begun(groups, groups->loaded_count)) {
+            groups->loaded_count++;
+            continue;
+        }
+        OZ_TRY(OZ_NEW(&member, 1));
+        member->number = groups->loaded_count++;
+        OzStatus own =
+            oz_members_load(&groups->plan, member->number, &member->scene, &member->grains);
+        if (own == OZ_OK) {
+            *loaded = member;
+        } else if (groups->plan.is_ensemble) {
+            lose(groups, member->number, own, oz_status_text());
+            oz_outputs_free(member);
+        } else {
+            status = own;
+            goto done;
+        }
+        member = NULL;
+    }
+done:
+    oz_outputs_free(member);
+    return status;
+}
+
+/* How many members like the first are run at a time. */
+static OzStatus choose_most(OzGroups *groups)
+{
+    OzMember first = {&groups->loaded->scene, &groups->loaded->grains};
+    double bytes = 0;
+    OZ_PASS(oz_capacity_most(groups->options, groups->device, &first, &groups->most, &bytes));
+    if (groups->plan.is_ensemble) {
+        oz_log_line("%lld members of about %.3g MB; up to %lld at a time",
+                    (long long)groups->plan.count, bytes / 1e6, (long long)groups->most);
+    }
+    groups->most = groups->most < groups->plan.count ? groups->most : groups->plan.count;
+    return OZ_OK;
+}
+
+OzStatus oz_groups_find(OzGroups *groups, bool *more)
+{
+    *more = groups->resume && groups->resume->next < groups->resume->count;
+    if (*more) {
+        return OZ_OK;
+    }
+    if (!groups->loaded) {
+        OZ_PASS(load_next(groups, &groups->loaded));
+    }
+    *more = groups->loaded != NULL;
+    return *more && groups->most == 0 ? choose_most(groups) : OZ_OK;
+}
+
+/* Whether a loaded member can go side by side with the group's first. */
+static bool joins(const OzGroups *groups, const OzOutputs *member)
+{
+    const OzOutputs *first = groups->members[0];
+    OzMember a = {&first->scene, &first->grains}, b = {&member->scene, &member->grains};
+    OzSchedule events = oz_schedule_create(&member->scene, groups->options->until);
+    return oz_schedule_agrees(&groups->schedule, &events) &&
+           oz_batch_fit_agrees(groups->device, &a, &b);
+}
+
+/* The loaded member and those after it that can join it; the one that cannot begins the next group.
+ */
+static OzStatus gather_new(OzGroups *groups)
+{
+    groups->members[0] = groups->loaded;
+    groups->member_count = 1;
+    groups->loaded = NULL;
+    groups->schedule = oz_schedule_create(&groups->members[0]->scene, groups->options->until);
+    OZ_PASS(load_next(groups, &groups->loaded));
+    while (groups->loaded && groups->member_count < groups->most && joins(groups, groups->loaded)) {
+        groups->members[groups->member_count++] = groups->loaded;
+        groups->loaded = NULL;
+        OZ_PASS(load_next(groups, &groups->loaded));
+    }
+    return OZ_OK;
+}
+
+int64_t oz_groups_most_workers(const OzGroups *groups)
+{
+    return groups->device->is_cpu ? groups->device->units : 1;
+}
+
+/* Members of the next states, as many states as go side by side. */
+static OzStatus gather_begun(OzGroups *groups)
+{
+    OzResume *resume = groups->resume;
+    groups->member_count = 0;
+    for (int k = resume->next;
+         k < resume->count && k - resume->next < oz_groups_most_workers(groups); k++) {
+        const OzCheckpointHead *head = &resume->heads[k];
+        for (int64_t i = 0; i < head->count; i++) {
+            OzOutputs **member = &groups->members[groups->member_count];
+            OZ_PASS(OZ_NEW(member, 1));
+            groups->member_count++;
+            (*member)->number = head->first + i;
+            (*member)->goes_on = true;
+            OZ_PASS(oz_members_load(&groups->plan, head->first + i, &(*member)->scene,
+                                    &(*member)->grains));
+        }
+    }
+    groups->schedule = oz_schedule_create(&groups->members[0]->scene, groups->options->until);
+    return OZ_OK;
+}
+
+OzStatus oz_groups_gather(OzGroups *groups)
+{
+    return groups->resume && groups->resume->next < groups->resume->count ? gather_begun(groups)
+                                                                          : gather_new(groups);
+}
+
+OzStatus oz_groups_open(OzGroups *groups, const OzOptions *options, OzResume *resume)
+{
+    *groups = (OzGroups){.options = options, .resume = resume};
+    OZ_PASS(oz_members_create(&groups->plan, options));
+    OZ_PASS(OZ_NEW(&groups->outcomes, groups->plan.count));
+    OZ_PASS(OZ_NEW(&groups->members, groups->plan.count));
+    return resume ? OZ_OK : load_next(groups, &groups->loaded);
+}
+
+void oz_groups_free(OzGroups *groups)
+{
+    oz_outputs_free(groups->loaded);
+    oz_members_free(&groups->plan);
+    free(groups->members);
+    free(groups->outcomes);
+    *groups = (OzGroups){0};
+}
+
+bool oz_groups_is_begun(const OzGroups *groups)
+{
+    return groups->member_count > 0 && groups->members[0]->goes_on;
+}

@@ -1,0 +1,42 @@
+/* Which members of a run go side by side: those of the next states, where it goes on with some,
+ * then groups of those that have not begun and fit together. */
+#pragma once
+
+#include "compute/device.h"
+#include "observe/schedule.h"
+#include "run/members.h"
+#include "run/outputs.h"
+#include "run/resume.h"
+
+/* Zeroed is valid. */
+typedef struct OzGroups {
+    const OzOptions *options; /* borrowed */
+    const OzDevice *device;   /* borrowed; set by who opens it, before the first group */
+    OzResume *resume;         /* borrowed: the states to go on from; NULL: a run from the start */
+    OzMembers plan;
+    OzOutputs **members; /* of the group in hand; whoever ends it frees them */
+    int64_t member_count;
+    OzSchedule schedule;  /* of the group                                        */
+    OzOutputs *loaded;    /* the next group's first, NULL at the end             */
+    int64_t loaded_count; /* members of the plan that were loaded or could not be */
+    int64_t most;         /* that there is room for at a time; 0: not known yet  */
+    OzOutcome *outcomes;  /* of each member of the plan                          */
+    OzStatus loss;        /* why the first member that did not end well did not  */
+} OzGroups;
+
+/* Reads the plan, and the first member of a run from the start. The caller frees, also on failure.
+ */
+OzStatus oz_groups_open(OzGroups *groups, const OzOptions *options, OzResume *resume);
+void oz_groups_free(OzGroups *groups);
+
+/* Whether a group is left. */
+OzStatus oz_groups_find(OzGroups *groups, bool *more);
+
+/* Loads its members. */
+OzStatus oz_groups_gather(OzGroups *groups);
+
+/* Whether the group in hand goes on from states, one a worker. */
+bool oz_groups_is_begun(const OzGroups *groups);
+
+/* Workers at a time: one a thread of a CPU; a GPU takes all members at once. */
+int64_t oz_groups_most_workers(const OzGroups *groups);

@@ -1,0 +1,28 @@
+/* Going on with a run: its states are read, and the command that it was is made again of them. */
+#pragma once
+
+#include "run/checkpoint.h"
+
+/* The newest whole state of each worker of a run, in the order of their members. Zeroed is valid.
+ */
+typedef struct OzResume {
+    OzState *states;
+    OzCheckpointHead *heads;
+    int count;
+    int next;          /* the one that has not been gone on with yet */
+    OzOptions options; /* of the run                      */
+    char **settings;   /* that its options point to; owned */
+    int setting_count;
+    char *scene_path; /* the folder's scene.yaml; owned  */
+} OzResume;
+
+/* Reads the states in a run's folder. A damaged one is said, and the one before it taken. Fails
+ * with OZ_ERR_INPUT when there is none, or none that is whole. asked: `orzo resume` as written;
+ * what it sets must not change what was computed (oz_resume_may_set). The caller frees, also on
+ * failure.
+ */
+OzStatus oz_resume_open(OzResume *resume, const OzOptions *asked);
+void oz_resume_free(OzResume *resume);
+
+/* Whether a key may be set while a run goes on: what ends it, and what states it leaves. */
+bool oz_resume_may_set(const char *setting);

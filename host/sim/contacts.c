@@ -1,0 +1,119 @@
+/* Contacts, by the same physics that moves the grains. Knows nothing of lists of pairs. */
+#include "sim/contacts.h"
+
+#include "sim/dialect.h"
+
+OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzContactList *list)
+{
+    *contacts = (OzContacts){.snapshot = snapshot, .list = list};
+    OZ_PASS(oz_physics_derive(&contacts->physics, snapshot->scene, snapshot->grains));
+    contacts->share = contacts->physics.share;
+    if (contacts->physics.switches.moves_before) {
+        contacts->physics.share -=
+            1; /* the force was part of the last step, and springs are ahead */
+    }
+    return OZ_OK;
+}
+
+static OzGrain grain_of(const OzSnapshot *snapshot, int64_t id)
+{
+    const double *at = &snapshot->position[3 * id];
+    OzGrain grain = {.position = {at[0], at[1], at[2]},
+                     .velocity = oz_dialect_load3(&snapshot->velocity[3 * id]),
+                     .rate = oz_dialect_load3(&snapshot->angular_velocity[3 * id]),
+                     .radius = snapshot->grains->diameter[id] / 2,
+                     .mass = snapshot->grains->mass[id],
+                     .inverse_inertia = 1 / snapshot->grains->inertia[id]};
+    grain.half_shaft =
+        oz_scale(oz_dialect_load3(&snapshot->axis[3 * id]), snapshot->grains->length[id] / 2);
+    return grain;
+}
+
+/* What the physics found, about to become an entry. */
+typedef struct Found {
+    OzContact contact;
+    OzContactForce parts;
+    OzVec3 stored; /* m, the tangential spring as stored */
+} Found;
+
+/* Energy of a contact's tangential spring, J, advanced by the integrator's share of a step: what it
+ * would give back at its normal force now. With `slip: scale` a spring grows beyond what friction
+ * lets it push with: at most the limit's force times the way back. */
+static double spring_energy(const OzContacts *contacts, const Found *found, double friction)
+{
+    const OzContact *c = &found->contact;
+    OzVec3 sliding = oz_scale(oz_along(c->velocity, c->rate, c->normal), -1);
+    OzVec3 stretch = oz_along(oz_contact_turn(found->stored, c->normal),
+                              contacts->share * contacts->physics.parameters.dt, sliding);
+    double length = sqrt(oz_dot(stretch, stretch));
+    double full = found->parts.tangential_stiffness * length;
+    double limit = friction * fabs(oz_dot(found->parts.force, c->normal));
+    double force = OZ_SLIP_SCALE ? fmin(full, limit) : full;
+    return full > 0 ? force * (length - 0.5 * length * force / full) : 0;
+}
+
+/* turn: 1, or -1 where the kernels' a is the entry's b; arm: from the centre of grain, the entry's
+ * a, to where the force acts. */
+static void fill(OzContactEntry *entry, const Found *found, double turn, OzGrain grain, OzVec3 arm)
+{
+    OzFixedPosition at = grain.position;
+    OzVec3 normal = oz_scale(found->contact.normal, turn);
+    OzVec3 force = oz_scale(found->parts.force, turn);
+    entry->push = oz_dot(force, normal);
+    oz_dialect_store3(entry->point, oz_add(oz_vec3(at.x, at.y, at.z), arm));
+    oz_dialect_store3(entry->normal, normal);
+    oz_dialect_store3(entry->tangential, oz_along(force, -entry->push, normal));
+    oz_dialect_store3(entry->spring, oz_scale(found->stored, turn));
+    entry->slips = found->parts.slips;
+    entry->overlap = found->contact.overlap;
+    entry->rate = found->contact.rate;
+    entry->mass = found->contact.mass;
+    entry->energy = found->parts.energy;
+}
+
+OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const double history[3])
+{
+    const OzPhysics *physics = &contacts->physics;
+    OzGrain first = grain_of(contacts->snapshot, a), second = grain_of(contacts->snapshot, b);
+    OzLawConstants law = physics->parameters.law;
+    dialect = physics->switches;
+    bool has_spring = OZ_HISTORY && history, turned = a > b;
+    Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
+    OzVec3 spring = found.stored;
+    OzPairForce pair =
+        oz_rods_pair(first, second, 1, law, &spring, physics->parameters.dt, physics->share);
+    if (!pair.contact.touching) {
+        return OZ_OK;
+    }
+    OzContactEntry entry = {.a = (int32_t)(turned ? b : a), .b = (int32_t)(turned ? a : b)};
+    found.contact = pair.contact;
+    found.parts = pair.parts;
+    entry.spring_energy = has_spring ? spring_energy(contacts, &found, law.friction) : 0;
+    fill(&entry, &found, turned ? -1 : 1, turned ? second : first,
+         turned ? pair.arm_b : pair.arm_a);
+    return oz_contact_list_add(contacts->list, &entry);
+}
+
+OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end,
+                          const double history[3])
+{
+    const OzPhysics *physics = &contacts->physics;
+    const OzSnapshot *snapshot = contacts->snapshot;
+    OzGrain one = grain_of(snapshot, grain);
+    int scene_wall = physics->wall_order[wall];
+    dialect = physics->switches;
+    bool has_spring = OZ_HISTORY && history;
+    Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
+    OzVec3 spring = found.stored, arm;
+    found.parts = oz_dialect_touch_wall(physics, wall, end, one, snapshot->wall_offset[scene_wall],
+                                        snapshot->wall_velocity[scene_wall], physics->parameters.dt,
+                                        &spring, &found.contact, &arm);
+    if (!found.contact.touching) {
+        return OZ_OK;
+    }
+    OzContactEntry entry = {.a = (int32_t)grain, .b = -1 - scene_wall, .part_a = end};
+    double friction = physics->parameters.wall[wall].law.friction;
+    entry.spring_energy = has_spring ? spring_energy(contacts, &found, friction) : 0;
+    fill(&entry, &found, -1, one, arm); /* to the kernels a wall is a */
+    return oz_contact_list_add(contacts->list, &entry);
+}

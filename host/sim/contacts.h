@@ -1,0 +1,29 @@
+/* The contacts of rods and spheres at one moment, found by the same physics that moves the grains.
+ * The caller knows which pairs and wall ends may touch and what tangential springs they carry;
+ * those that turn out not to touch add nothing. Serves the device simulation and the host reference
+ * alike. */
+#pragma once
+
+#include "model/snapshot.h"
+#include "sim/physics.h"
+
+typedef struct OzContacts {
+    OzPhysics physics;          /* its walls are in the order in which `wall` counts below, its
+                                   share is that of forces at this moment                         */
+    double share;               /* of a step by which the integrator advances springs             */
+    const OzSnapshot *snapshot; /* borrowed: position, axis, velocity, spin, walls                */
+    OzContactList *list;        /* borrowed: receives what touches                                */
+} OzContacts;
+
+/* For a snapshot whose state, axes and walls are filled in; the list goes on as it is. Nothing to
+ * free. Fails with OZ_ERR_INPUT as oz_constants_fill does. */
+OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzContactList *list);
+
+/* Grains a and b (ids; a is the one whose reach is larger, or the lower id). history is the pair's
+ * tangential spring (m) as the integrator keeps it between steps. NULL: none. Fails when memory
+ * does. */
+OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const double history[3]);
+
+/* End 0 (along the axis) or 1 of a grain at a wall, counted in kernel order. */
+OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end,
+                          const double history[3]);

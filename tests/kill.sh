@@ -1,0 +1,60 @@
+#!/bin/sh
+# Kills runs at random moments (SIGKILL) and resumes them: series.csv, final.csv and frames.bin must be those of the run
+# that nobody killed, to the byte.
+#   tests/kill.sh [TIMES] [PROGRAM]     100 times, build/orzo
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+times=${1:-100}
+orzo=${2:-$root/build/orzo}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+cat >scene.yaml <<'SCENE'
+model: rods
+time: {step: 1e-5, taps: 30}
+contact: {contact_time: 6e-4, restitution: 0.4, friction: 0.1}
+grains: [{kind: random, count: 60, diameter: 0.5e-3, aspect: 4}]
+walls:
+  - {kind: plane, motion: {frequency: 30, acceleration_ratio: 2}}
+  - {kind: cylinder, diameter: 5e-3}
+settle: {drag: 70}
+observe: {interval: 0.004}
+movie: {length: 2, size: [128, 96]}
+checkpoint: {every: 0.05}
+SCENE
+
+fail() {
+    printf 'kill.sh: %s\n' "$*" >&2
+    exit 1
+}
+
+"$orzo" run scene.yaml -o whole >log 2>&1 || { cat log; fail 'the run that nobody kills'; }
+start=$(date +%s%N)
+"$orzo" run scene.yaml -o timed >log 2>&1
+span=$((($(date +%s%N) - start) / 1000000))
+killed=0
+resumed=0
+i=0
+while [ "$i" -lt "$times" ]; do
+    i=$((i + 1))
+    rm -rf cut
+    "$orzo" run scene.yaml -o cut >log 2>&1 &
+    pid=$!
+    wait_ms=$(od -An -N4 -tu4 /dev/urandom | awk -v span="$span" '{ print $1 % span }')
+    sleep "$(awk -v ms="$wait_ms" 'BEGIN { print ms / 1000 }')"
+    if kill -9 "$pid" 2>/dev/null; then killed=$((killed + 1)); fi
+    wait "$pid" 2>/dev/null || true
+    if ls cut/state.h5* >/dev/null 2>&1; then
+        "$orzo" resume cut >log 2>&1 || { cat log; fail "killed after $wait_ms ms, cannot be resumed"; }
+        resumed=$((resumed + 1))
+    else # before its first state: said, and run again
+        "$orzo" resume cut >log 2>&1 && fail 'resumes without a state'
+        grep -q 'no state' log || { cat log; fail "killed after $wait_ms ms: another message"; }
+        "$orzo" run scene.yaml -o cut --overwrite >log 2>&1 || { cat log; fail "killed after $wait_ms ms, cannot be run again"; }
+    fi
+    for file in series.csv final.csv frames.bin; do
+        cmp whole/$file cut/$file || fail "killed after $wait_ms ms: $file differs"
+    done
+done
+printf 'kill.sh: %s runs, %s killed, %s of them resumed from a state: all the same to the byte\n' "$times" "$killed" "$resumed"
