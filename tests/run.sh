@@ -1,7 +1,7 @@
 #!/bin/sh
 # The whole test: sets up a fresh Debian 12, runs every test on the Release build, then on the Sanitize
-# build (address, undefined, leaks) the tests that need no device and one short run on a device, and looks
-# whether the tests see a few wrong changes of the physics.
+# build (address, undefined, leaks) the tests that need no device and one short run on a device, and fuzzes
+# what is read and looks whether the tests see a few wrong changes of the physics.
 cd "$(dirname "$0")/.." || exit 1
 . tests/setup.sh
 
@@ -28,6 +28,9 @@ ctest --test-dir build-sanitize --parallel "$(nproc)" --output-on-failure -E "$(
 say "one short run on a device (Sanitize)"
 build-sanitize/orzo run scenes/two_rods.yaml -o build-sanitize/smoke --overwrite --device cpu ||
     stop "the short run on a device failed (Sanitize)"
+
+say "fuzzing what is read, 20 s each"
+tests/fuzz.sh 20 || stop "a fuzzer found something"
 
 say "twenty wrong changes of the physics"
 tests/mutate.sh --sample 20 || stop "the tests do not see a wrong change of the physics"

@@ -60,6 +60,9 @@ static inline void oz_bytes_seal(unsigned char *block, size_t bytes)
 
 static inline bool oz_bytes_is_sealed(const unsigned char *block, size_t bytes)
 {
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION /* or a fuzzer would never get past this */
+    return true;
+#endif
     uint64_t sum = oz_bytes_sum(block, bytes - OZ_BYTES_CHECKSUM);
     return memcmp(block + bytes - OZ_BYTES_CHECKSUM, &sum, sizeof sum) == 0;
 }
