@@ -67,7 +67,7 @@ static inline void look_at_event(Run *run)
 {
     OzWorker *worker = &run->worker;
     for (int m = 0; m < worker->member_count; m++) {
-        bool row = (worker->event_due & OZ_DUE_ROW) != 0;
+        bool row = (worker->event_due & OZ_DUE_LISTED) != 0;
         must(oz_read_snapshot_snapshot(worker->sim, m, &run->members[m]->now, row));
         must(oz_outputs_look(run->members[m], worker->event_due));
     }

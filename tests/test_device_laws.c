@@ -42,6 +42,23 @@ static void assert_close(const char *what, double a, double b, double part)
     }
 }
 
+/* Forces and springs of every contact, within part of the largest of each. */
+static void assert_same_contacts(const OzContactList *a, const OzContactList *b, double part)
+{
+    double push = 0, spring = 0, off_push = 0, off_spring = 0;
+    assert_int_equal(a->count, b->count);
+    for (int64_t i = 0; i < a->count; i++) {
+        const OzContactEntry *x = &a->entry[i], *y = &b->entry[i];
+        assert_true(x->a == y->a && x->b == y->b && x->part_a == y->part_a);
+        push = fmax(push, fabs(y->push));
+        off_push = fmax(off_push, fabs(x->push - y->push));
+        off_push = fmax(off_push, farthest(x->tangential, y->tangential, 3));
+        spring = fmax(spring, sqrt(dot3(y->spring, y->spring)));
+        off_spring = fmax(off_spring, farthest(x->spring, y->spring, 3));
+    }
+    assert_true(push > 0 && off_push <= part * push && off_spring <= part * spring);
+}
+
 /* Upright rods that press against one another from all sides. */
 static void squeeze(OzGrains *grains)
 {
@@ -75,6 +92,7 @@ static void check(const char *precision, const char *integrator, const char *con
                 seen.ledger.dissipated > 0);
     assert_int_equal(oz_contact_list_sum(&seen.contacts).pairs,
                      oz_contact_list_sum(&rig.now.contacts).pairs);
+    assert_same_contacts(&seen.contacts, &rig.now.contacts, 1e3 * tolerance);
     assert_close("elastic", seen.ledger.elastic, rig.now.ledger.elastic, 1e3 * tolerance);
     assert_close("dissipated", seen.ledger.dissipated, rig.now.ledger.dissipated, 1e3 * tolerance);
     assert_close("friction", seen.ledger.friction, rig.now.ledger.friction, 1e3 * tolerance);

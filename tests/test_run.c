@@ -6,12 +6,16 @@
 
 #include <math.h>
 
+#define BEFORE_LAYERS                                                                              \
+    "step,time,tap,density,density_all,density_tap_mean,density_all_tap_mean,density_com,"         \
+    "density_com_tap_mean,density_slab,density_slab_tap_mean,angle,angle_tap_mean,"
+#define AFTER_LAYERS                                                                               \
+    ",nematic_s,contact_count,overlap_max,overlap_mean,speed_max,kinetic,rotational,deep_count"
 static const char header[] =
-    "step,time,tap,density,density_all,density_tap_mean,density_all_tap_mean,density_com,"
-    "density_com_tap_mean,density_slab,density_slab_tap_mean,angle,"
-    "angle_tap_mean,angle_layer1,angle_layer2,angle_layer3,angle_layer4,count_layer1,count_layer2,"
-    "count_layer3,count_layer4,nematic_s,contact_count,overlap_max,overlap_mean,speed_max,kinetic,"
-    "rotational,deep_count";
+    BEFORE_LAYERS "angle_layer1,angle_layer2,angle_layer3,angle_layer4,"
+                  "count_layer1,count_layer2,count_layer3,count_layer4" AFTER_LAYERS;
+static const char listed[] =
+    BEFORE_LAYERS "angle_layer<i>,count_layer<i>" AFTER_LAYERS ",wall<i>_f<x>";
 static const char ledger_header[] =
     ",energy_potential,energy_elastic,energy_dissipated,energy_friction,work_walls,energy_residual";
 static const char final_header[] =
@@ -137,6 +141,60 @@ static void test_settings(void **state)
     assert_false(is_there("bad"));
 }
 
+/* The number in a column (from 0) of a line. */
+static double cell_of(const char *line, int column)
+{
+    for (; column > 0; column--) {
+        line = strchr(line, ',') + 1;
+    }
+    return strtod(line, NULL);
+}
+
+/* Every contact is in contacts.csv: as many pairs as the series counts, and on the floor (wall 0)
+ * the force that it says. */
+static void test_contacts(void **state)
+{
+    (void)state;
+    expect(0, "30 grains",
+           "run bed.yaml -o touching " EXACT
+           " --set observe.contacts=true --set observe.walls=true");
+    char *series = read_file("touching/series.csv", NULL),
+         *contacts = read_file("touching/contacts.csv", NULL);
+    assert_string_equal(line_of(contacts, 0),
+                        "step,time,a,b,x,y,z,nx,ny,nz,overlap,fn,ftx,fty,ftz,slips");
+    int next = 1, count = count_lines("touching/contacts.csv"), commas = 0;
+    const char *names = line_of(series, 0), *floor = strstr(names, "wall0_fz");
+    for (const char *at = names; at < floor; at++) {
+        commas += *at == ',';
+    }
+    for (int row = 1; row <= 5; row++) {
+        double step = cell_of(line_of(series, row), 0), pairs = 0, push = 0;
+        for (; next < count && cell_of(line_of(contacts, next), 0) == step; next++) {
+            const char *c = line_of(contacts, next);
+            pairs += cell_of(c, 3) >= 0;
+            push += cell_of(c, 3) == -1 ? cell_of(c, 11) * cell_of(c, 9) + cell_of(c, 14) : 0;
+        }
+        const char *line = line_of(series, row);
+        assert_true(pairs == cell_of(line, 22)); /* contact_count */
+        /* nine digits of each */
+        assert_true(fabs(push - cell_of(line, commas)) <= 1e-7 * fabs(push));
+    }
+    assert_int_equal(next, count);
+    assert_true(count > 30 && !strstr(contacts, ",-0,"));
+    free(series);
+    free(contacts);
+    expect(0, "30 grains",
+           "run bed.yaml -o touching --overwrite " EXACT " --set observe.contacts=true "
+           "--set observe.contacts_interval=0.015");
+    contacts = read_file("touching/contacts.csv", NULL);
+    for (int i = 1; i < count_lines("touching/contacts.csv"); i++) {
+        assert_true(fmod(cell_of(line_of(contacts, i), 0), 750) == 0);
+    }
+    free(contacts);
+    expect(0, "30 grains", "run bed.yaml -o touching --overwrite --until 0");
+    assert_false(is_there("touching/contacts.csv"));
+}
+
 /* Pictures between taps do not take each other's names. */
 static void test_pictures_between_taps(void **state)
 {
@@ -188,8 +246,8 @@ static void test_other_commands(void **state)
         }
     }
     free(said);
-    assert_true(strncmp(names, header, strlen(header)) == 0);
-    assert_string_equal(names + strlen(header), ledger_header);
+    assert_true(strncmp(names, listed, strlen(listed)) == 0);
+    assert_string_equal(names + strlen(listed), ledger_header);
     expect(0, "encoder", "devices");
 }
 
@@ -331,6 +389,7 @@ int main(void)
         cmocka_unit_test(test_default_folder),
         cmocka_unit_test(test_bed_from_a_file),
         cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_contacts),
         cmocka_unit_test(test_pictures_between_taps),
         cmocka_unit_test(test_draws_again),
         cmocka_unit_test(test_kernels_from_a_folder),

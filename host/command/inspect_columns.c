@@ -96,9 +96,7 @@ static bool matches(const char *name, int reason)
 /* Why the column stays empty, or NULL. */
 static const char *reason_for(const OzColumn *column, const OzScene *scene, const OzGrains *grains)
 {
-    bool has = (column->models & 1 << scene->model) != 0 &&
-               (column->need == OZ_COLUMN_ALWAYS || scene->observe.ledger);
-    for (int r = 0; has && r < REASONS; r++) {
+    for (int r = 0; oz_observables_cells(column, scene) > 0 && r < REASONS; r++) {
         if (matches(column->name, r) && reasons[r].lacks(scene, grains)) {
             return reasons[r].why;
         }
@@ -109,6 +107,7 @@ static const char *reason_for(const OzColumn *column, const OzScene *scene, cons
 void oz_inspect_columns_print(FILE *file, const OzScene *scene, const OzGrains *grains)
 {
     const char *last = NULL;
+    char name[OZ_COLUMN_NAME];
     for (int r = 0; r < REASONS; r++) {
         const char *why = reasons[r].why, *lead = last ? "; " : "";
         for (int before = 0; before < r; before++) { /* said with the first row that says so */
@@ -117,9 +116,10 @@ void oz_inspect_columns_print(FILE *file, const OzScene *scene, const OzGrains *
         bool any = false;
         for (const OzColumn *column = oz_series_columns(); why && column->name; column++) {
             const char *found = reason_for(column, scene, grains);
-            if (found && strcmp(found, why) == 0) {
-                fprintf(file, "%s%s", any ? ", " : lead, column->name);
-                any = true;
+            int cells = found && strcmp(found, why) == 0 ? oz_observables_cells(column, scene) : 0;
+            for (int cell = 0; cell < cells; cell++, any = true) {
+                oz_observables_name(column, scene, cell, name);
+                fprintf(file, "%s%s", any ? ", " : lead, name);
             }
         }
         if (any) {

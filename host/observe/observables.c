@@ -6,6 +6,8 @@
 #include "observe/flat.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static bool step(const OzObservation *o, double *value)
 {
@@ -112,6 +114,19 @@ static bool overlap_mean(const OzObservation *o, double *value)
 {
     int64_t count = o->contacts.pairs + o->contacts.walls;
     *value = count > 0 ? o->contacts.overlap_sum / (double)count : 0;
+    return o->snapshot->has_contacts;
+}
+
+/* Rods in space, trigrains in a plane. */
+static int axes_of(const OzScene *scene)
+{
+    return scene->model == OZ_MODEL_RODS ? 3 : 2;
+}
+
+static bool wall_force(const OzObservation *o, double *value)
+{
+    int axes = axes_of(o->snapshot->scene);
+    *value = o->wall_force[o->index / axes][o->index % axes];
     return o->snapshot->has_contacts;
 }
 
@@ -232,6 +247,8 @@ static bool residual(const OzObservation *o, double *value)
 
 #define ALWAYS OZ_COLUMN_ALWAYS
 #define LEDGER OZ_COLUMN_LEDGER
+#define LAYERS OZ_COLUMN_LAYERS
+#define WALLS  OZ_COLUMN_WALLS
 #define RODS   OZ_COLUMN_RODS
 #define FLAT   OZ_COLUMN_TRIGRAINS
 #define ALL    OZ_COLUMN_ALL
@@ -260,15 +277,9 @@ static const OzColumn list[] = {
     {"angle", "degrees", "mean angle between shaft and floor, rods only: 0 flat, 90 upright", RODS, ALWAYS,
      false, angle, 0},
     {"angle_tap_mean", "degrees", "the same mean of angle", RODS, ALWAYS, false, tap_mean, OZ_TAP_ANGLE},
-    {"angle_layer1", "degrees", "angle in the layer on the floor's place at rest, by grain centre; "
-     "empty without rods", RODS, ALWAYS, false, angle_layer, 0},
-    {"angle_layer2", "degrees", "the same in the second layer", RODS, ALWAYS, false, angle_layer, 1},
-    {"angle_layer3", "degrees", "the same in the third layer", RODS, ALWAYS, false, angle_layer, 2},
-    {"angle_layer4", "degrees", "the same in the fourth layer", RODS, ALWAYS, false, angle_layer, 3},
-    {"count_layer1", "1", "grains whose centre lies in the first layer", RODS, ALWAYS, true, count_layer, 0},
-    {"count_layer2", "1", "the same in the second layer", RODS, ALWAYS, true, count_layer, 1},
-    {"count_layer3", "1", "the same in the third layer", RODS, ALWAYS, true, count_layer, 2},
-    {"count_layer4", "1", "the same in the fourth layer", RODS, ALWAYS, true, count_layer, 3},
+    {"angle_layer<i>", "degrees", "angle in the layers 1 to 4, from the floor's place at rest up, by grain centre; "
+     "empty without rods", RODS, LAYERS, false, angle_layer, 0},
+    {"count_layer<i>", "1", "grains whose centre lies in a layer", RODS, LAYERS, true, count_layer, 0},
     {"nematic_s", "1", "largest eigenvalue of <3uu - 1>/2, rods only: 1 aligned, 0 isotropic", RODS, ALWAYS,
      false, nematic, 0},
     {"contact_count", "1", "touching pairs of grains", ALL, ALWAYS, true, contact_count, 0},
@@ -337,6 +348,8 @@ static const OzColumn list[] = {
      ALWAYS, false, oz_flat_inclination, 5},
     {"deep_count", "1", "contacts deeper than guards.overlap.warn so far, each counted once a step",
      ALL, ALWAYS, true, deep_count, 0},
+    {"wall<i>_f<x>", "N", "force of all grains on walls.<i> along an axis, x, y or z, with observe.walls "
+     "(trigrains: x and y, a metre deep)", ALL, WALLS, false, wall_force, 0},
     {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},
     {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, ledger_entry, ELASTIC},
     {"energy_dissipated", "J", "lost in dashpots so far", RODS, LEDGER, false, ledger_entry, DISSIPATED},
@@ -359,4 +372,28 @@ static const OzColumn list[] = {
 const OzColumn *oz_observables_list(void)
 {
     return list;
+}
+
+int oz_observables_cells(const OzColumn *column, const OzScene *scene)
+{
+    const int cells[] = {[ALWAYS] = 1,
+                         [LEDGER] = scene->observe.ledger,
+                         [LAYERS] = OZ_MEASURE_LAYERS,
+                         [WALLS] = scene->observe.walls ? scene->wall_count * axes_of(scene) : 0};
+    return (column->models & 1 << scene->model) != 0 ? cells[column->need] : 0;
+}
+
+void oz_observables_name(const OzColumn *column, const OzScene *scene, int cell,
+                         char name[OZ_COLUMN_NAME])
+{
+    int axes = axes_of(scene), thing = column->need == LAYERS ? cell + 1 : cell / axes;
+    const char *at = column->name, *number = strstr(at, "<i>"), *letter = strstr(at, "<x>");
+    if (!number) {
+        snprintf(name, OZ_COLUMN_NAME, "%s", at);
+    } else if (!letter) {
+        snprintf(name, OZ_COLUMN_NAME, "%.*s%d%s", (int)(number - at), at, thing, number + 3);
+    } else {
+        snprintf(name, OZ_COLUMN_NAME, "%.*s%d%.*s%c", (int)(number - at), at, thing,
+                 (int)(letter - number - 3), number + 3, "xyz"[cell % axes]);
+    }
 }

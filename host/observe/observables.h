@@ -29,8 +29,9 @@ typedef struct OzObservation {
     OzMeasure *measure;
     const OzSnapshot *snapshot;
     const OzFlow *flow; /* of flat grains, the snapshot seen */
-    int index;          /* of the column asked for                */
+    int index;          /* of the column asked for, and of its repetition */
     OzContactSums contacts;
+    double (*wall_force)[3]; /* N, of all grains on each wall of the scene; NULL: nobody asked */
     OzLayer layers[OZ_MEASURE_LAYERS];
     bool has_mean[OZ_TAP_MEANS];
     double mean[OZ_TAP_MEANS]; /* tap means, by the series                  */
@@ -38,7 +39,17 @@ typedef struct OzObservation {
     double energy_start;       /* J, oz_observables_energy of the first row */
 } OzObservation;
 
-typedef enum OzColumnNeed { OZ_COLUMN_ALWAYS, OZ_COLUMN_LEDGER } OzColumnNeed;
+/* How often a column stands in a row, and what must be asked for: once; once with observe.ledger;
+ * for each layer, "<i>" in its name being 1 to 4; with observe.walls for each wall, "<i>" being its
+ * number from 0, and of each for every axis of the model, "<x>". */
+typedef enum OzColumnNeed {
+    OZ_COLUMN_ALWAYS,
+    OZ_COLUMN_LEDGER,
+    OZ_COLUMN_LAYERS,
+    OZ_COLUMN_WALLS
+} OzColumnNeed;
+
+enum { OZ_COLUMN_NAME = 64 };
 
 /* The models that have a column: bits. */
 enum {
@@ -54,11 +65,18 @@ typedef struct OzColumn {
     OzColumnNeed need;
     bool whole; /* printed as a whole number */
     bool (*value)(const OzObservation *observation, double *value);
-    int index; /* tells apart the rows that share a function: layers from 0 */
+    int index; /* tells apart the rows that share a function; of a repeated one the first index */
 } OzColumn;
 
 /* The rows in the order of series.csv, ending with a NULL name. */
 const OzColumn *oz_observables_list(void);
+
+/* How many cells of a row are the column's: 0 in scenes that have not got it. */
+int oz_observables_cells(const OzColumn *column, const OzScene *scene);
+
+/* The name of one of them, counted from 0. */
+void oz_observables_name(const OzColumn *column, const OzScene *scene, int cell,
+                         char name[OZ_COLUMN_NAME]);
 
 /* Kinetic + rotational + potential + stored + dissipated (friction too) - work of the walls, J:
  * constant but for the error of integration. */

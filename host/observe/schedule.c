@@ -44,6 +44,7 @@ OzSchedule oz_schedule_create(const OzScene *scene, double until)
     s.frame = frame_interval(scene, duration);
     s.strobe = scene->snapshots.strobe;
     s.checkpoint = scene->checkpoint.interval_taps * scene->period;
+    s.contact = scene->observe.contacts ? scene->observe.contacts_interval : 0;
     return s;
 }
 
@@ -139,6 +140,7 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     int64_t next = earlier(row_step(s), sample_step(s));
     next = earlier(next, step_of(s, s->frame, s->frames));
     next = earlier(next, step_of(s, s->strobe, s->strobes));
+    next = earlier(next, step_of(s, s->contact, s->contacts));
     next = earlier(next, snapshot_step(s));
     next = earlier(next, step_of(s, s->checkpoint, s->checkpoints + 1));
     next = earlier(next, kept_step(s));
@@ -154,6 +156,9 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     *due |= pass(s, s->frame, &s->frames, next) ? OZ_DUE_MOVIE : 0;
     *due |= pass(s, s->strobe, &s->strobes, next) ? OZ_DUE_STROBE : 0;
     *due |= pass_checkpoints(s, next) ? OZ_DUE_CHECKPOINT : 0;
+    *due |= pass(s, s->contact, &s->contacts, next) ? OZ_DUE_CONTACTS : 0;
+    bool with_rows = s->scene->observe.contacts && s->contact == 0;
+    *due |= with_rows && (*due & OZ_DUE_ROW) ? OZ_DUE_CONTACTS : 0;
     while (snapshot_step(s) <= next) {
         *due |= OZ_DUE_SNAPSHOT;
         s->snapshots++;
@@ -200,7 +205,7 @@ bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
     const OzScene *x = a->scene, *y = b->scene;
     return a->last_step == b->last_step && a->row == b->row && a->sample == b->sample &&
            a->phase == b->phase && a->frame == b->frame && a->strobe == b->strobe &&
-           a->checkpoint == b->checkpoint &&
+           a->contact == b->contact && a->checkpoint == b->checkpoint &&
            same(x->snapshots.times, x->snapshots.count, y->snapshots.times, y->snapshots.count) &&
            same(x->checkpoint.times, x->checkpoint.count, y->checkpoint.times, y->checkpoint.count);
 }
@@ -209,12 +214,13 @@ OzStatus oz_schedule_state(OzSchedule *s, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
     int64_t snapshots = s->snapshots, kept = s->kept;
-    OZ_TRY(oz_state_enter(visit, "schedule", 2));
+    OZ_TRY(oz_state_enter(visit, "schedule", 3));
     OZ_TRY(oz_step_clock_state(&s->clock, visit, "clock"));
     OZ_TRY(oz_state_index(visit, "rows", &s->rows, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "samples", &s->samples, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "frames", &s->frames, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "strobes", &s->strobes, 0, INT64_MAX));
+    OZ_TRY(oz_state_index(visit, "contacts", &s->contacts, 0, INT64_MAX));
     OZ_TRY(oz_state_index(visit, "snapshots", &snapshots, 0, s->scene->snapshots.count));
     OZ_TRY(oz_state_index(visit, "checkpoints", &s->checkpoints, 0, INT64_MAX - 1));
     OZ_TRY(oz_state_index(visit, "kept", &kept, 0, INT64_MAX));

@@ -16,17 +16,20 @@ enum {
     OZ_DUE_MOVIE = 4,
     OZ_DUE_SNAPSHOT = 8,
     OZ_DUE_STROBE = 16,
-    OZ_DUE_CHECKPOINT = 32 /* a state to be kept */
+    OZ_DUE_CHECKPOINT = 32, /* a state to be kept */
+    OZ_DUE_CONTACTS = 64,
+    OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS /* what needs the snapshot's contacts */
 };
 
 typedef struct OzSchedule {
     const OzScene *scene; /* borrowed */
     OzStepClock clock;    /* of the simulation */
     int64_t last_step;
-    double row, sample, frame, strobe, checkpoint; /* s between events; 0: there are none */
+    double row, sample, frame, strobe, contact,
+        checkpoint; /* s between events; 0: there are none */
     double phase; /* s after whole periods: rows and samples at observe.at; 0: at whole ones too */
     bool over;    /* the last step has been given                                   */
-    int64_t rows, samples, frames, strobes,
+    int64_t rows, samples, frames, strobes, contacts,
         checkpoints;     /* events of each kind that have been due */
     int snapshots, kept; /* the same of those at moments of their own */
 } OzSchedule;
@@ -35,7 +38,8 @@ typedef struct OzSchedule {
  * 0 is at time 0. With observe.at: mean, rows follow each `row` seconds and at the last step,
  * samples samples_per_tap times a period. With top or bottom, there is a sample in every period
  * where the first moving wall is highest or lowest, and rows at such moments only, the first in the
- * first period, the others each `row` seconds after. */
+ * first period, the others each `row` seconds after. Contacts asked for without an interval are due
+ * with every row. */
 OzSchedule oz_schedule_create(const OzScene *scene, double until);
 
 /* The next step at which something is due, and what; events at one step come together. False when

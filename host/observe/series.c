@@ -25,6 +25,7 @@ struct OzSeries {
     const OzScene *scene;
     OzMeasure measure;
     Ring mean[OZ_TAP_MEANS];
+    double (*wall_force)[3]; /* of the row in hand; NULL: nobody asked */
     bool has_start;
     double energy_start; /* J, of the first row */
     OzSurplus surplus;
@@ -59,12 +60,6 @@ static bool ring_mean(const Ring *ring, double *mean)
     return ring->count > 0;
 }
 
-static bool has_column(const OzSeries *series, const OzColumn *column)
-{
-    bool known = column->need == OZ_COLUMN_ALWAYS || series->scene->observe.ledger;
-    return known && (column->models & 1 << series->scene->model) != 0;
-}
-
 /* Ends the row; whatever failed since the last one shows here. */
 static OzStatus end_row(OzSeries *series)
 {
@@ -75,10 +70,12 @@ static OzStatus end_row(OzSeries *series)
 static OzStatus write_header(OzSeries *series)
 {
     const char *comma = "";
+    char name[OZ_COLUMN_NAME];
     for (const OzColumn *column = oz_series_columns(); column->name; column++) {
-        if (has_column(series, column)) {
-            fprintf(series->file, "%s%s", comma, column->name);
-            comma = ",";
+        int cells = oz_observables_cells(column, series->scene);
+        for (int cell = 0; cell < cells; cell++, comma = ",") {
+            oz_observables_name(column, series->scene, cell, name);
+            fprintf(series->file, "%s%s", comma, name);
         }
     }
     return end_row(series);
@@ -95,6 +92,9 @@ static OzStatus open_series(OzSeries **series, const char *path, const OzScene *
     (*series)->scene = scene;
     OZ_TRY(oz_memory_text(&(*series)->path, path));
     OZ_TRY(oz_measure_create(&(*series)->measure, scene, grains));
+    if (scene->observe.walls) {
+        OZ_TRY(OZ_NEW(&(*series)->wall_force, scene->wall_count));
+    }
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         OZ_TRY(ring_create(&(*series)->mean[k], 2 * samples));
     }
@@ -173,6 +173,11 @@ static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
     OzObservation observation = {
         .measure = &series->measure, .snapshot = snapshot, .flow = &series->flow};
     observation.contacts = oz_contact_list_sum(&snapshot->contacts);
+    observation.wall_force = series->wall_force;
+    if (series->wall_force) {
+        oz_contact_list_push_walls(&snapshot->contacts, series->wall_force,
+                                   series->scene->wall_count);
+    }
     oz_measure_layers(&series->measure, snapshot, observation.layers);
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         observation.has_mean[k] = ring_mean(&series->mean[k], &observation.mean[k]);
@@ -182,10 +187,9 @@ static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
     return observation;
 }
 
-static void write_cell(FILE *file, const OzColumn *column, OzObservation *observation)
+static void write_cell(FILE *file, const OzColumn *column, const OzObservation *observation)
 {
     double value = 0;
-    observation->index = column->index;
     if (!column->value(observation, &value)) {
         return;
     }
@@ -205,10 +209,11 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
     OzObservation observation = observe(series, snapshot);
     const char *comma = "";
     for (const OzColumn *column = oz_series_columns(); column->name; column++) {
-        if (has_column(series, column)) {
+        int cells = oz_observables_cells(column, series->scene);
+        for (int cell = 0; cell < cells; cell++, comma = ",") {
             fputs(comma, series->file);
+            observation.index = column->index + cell;
             write_cell(series->file, column, &observation);
-            comma = ",";
         }
     }
     if (!series->has_start) {
@@ -239,6 +244,7 @@ OzStatus oz_series_free(OzSeries *series)
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
     }
     oz_measure_free(&series->measure);
+    free(series->wall_force);
     oz_flow_free(&series->flow);
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         free(series->mean[k].value);

@@ -15,16 +15,17 @@ OzFolderUse oz_outputs_use(bool overwrite)
     static const char *const writes[] = {"log.txt",
                                          "scene.yaml",
                                          "series.csv",
+                                         "contacts.csv",
                                          "frames.bin",
                                          "final.csv",
                                          "final.csv.part",
                                          "movie.mp4",
                                          "movie.mp4.part",
+                                         "movie.mp4.new",
                                          "state*.h5",
                                          "state*.h5.part",
                                          "state*.h5.previous",
                                          "checkpoints/*.h5*",
-                                         "movie.mp4.new",
                                          "members.csv",
                                          "members.csv.part",
                                          "ensemble.csv",
@@ -80,7 +81,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
                          OzRenderQueue *render_queue)
 {
     OzStatus status = OZ_OK;
-    char *series = NULL, *frames = NULL;
+    char *series = NULL, *contacts = NULL, *frames = NULL;
     const OzScene *scene = &outputs->scene;
     const OzGrains *grains = &outputs->grains;
     bool pictures =
@@ -101,6 +102,11 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     OZ_TRY(claim(&series, outputs->folder, "series.csv", NULL));
     OZ_TRY((outputs->goes_on ? oz_series_go_on : oz_series_create)(&outputs->series, series, scene,
                                                                    grains));
+    if (scene->observe.contacts) {
+        OZ_TRY(claim(&contacts, outputs->folder, "contacts.csv", NULL));
+        OZ_TRY((outputs->goes_on ? oz_contact_rows_go_on
+                                 : oz_contact_rows_create)(&outputs->contact_rows, contacts));
+    }
     if (pictures) {
         OZ_TRY(claim(&frames, outputs->folder, "frames.bin", NULL));
         OZ_TRY((outputs->goes_on ? oz_frames_go_on : oz_frames_create)(&outputs->frames, frames,
@@ -118,6 +124,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     }
 done:
     free(series);
+    free(contacts);
     free(frames);
     return status;
 }
@@ -138,6 +145,9 @@ OzStatus oz_outputs_look(OzOutputs *outputs, int due)
     }
     if (due & OZ_DUE_ROW) {
         OZ_PASS(oz_series_write(outputs->series, &outputs->now));
+    }
+    if (due & OZ_DUE_CONTACTS) {
+        OZ_PASS(oz_contact_rows_write(outputs->contact_rows, &outputs->now));
     }
     if (purpose && outputs->frames) {
         OZ_PASS(oz_frames_add(outputs->frames, &outputs->now, purpose));

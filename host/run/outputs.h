@@ -5,6 +5,7 @@
 #include "base/folder.h"
 #include "cli.h"
 #include "draw/render_queue.h"
+#include "observe/contact_rows.h"
 #include "observe/frames.h"
 #include "observe/series.h"
 
@@ -27,6 +28,8 @@ typedef enum OzOutcome {
       oz_render_queue_state(o->render_queue, o->pictures, &o->grains, visit),                      \
       oz_render_queue_finish(o->render_queue, o->pictures))                                        \
     X(OzFrames, frames, oz_frames_state(o->frames, visit), oz_frames_finish(o->frames))            \
+    X(OzContactRows, contact_rows, oz_contact_rows_state(o->contact_rows, visit),                  \
+      oz_contact_rows_free(o->contact_rows))                                                       \
     X(OzSeries, series, oz_series_state(o->series, visit), oz_series_free(o->series))
 
 /* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while

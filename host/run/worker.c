@@ -165,7 +165,8 @@ static OzStatus look_at(OzWorker *worker, int64_t m, int due)
 {
     OzStatus status = OZ_OK;
     OzOutputs *member = worker->members[m];
-    OZ_TRY(oz_read_snapshot_snapshot(worker->sim, (int)m, &member->now, (due & OZ_DUE_ROW) != 0));
+    OZ_TRY(
+        oz_read_snapshot_snapshot(worker->sim, (int)m, &member->now, (due & OZ_DUE_LISTED) != 0));
     OZ_TRY(oz_outputs_look(member, due));
 done:
     if (status == OZ_ERR_BLOWUP && worker->is_ensemble) {

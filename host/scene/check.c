@@ -209,20 +209,29 @@ static void check_grain_count(Checker *checker)
     }
 }
 
+static void check_interval(Checker *checker, const char *key, double interval, const char *file)
+{
+    double rows = checker->scene->duration / interval, step = checker->scene->step;
+    if (interval > 0 && rows > OZ_CHECK_ROWS_MAX) {
+        fault(checker, key, "%.3g rows of %s; expected at most %g", rows, file, OZ_CHECK_ROWS_MAX);
+    }
+    if (is_written(checker, key) && interval < step) {
+        fault(checker, key, "%s is shorter than a time step; expected at least %g s", key, step);
+    }
+}
+
 static void check_run_length(Checker *checker)
 {
     const OzScene *scene = checker->scene;
+    const char *own = "observe.contacts_interval";
     if (scene->step > 0 && scene->duration / scene->step > OZ_CHECK_STEPS_MAX) {
         fault(checker, is_written(checker, "time.taps") ? "time.taps" : "time.duration",
               "%.3g steps; expected at most %g", scene->duration / scene->step, OZ_CHECK_STEPS_MAX);
     }
-    if (scene->duration / scene->observe.interval > OZ_CHECK_ROWS_MAX) {
-        fault(checker, "observe.interval", "%.3g rows of series.csv; expected at most %g",
-              scene->duration / scene->observe.interval, OZ_CHECK_ROWS_MAX);
-    }
-    if (is_written(checker, "observe.interval") && scene->observe.interval < scene->step) {
-        fault(checker, "observe.interval",
-              "observe.interval is shorter than a time step; expected at least %g s", scene->step);
+    check_interval(checker, "observe.interval", scene->observe.interval, "series.csv");
+    check_interval(checker, own, scene->observe.contacts_interval, "contacts.csv");
+    if (is_written(checker, own) && !scene->observe.contacts) {
+        fault(checker, own, "%s without contacts; expected observe.contacts: true", own);
     }
 }
 
@@ -237,8 +246,7 @@ static void check_phase(Checker *checker)
     if (round(periods) < 1 || fabs(periods - round(periods)) > 1e-6 * periods) {
         fault(checker, "observe.at",
               "observe.at with rows %.6g periods apart, which are not all at one phase; expected a "
-              "whole "
-              "observe.interval_taps",
+              "whole observe.interval_taps",
               periods);
     }
 }

@@ -34,7 +34,6 @@ enum { OZ_LAWS(LAW_BIT) };
 /* Written in degrees, kept in radians. */
 #define DEGREES .scale = 3.14159265358979323846 / 180
 
-#define REFUSE  OZ_RELOAD_REFUSE
 #define APPLY   OZ_RELOAD_APPLY
 #define REBUILD OZ_RELOAD_REBUILD
 
@@ -335,7 +334,6 @@ static const OzKey KEYS[] = {
      .help = "without drag afterwards"},
     {"settle.time_max", NUMBER(0, 1e9, "s"), AT(settle.time_max), DEFAULT("2"),
      .help = "longest time with drag"},
-
     {"settle.overlaps", CHOICE(OVERLAPS), AT(settle.overlaps), DEFAULT("keep"),
      .help = "remove: grains that overlap at the start are moved apart first, without forces"},
 
@@ -346,7 +344,6 @@ static const OzKey KEYS[] = {
      .help =
          "an overlap beyond this ends the run, as do shafts that meet and centres behind walls, "
          "where a contact has no direction any more"},
-
     {"guards.overlap.warn", NUMBER(1e-6, 0.5, ""), AT(guards.overlap_warn), DEFAULT("0.25"), FLAT,
      .help = "contacts with more than this part of a triangle inside another, or of a disc's "
              "diameter, are counted in deep_count, and the first is said"},
@@ -370,6 +367,10 @@ static const OzKey KEYS[] = {
      .reload = APPLY, DEFAULT("0.004"), SOLID, .help = "of the layers counted from the floor"},
     {"observe.ledger", OF(BOOL), AT(observe.ledger), .reload = REBUILD, DEFAULT("false"),
      .help = "energy columns"},
+    {"observe.walls", OF(BOOL), AT(observe.walls), DEFAULT("false"), .help = "force on each wall"},
+    {"observe.contacts", OF(BOOL), AT(observe.contacts), DEFAULT("false"), .help = "contacts.csv"},
+    {"observe.contacts_interval", NUMBER(1e-12, 1e9, "s"), AT(observe.contacts_interval),
+     .help = "between its moments", .write = OZ_WRITE_NONZERO, .fallback_help = "as series.csv"},
     {"observe.outlet", NUMBER(-1e6, 1e6, "m"), AT(observe.outlet), .reload = APPLY, FLAT,
      .count_offset = offsetof(OzScene, observe.has_outlet), .write = OZ_WRITE_MARKED,
      .fallback_help = "no outlet", .help = "grains below this height have flowed out"},

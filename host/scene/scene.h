@@ -191,6 +191,9 @@ typedef struct OzObserve {
     OzObserveAt at;          /* when rows are written, and of which phase tap means are     */
     double layer_thickness;  /* m; default 4e-3                                             */
     bool ledger;             /* energy columns                                              */
+    bool walls;              /* columns of the force on each wall                           */
+    bool contacts;           /* contacts.csv                                                */
+    double contacts_interval; /* s between its looks; 0: at every row of series.csv         */
     double outlet;           /* m, trigrains: grains below this height have flowed out      */
     bool has_outlet;
 } OzObserve;

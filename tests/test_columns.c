@@ -1,0 +1,69 @@
+/* Columns that stand for each of several things: the force on each wall, along each axis. */
+#include "hand_bed.h"
+#include "hand_contacts.h"
+#include "hand_series.h"
+
+#include "observe/series.h"
+
+static double value_of(const Bed *bed, const char *name)
+{
+    char cell[64];
+    OzSeries *series = NULL;
+    assert_int_equal(oz_series_create(&series, in_folder("one.csv"), &bed->scene, &bed->grains),
+                     OZ_OK);
+    assert_int_equal(oz_series_write(series, &bed->snapshot), OZ_OK);
+    assert_int_equal(oz_series_free(series), OZ_OK);
+    read_cell(in_folder("one.csv"), 1, name, cell);
+    return number_in(cell);
+}
+
+static void test_walls_feel_their_contacts(void **state)
+{
+    (void)state;
+    Bed bed;
+    char *text = NULL;
+    static const char end[] = ",deep_count,wall0_fx,wall0_fy,wall0_fz,wall1_fx,wall1_fy,wall1_fz\n";
+    bed_create(&bed, 2, 1e-3, 3e-3);
+    bed.scene.observe.walls = true;
+    assert_near(value_of(&bed, "wall1_fz"), -1e99, 0); /* without contacts nothing is known */
+    hand_contact(&bed.snapshot, (OzContactEntry){.b = 1, .push = 64, .normal = {1, 0, 0}});
+    hand_contact(
+        &bed.snapshot,
+        (OzContactEntry){.b = -1, .push = 3, .normal = {0, 0, -1}, .tangential = {0.5, 0, 0}});
+    hand_contact(&bed.snapshot, (OzContactEntry){.a = 1, .b = -1, .push = 4, .normal = {0, 0, -1}});
+    hand_contact(&bed.snapshot, (OzContactEntry){.a = 1, .b = -2, .push = 2, .normal = {0, 1, 0}});
+    assert_near(value_of(&bed, "wall0_fx"), 0.5, 0);
+    assert_near(value_of(&bed, "wall0_fy"), 0, 0);
+    assert_near(value_of(&bed, "wall0_fz"), -7, 0);
+    assert_near(value_of(&bed, "wall1_fy"), 2, 0);
+    assert_near(value_of(&bed, "wall1_fz"), 0, 0);
+    assert_int_equal(oz_file_read(&text, NULL, in_folder("one.csv")), OZ_OK);
+    char *line = strchr(text, '\n');
+    line[1] = '\0';
+    assert_string_equal(line + 1 - strlen(end), end);
+    free(text);
+    const OzColumn *last = oz_series_columns();
+    char name[OZ_COLUMN_NAME];
+    while (strcmp(last->name, "wall<i>_f<x>") != 0) {
+        last++;
+    }
+    bed.scene.model = OZ_MODEL_TRIGRAINS; /* in a plane */
+    assert_int_equal(oz_observables_cells(last, &bed.scene), 4);
+    oz_observables_name(last, &bed.scene, 3, name);
+    assert_string_equal(name, "wall1_fy");
+    bed_free(&bed);
+}
+
+static int clean_up(void **state)
+{
+    (void)state;
+    return remove_folder((const char *const[]){"one.csv", NULL});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_walls_feel_their_contacts),
+    };
+    return cmocka_run_group_tests(tests, make_folder, clean_up);
+}
