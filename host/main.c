@@ -137,7 +137,11 @@ int main(int argc, char **argv)
     oz_streams_open();
     OzStatus status = oz_log_create(&log, stderr, false);
     oz_log_use(log);
-    status = status == OZ_OK ? obey(argc, argv) : status;
+    if (status == OZ_OK) {
+        status = obey(argc, argv);
+    } else {
+        oz_log_line("%s", oz_status_text());
+    }
     OzStatus printed = oz_streams_flush();
     if (printed != OZ_OK) {
         oz_log_line("%s", oz_status_text());

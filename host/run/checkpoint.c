@@ -133,6 +133,7 @@ OzStatus oz_checkpoint_write(OzCheckpoint *checkpoint, const OzState *state, boo
     char name[128], *path = NULL, *folder = NULL;
     double start = oz_clock_now();
     choose_name(checkpoint, kept, name, sizeof name);
+    checkpoint->next = checkpoint->every > 0 ? start + checkpoint->every : INFINITY;
     if (kept) {
         OZ_TRY(oz_file_join(&folder, checkpoint->folder, "checkpoints"));
         OZ_TRY(oz_file_make_folder(folder));
@@ -140,7 +141,6 @@ OzStatus oz_checkpoint_write(OzCheckpoint *checkpoint, const OzState *state, boo
     OZ_TRY(oz_file_join(&path, checkpoint->folder, name));
     OZ_TRY(note(checkpoint->folder, name));
     OZ_TRY(oz_state_file_write(state, path));
-    checkpoint->next = oz_clock_now() + checkpoint->every;
     oz_log_detail("state at step %lld (%.9g s) in %s, %.3f s", (long long)checkpoint->head.step,
                   checkpoint->head.time, name, oz_clock_now() - start);
 done:

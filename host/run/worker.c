@@ -224,7 +224,9 @@ bool oz_worker_next_event(OzWorker *worker)
     return worker->is_due;
 }
 
-/* The state into its file; kept: another one, which later ones do not replace. */
+/* The state into its file; kept: another one, which later ones do not replace. Where that file
+ * cannot be written the run goes on, unless the scene has asked for it; a state that cannot be had
+ * leaves a simulation that is not to be trusted. */
 static OzStatus save(OzWorker *worker, bool kept)
 {
     OzState state = {0};
@@ -234,7 +236,13 @@ static OzStatus save(OzWorker *worker, bool kept)
     head->time = oz_sim_time(worker->sim);
     OzStatus status = oz_checkpoint_head_state(head, &visit);
     status = status == OZ_OK ? oz_worker_state(worker, &visit) : status;
-    status = status == OZ_OK ? oz_checkpoint_write(worker->checkpoint, &state, kept) : status;
+    if (status == OZ_OK) {
+        status = oz_checkpoint_write(worker->checkpoint, &state, kept);
+        if (status != OZ_OK && !kept) {
+            oz_log_line("warning: the state is not kept: %s", oz_status_text());
+            status = OZ_OK;
+        }
+    }
     oz_state_free(&state);
     return status;
 }
@@ -245,16 +253,10 @@ static OzStatus save_if_due(OzWorker *worker)
     return due ? save(worker, false) : OZ_OK;
 }
 
-/* What cannot be kept is said and costs nothing else. The failure text stays what it was. */
-static void save_at_end(OzWorker *worker)
+static OzStatus save_at_end(OzWorker *worker)
 {
-    char text[sizeof worker->text];
-    snprintf(text, sizeof text, "%s", oz_status_text());
     bool wanted = worker->checkpoint && worker->checkpoint->every > 0;
-    if (wanted && save(worker, false) != OZ_OK) {
-        oz_log_line("warning: the state at the end is not kept: %s", oz_status_text());
-    }
-    oz_status_fail(OZ_OK, "%s", text);
+    return wanted ? save(worker, false) : OZ_OK;
 }
 
 static OzStatus walk(OzWorker *worker)
@@ -275,14 +277,14 @@ static OzStatus walk(OzWorker *worker)
             OZ_TRY(save(worker, true));
         }
         if (worker->schedule.over) {
-            save_at_end(worker);
+            OZ_TRY(save_at_end(worker));
         }
         OZ_TRY(look(worker, worker->event_due, &open));
         worker->is_due = false;
     }
 done:
     if (status == OZ_ERR_INTERRUPTED) {
-        save_at_end(worker);
+        OZ_AFTER(status, save_at_end(worker));
     }
     worker->spent = oz_clock_now() - worker->first_step;
     oz_log_progress(" ");

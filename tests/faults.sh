@@ -1,0 +1,89 @@
+#!/bin/sh
+# Makes the n-th call of each kind fail (tests/faults.c) in a small run with a movie, for n = 1, 1 + STRIDE, ...: memory,
+# write, open, sync, rename, OpenCL, libav. However it ends: by no signal, in time, with no success claimed that is none,
+# and in a folder from which `orzo resume` gives the bytes of the run without a fault, or that can be run again.
+#   tests/faults.sh [STRIDE] [PROGRAM] [KIND]...
+set -u
+root=$(cd "$(dirname "$0")/.." && pwd)
+stride=${1:-1}
+orzo=${2:-$root/build/orzo}
+[ $# -gt 2 ] && shift 2 && kinds=$* || kinds='open sync rename write libav memory opencl'
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+faulty=0
+wrong=0
+
+complain() {
+    printf 'faults.sh: %s\n' "$*" >&2
+    sed 's/^/    /' log >&2
+    wrong=$((wrong + 1))
+}
+
+${CC:-cc} -shared -fPIC -O1 -o faults.so "$root/tests/faults.c" -ldl || exit 1
+cat >scene.yaml <<'SCENE'
+model: rods
+time: {step: 2e-5, taps: 2}
+contact: {contact_time: 6e-4, restitution: 0.5}
+grains:
+  - {kind: random, count: 29, diameter: 1e-3, aspect: 2}
+  - {kind: random, count: 1, diameter: 1e-3, aspect: 1}
+walls:
+  - {kind: plane, motion: {frequency: 50, acceleration_ratio: 2}}
+  - {kind: cylinder, diameter: 8e-3}
+settle: {drag: 70, time_max: 0.02, rest_time: 0.01}
+observe: {interval_taps: 0.5}
+movie: {speed: 0.1, size: [64, 64]}
+checkpoint: {every: 0.05}
+SCENE
+
+same() {
+    cmp -s whole/series.csv cut/series.csv && cmp -s whole/final.csv cut/final.csv
+}
+
+# with KIND N COMMAND...
+with() {
+    timeout -k 5 100 env LD_PRELOAD="$work/faults.so" ORZO_FAULT="$1:$2" ORZO_FAULT_COUNT="$work/count" \
+        "$orzo" run scene.yaml -o cut >log 2>&1
+}
+
+# try KIND N
+try() {
+    rm -rf cut count
+    with "$1" "$2"
+    status=$?
+    [ -s count ] || return 0 # not that many calls this time
+    faulty=$((faulty + 1))
+    case $status in
+    0)
+        same || complain "$1 $2: success is claimed, and the numbers are others"
+        return 0
+        ;;
+    1 | 2) ;;
+    *)
+        complain "$1 $2: ends with status $status"
+        return 0
+        ;;
+    esac
+    grep -q . log || complain "$1 $2: status $status and not a word"
+    if [ -f cut/state.h5 ] || [ -f cut/state.h5.previous ]; then
+        "$orzo" resume cut >log 2>&1 || { complain "$1 $2: cannot be resumed"; return 0; }
+    else
+        "$orzo" run scene.yaml -o cut --overwrite >log 2>&1 || { complain "$1 $2: cannot be run again"; return 0; }
+    fi
+    same || complain "$1 $2: afterwards the numbers are others"
+}
+
+"$orzo" run scene.yaml -o whole >log 2>&1 || { complain 'the run without a fault'; exit 1; }
+for kind in $kinds; do
+    rm -rf cut count
+    with "$kind" 0 || { complain "$kind: the run that counts"; exit 1; }
+    calls=$(cat count)
+    n=1
+    while [ "$n" -le "$calls" ]; do
+        try "$kind" "$n"
+        n=$((n + stride))
+    done
+    printf 'faults.sh: %s, %s calls: %s faults so far, %s wrong\n' "$kind" "$calls" "$faulty" "$wrong"
+done
+[ "$wrong" -eq 0 ]
