@@ -167,7 +167,7 @@ OZ_INLINE void oz_grains_watch(OzWork *w, int block, OzBody body, OzShape shape,
     real allowed = reference[OZ_REFERENCE_SKIN];
     mask holds = oz_grains_moved2(w, reference, body, shaft) <= allowed * allowed;
     if (OZ_ANY(!holds)) {
-        *mark = step;
+        OZ_WORK_MARK(mark, step);
     }
 }
 

@@ -76,7 +76,9 @@ typedef OZ_PASTE(int, OZ_LANES) fixed_position;
 #endif
 
 #define REAL(x)   ((real)((scalar)(x)))
+#ifndef OZ_INLINE /* a simulator of devices may have to be told not to inline (tests/conformance.sh) */
 #define OZ_INLINE static inline __attribute__((always_inline))
+#endif
 
 #if defined(OZ_DOUBLE)
 #define oz_fixed_position_bits(p)    (p)

@@ -17,24 +17,31 @@
         return;                                                                                    \
     }
 
-/* Whether a step is to be made: no earlier one has stopped or used up the lists. */
+/* A word that other work-items may mark in this very phase. */
+OZ_INLINE int marked(global int *word)
+{
+    return atomic_or(word, 0);
+}
+
+/* Whether a step is to be made: no earlier one has stopped or used up the lists. What a work-item
+ * marks in this step makes no difference to the others. */
 OZ_INLINE int due(const OzWork *w, int step)
 {
-    return w->control->truth == OZ_SPRINGS_AT_INNER && w->control->stale_step >= step &&
-           w->control->stop_step >= step && !w->control->full;
+    return w->control->truth == OZ_SPRINGS_AT_INNER && marked(&w->control->stale_step) >= step &&
+           marked(&w->control->stop_step) >= step && !w->control->full;
 }
 
 /* Whether the lists hold the places at which a step's forces are asked for. */
 OZ_INLINE int due_forces(const OzWork *w, int step)
 {
-    return due(w, step) && w->control->stale_positions > step;
+    return due(w, step) && marked(&w->control->stale_positions) > step;
 }
 
 #if OZ_MOVES_BEFORE
 kernel void oz_before(OZ_WORK_ARGUMENTS, int step)
 {
     OPEN_REGION
-    if (due(&w, step) && w.control->stale_positions >= step && !w.control->moved) {
+    if (due(&w, step) && marked(&w.control->stale_positions) >= step && !w.control->moved) {
         oz_motion_before_region(&w, region, step);
     }
 }

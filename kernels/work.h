@@ -49,14 +49,16 @@ typedef struct OzWork {
 
 #if OZ_GROUP == 1 && !OZ_RESORT
 #define OZ_WORK_BARRIER()
-#define OZ_WORK_COUNT(counter) ((*(counter))++)
-#define OZ_WORK_ITEM           0
-#define OZ_WORK_STRIDE         1
+#define OZ_WORK_COUNT(counter)   ((*(counter))++)
+#define OZ_WORK_MARK(word, step) (*(word) = (step))
+#define OZ_WORK_ITEM             0
+#define OZ_WORK_STRIDE           1
 #else
-#define OZ_WORK_BARRIER()      barrier(CLK_GLOBAL_MEM_FENCE)
-#define OZ_WORK_COUNT(counter) atomic_inc(counter)
-#define OZ_WORK_ITEM           ((int)get_local_id(0))
-#define OZ_WORK_STRIDE         ((int)get_local_size(0))
+#define OZ_WORK_BARRIER()        barrier(CLK_GLOBAL_MEM_FENCE)
+#define OZ_WORK_COUNT(counter)   atomic_inc(counter)
+#define OZ_WORK_MARK(word, step) atomic_min(word, step) /* of a word that is OZ_NEVER unmarked */
+#define OZ_WORK_ITEM             ((int)get_local_id(0))
+#define OZ_WORK_STRIDE           ((int)get_local_size(0))
 #endif
 
 /* Asks for an end: reason bits, step and the lowest id of the first step that had any. */
