@@ -124,6 +124,13 @@ int64_t oz_groups_most_workers(const OzGroups *groups)
     return groups->device->is_cpu ? groups->device->units : 1;
 }
 
+/* The scene's name as the run began, not that of the folder's scene.yaml: pictures show it. */
+static OzStatus take_name(OzScene *scene, const char *name)
+{
+    free(scene->name);
+    return oz_memory_text(&scene->name, name);
+}
+
 /* Members of the next states, as many states as go side by side. */
 static OzStatus gather_begun(OzGroups *groups)
 {
@@ -140,6 +147,7 @@ static OzStatus gather_begun(OzGroups *groups)
             (*member)->goes_on = true;
             OZ_PASS(oz_members_load(&groups->plan, head->first + i, &(*member)->scene,
                                     &(*member)->grains));
+            OZ_PASS(take_name(&(*member)->scene, head->name));
         }
     }
     groups->schedule = oz_schedule_create(&groups->members[0]->scene, groups->options->until);
