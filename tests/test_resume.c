@@ -154,8 +154,9 @@ static void test_one_owner(void **state)
     }
     expect(2, used, "resume owned");
     expect(2, used, "run bed.yaml -o owned --overwrite");
-    kill(first, SIGKILL);
-    assert_int_equal(wait_for(first, 10), -1);
+    kill(first, SIGINT);
+    assert_int_equal(wait_for(first, 10), 130);
+    assert_true(contains("owned/log.txt", "to go on from the last state: orzo resume owned\n"));
     expect(0, "goes on", "resume owned");
 }
 

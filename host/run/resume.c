@@ -93,6 +93,14 @@ done:
     return status;
 }
 
+bool oz_resume_has_state(const char *folder)
+{
+    glob_t found = {0};
+    bool has = list_paths(&found, folder) == OZ_OK;
+    globfree(&found);
+    return has;
+}
+
 static bool has_head_of(const OzResume *resume, int64_t first)
 {
     for (int i = 0; i < resume->count; i++) {

@@ -24,5 +24,8 @@ typedef struct OzResume {
 OzStatus oz_resume_open(OzResume *resume, const OzOptions *asked);
 void oz_resume_free(OzResume *resume);
 
+/* Whether there is a state to go on from in a run's folder. */
+bool oz_resume_has_state(const char *folder);
+
 /* Whether a key may be set while a run goes on: what ends it, and what states it leaves. */
 bool oz_resume_may_set(const char *setting);

@@ -351,6 +351,9 @@ done:
     if (status != OZ_OK) {
         oz_log_line("%s", oz_status_text());
     }
+    if (status != OZ_OK && run.owned.path && oz_resume_has_state(run.owned.path)) {
+        oz_log_line("to go on from the last state: orzo resume %s", run.owned.path);
+    }
     close_run(&run);
     oz_log_use(before);
     oz_log_free(run.log);
