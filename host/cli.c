@@ -13,7 +13,7 @@ static const struct {
     int least_paths, most_paths;
     const char *example;
 } command_rows[] = {
-    {"run", "SCENE", "oOsedtpgunfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1,
+    {"run", "SCENE", "oOsedtpgunmlfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1,
      1, "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
     {"resume", "DIR", "sdtguS",
      "goes on with a run that was interrupted or killed, or to a later end, from its last state", 1,
@@ -51,6 +51,9 @@ static const struct {
     {'g', "--gl", "egl|osmesa", "how to draw off-screen"},
     {'u', "--until", "T", "stop at time T, s"},
     {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later"},
+    {'m', "--stream", "FILE|-",
+     "the movie's frames as they are drawn, as Matroska: into a new file, a named pipe or a pipe"},
+    {'l', "--latest", NULL, "keep latest.png, the newest frame, in the folder"},
     {'f', "--force", NULL, "only warn of a step at which a contact is unstable"},
     {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder"},
     {'Q', "--quick", NULL, "a short ladder, in about a minute"},
@@ -265,6 +268,9 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
     case 'S':
         options->source_dir = value;
         return OZ_OK;
+    case 'm':
+        options->stream = value;
+        return value[0] ? OZ_OK : wrong(value, "--stream with the name of a file, or -");
     case 'b':
         return parse_budget(options, value);
     case 'T':
@@ -287,6 +293,7 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         options->features |= letter == 'F';
         options->overwrite |= letter == 'O';
         options->no_video |= letter == 'n';
+        options->latest |= letter == 'l';
         options->force |= letter == 'f';
         options->columns |= letter == 'c';
         options->verbose |= letter == 'v';

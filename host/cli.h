@@ -24,6 +24,8 @@ typedef struct OzOptions {
     uint64_t seed_first, seed_last;
     bool resumes;     /* the command goes on with a run   */
     int own_settings; /* which began with so many settings */
+    const char *stream;                   /* --stream: a path, "-", or NULL    */
+    bool latest;                          /* --latest                         */
     bool overwrite, no_video, force, columns, help, verbose;
     const char *source_dir;                       /* --source-dir                     */
     bool features, quick;                         /* bench                            */

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Kills runs at random moments (SIGKILL) and resumes them: series.csv, final.csv and frames.bin must be those of the run
-# that nobody killed, to the byte.
+# that nobody killed, to the byte, and the movie one file with as many frames.
 #   tests/kill.sh [TIMES] [PROGRAM]     100 times, build/orzo
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -29,7 +29,15 @@ fail() {
     exit 1
 }
 
+# Frames of a finished movie, as its table of sizes (stsz) counts them.
+count_frames() {
+    at=$(grep -abo stsz "$1" | head -n 1 | cut -d: -f1)
+    od -An -tu1 -j $((at + 12)) -N 4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
+}
+
 "$orzo" run scene.yaml -o whole >log 2>&1 || { cat log; fail 'the run that nobody kills'; }
+frames=$(count_frames whole/movie.mp4)
+[ "$frames" -gt 40 ] || fail "the whole movie has $frames frames"
 start=$(date +%s%N)
 "$orzo" run scene.yaml -o timed >log 2>&1
 span=$((($(date +%s%N) - start) / 1000000))
@@ -56,5 +64,7 @@ while [ "$i" -lt "$times" ]; do
     for file in series.csv final.csv frames.bin; do
         cmp whole/$file cut/$file || fail "killed after $wait_ms ms: $file differs"
     done
+    [ "$(count_frames cut/movie.mp4)" = "$frames" ] || fail "killed after $wait_ms ms: the movie is not one of $frames frames"
+    ! ls cut/movie.mp4.* >/dev/null 2>&1 || fail "killed after $wait_ms ms: a part of the movie is left"
 done
 printf 'kill.sh: %s runs, %s killed, %s of them resumed from a state: all the same to the byte\n' "$times" "$killed" "$resumed"

@@ -60,6 +60,10 @@ static void describe_pictures(AVCodecContext *context, const OzMovieCodec *codec
     context->color_trc = AVCOL_TRC_BT709;
     context->chroma_sample_location = AVCHROMA_LOC_LEFT;
     context->thread_count = 2; /* a fixed number, so that the bytes do not depend on the machine */
+    if (codec->live_ticks > 0) {
+        context->time_base = (AVRational){1, codec->live_ticks};
+        context->thread_count = 1; /* a movie may be encoded beside it */
+    }
     context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER; /* mp4 and Matroska want it so */
 }
 
@@ -87,6 +91,7 @@ static OzStatus open_context(OzMovieCodec *codec)
     if (encoder->option) {
         AV_TRY(av->av_dict_set(&options, encoder->option, encoder->value, 0));
         AV_TRY(av->av_dict_set(&options, "preset", encoder->preset, 0));
+        AV_TRY(av->av_dict_set(&options, "tune", codec->live_ticks ? "zerolatency" : NULL, 0));
     }
     /* x264 164 reads memory that nobody has written in its AVX-512 code for pictures whose width is
      * no multiple of 128, and packets then depend on what it held. Its AVX2 code gives the bytes
@@ -188,7 +193,8 @@ OzStatus oz_movie_codec_receive(OzMovieCodec *codec, bool *any)
     *any = code >= 0;
     if (code != AVERROR(EAGAIN) && code != AVERROR_EOF) {
         AV_TRY(code);
-        codec->packet->duration = 1; /* one frame: a constant rate, the last frame included */
+        /* One frame: a constant rate, the last frame included. */
+        codec->packet->duration = codec->live_ticks ? 0 : 1;
     }
 done:
     return status;

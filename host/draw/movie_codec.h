@@ -1,5 +1,5 @@
 /* Images into packets: the encoder of a movie and the conversion before it. For the movie's files
- * alone. Times are counted in frames. */
+ * alone. Times are counted in frames, or in ticks where it is live. */
 #pragma once
 
 #include "draw/image.h"
@@ -14,7 +14,7 @@ typedef struct OzMovieEncoder OzMovieEncoder;
 typedef struct OzMovieCodec {
     int width, height;
     AVRational rate;               /* frames a second                                     */
-    bool is_live;                  /* no frame waits for a later one                      */
+    int live_ticks;                /* a second; then no frame waits for a later one       */
     const OzMovieEncoder *encoder; /* set by oz_movie_codec_choose                        */
     AVCodecContext *context;       /* NULL: closed                                        */
     uint8_t *head;                 /* what the first context put before all packets; owned */

@@ -25,8 +25,9 @@
 #define OZ_AVFORMAT_FUNCTIONS(F)                                                                   \
     F(av_find_input_format) F(av_read_frame) F(av_write_frame) F(av_write_trailer)                 \
     F(avformat_alloc_output_context2) F(avformat_close_input) F(avformat_free_context)             \
-    F(avformat_new_stream) F(avformat_open_input) F(avformat_write_header) F(avio_closep)          \
-    F(avio_flush) F(avio_open) F(avio_seek)
+    F(avformat_new_stream) F(avformat_open_input) F(avformat_write_header)                         \
+    F(avio_alloc_context) F(avio_closep) F(avio_context_free) F(avio_flush) F(avio_open)           \
+    F(avio_seek)
 #define OZ_SWSCALE_FUNCTIONS(F)                                                                    \
     F(sws_freeContext) F(sws_getCoefficients) F(sws_getContext) F(sws_scale)                       \
     F(sws_setColorspaceDetails)

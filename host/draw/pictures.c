@@ -260,6 +260,15 @@ static OzStatus try_drawing(OzPictures *pictures, const OzSnapshot *snapshot)
     return status;
 }
 
+static void show(const OzPictures *pictures)
+{
+    const OzPicturesSettings *settings = pictures->settings;
+    if (settings->live) {
+        oz_live_show(settings->live, &pictures->image, pictures->scene->movie.fps,
+                     settings->folder);
+    }
+}
+
 OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose)
 {
     double start = oz_clock_now();
@@ -273,6 +282,7 @@ OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int p
     }
     if (purpose & OZ_FRAME_MOVIE) {
         OZ_PASS(draw(pictures, snapshot, 1, &pictures->look, &pictures->image));
+        show(pictures);
         OZ_PASS(add_to_movie(pictures));
     }
     if (purpose & OZ_FRAME_SNAPSHOT) {
@@ -350,6 +360,9 @@ OzStatus oz_pictures_finish(OzPictures *pictures)
     OzStatus drawn = draw_strobe(pictures);
     OzStatus status = oz_movie_finish(pictures->movie);
     status = status == OZ_OK ? drawn : status;
+    if (pictures->settings->live && pictures->image.pixels) {
+        oz_live_end(pictures->settings->live, &pictures->image, pictures->settings->folder);
+    }
     for (int i = 0; i < pictures->state_count; i++) {
         oz_snapshot_free(&pictures->states[i]);
     }

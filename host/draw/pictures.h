@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/state.h"
+#include "draw/live.h"
 #include "draw/renderer.h"
 
 typedef struct OzPictures OzPictures;
@@ -16,6 +17,7 @@ typedef struct OzPicturesSettings {
     const char *device;    /* for the movie's metadata: who computed; borrowed   */
     OzRenderer **renderer; /* shared by several pictures: made by the first that draws, freed by
                             * the caller after them; NULL: the pictures' own                */
+    OzLive *live;          /* is shown the movie's frames; borrowed, NULL: nobody           */
 } OzPicturesSettings;
 
 /* settings and scene are borrowed and must outlive the pictures. */

@@ -34,6 +34,7 @@ struct OzRenderQueue {
     char text[2048];
     OzRenderQueueTimes times;
     OzRenderer *renderer; /* of the thread alone */
+    OzLive live;
 };
 
 OzStatus oz_render_queue_create(OzRenderQueue **render_queue)
@@ -49,6 +50,11 @@ OzStatus oz_render_queue_create(OzRenderQueue **render_queue)
 OzRenderer **oz_render_queue_renderer(OzRenderQueue *render_queue)
 {
     return &render_queue->renderer;
+}
+
+OzLive *oz_render_queue_live(OzRenderQueue *render_queue)
+{
+    return &render_queue->live;
 }
 
 static void lock(OzRenderQueue *render_queue)
@@ -239,6 +245,7 @@ void oz_render_queue_free(OzRenderQueue *render_queue)
     if (render_queue->started) {
         pthread_join(render_queue->thread, NULL);
     }
+    oz_live_free(&render_queue->live);
     pthread_cond_destroy(&render_queue->changed);
     pthread_mutex_destroy(&render_queue->lock);
     free(render_queue);

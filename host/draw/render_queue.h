@@ -24,6 +24,11 @@ OzStatus oz_render_queue_create(OzRenderQueue **render_queue);
  * it, uses it and frees it. */
 OzRenderer **oz_render_queue_renderer(OzRenderQueue *render_queue);
 
+/* What is shown to those who look on, for OzPicturesSettings.live of one member's pictures. What it
+ * shows is asked for before the first picture (a stream) or at any time (latest.png). The render
+ * queue frees it. */
+OzLive *oz_render_queue_live(OzRenderQueue *render_queue);
+
 /* oz_pictures_add of a copy, later; the bits do not depend on when. From the first call on the
  * pictures belongs to the render queue's thread until oz_render_queue_finish. Waits while
  * OZ_RENDER_QUEUE_JOBS pictures, or fewer large ones, wait or are in hand. Fails with the first

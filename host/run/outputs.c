@@ -26,6 +26,8 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "state*.h5.part",
                                          "state*.h5.previous",
                                          "checkpoints/*.h5*",
+                                         "latest.png",
+                                         "latest.png.part",
                                          "members.csv",
                                          "members.csv.part",
                                          "ensemble.csv",
@@ -118,7 +120,9 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
                                  .source_dir = options->source_dir,
                                  .backend = options->gl,
                                  .device = device,
-                                 .renderer = oz_render_queue_renderer(render_queue)};
+                                 .renderer = oz_render_queue_renderer(render_queue),
+                                 .live = outputs->number == 0 ? oz_render_queue_live(render_queue)
+                                                              : NULL};
         outputs->render_queue = render_queue;
         OZ_TRY(oz_pictures_create(&outputs->pictures, &outputs->picture_settings, scene));
     }

@@ -109,6 +109,26 @@ static OzStatus begin_log(const Run *run)
                : OZ_OK;
 }
 
+/* Those who look on see the movie's frames of the first member. */
+static OzStatus open_live(Run *run)
+{
+    const OzOptions *options = run->options;
+    const char *name = options->stream ? "--stream" : "--latest";
+    OZ_PASS(oz_render_queue_create(&run->render_queue));
+    if (!options->stream && !options->latest) {
+        return OZ_OK;
+    }
+    if (!run->groups.plan.scene.movie.present || options->no_video) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s shows the movie's frames, and there is none; expected a scene "
+                              "with a movie, as by --set movie.length=10, and no --no-video",
+                              name);
+    }
+    OzLive *live = oz_render_queue_live(run->render_queue);
+    atomic_store(&live->wants_latest, options->latest);
+    return options->stream ? oz_movie_stream_create(&live->stream, options->stream) : OZ_OK;
+}
+
 static OzStatus open_run(Run *run)
 {
     const OzOptions *options = run->options;
@@ -117,11 +137,14 @@ static OzStatus open_run(Run *run)
         return oz_status_fail(run->groups.loss, "%s: no member can be run",
                               run->groups.plan.scene.path);
     }
+    OZ_PASS(open_live(run));
     OZ_PASS(open_folder(run));
     OZ_PASS(begin_log(run));
-    OZ_PASS(oz_render_queue_create(&run->render_queue));
     OZ_PASS(oz_device_open(&run->device, options->device, options->threads));
     oz_log_line("device: %s", run->device.name);
+    if (run->groups.plan.is_ensemble && (options->stream || options->latest)) {
+        oz_log_line("--stream and --latest show the first member");
+    }
     run->groups.device = &run->device;
     return OZ_OK;
 }

@@ -1,0 +1,29 @@
+/* What people look at while a run makes its pictures: a stream (draw/movie_stream.h) and latest.png
+ * in the run's folder. Neither is a result, and neither's failure is the run's: it is said in the
+ * log. */
+#pragma once
+
+#include "base/status.h"
+#include "draw/image.h"
+#include "draw/movie_stream.h"
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+/* Zeroed is valid: nobody looks, and showing costs nothing. */
+typedef struct OzLive {
+    OzMovieStream *stream;    /* owned; NULL: none                          */
+    atomic_bool wants_latest; /* may be set at any time, by any thread      */
+    bool is_noted;            /* latest.png, in the folder's marker         */
+    bool is_stale;            /* a newer picture than latest.png was shown  */
+    double written;           /* wall clock at which latest.png was, or 0   */
+} OzLive;
+
+/* Shows a picture: hands it to the stream, and writes folder/latest.png if it is wanted and none
+ * was written for half a second. fps: of the movie. From one thread. */
+void oz_live_show(OzLive *live, const OzImage *image, double fps, const char *folder);
+
+/* No more pictures come, and this was the last: latest.png shows it. */
+void oz_live_end(OzLive *live, const OzImage *image, const char *folder);
+
+void oz_live_free(OzLive *live); /* ends the stream; zeroed is fine */
