@@ -1,9 +1,10 @@
-/* Makes the n-th call of a kind fail, of those that the program itself makes (a library that is put
- * before others by LD_PRELOAD; tests/faults.sh). What libraries call among themselves is left
- * alone: they are not ours to mend. ORZO_FAULT=KIND:N    KIND: memory, write, open, sync, rename,
- * opencl, libav; N from 1 ORZO_FAULT=KIND:0    counts the calls: the file $ORZO_FAULT_COUNT
- * receives their number at the end With N above 0 the same file receives "failed" when the call
- * came. */
+/* Makes the n-th call of a kind fail, of those that the program itself makes: a library that is put
+ * before others by LD_PRELOAD (tests/faults.sh). What libraries call among themselves is left
+ * alone: they are not ours to mend.
+ *
+ * ORZO_FAULT=KIND:N, N from 1, says which; KIND is memory, write, open, sync, rename, opencl, libav
+ * or gl. The file $ORZO_FAULT_COUNT then receives "failed" when the call came. With N = 0 it
+ * receives, at the end, how many such calls there were. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -187,24 +188,34 @@ FAULT_MADE(cl_command_queue, clCreateCommandQueue,
            (cl_context c, cl_device_id d, cl_command_queue_properties f, cl_int *code),
            (c, d, f, code))
 
-/* libav and GL come by dlsym: of the functions below another one is handed out. All that they are
+/* libav and EGL come by dlsym: of the functions below another one is handed out. All that they are
  * given fits registers. */
 #define BY_DLSYM(X)                                                                                \
     X(avcodec_open2)                                                                               \
-    X(avcodec_send_frame) X(avcodec_receive_packet) X(avformat_write_header)                       \
-        X(av_interleaved_write_frame) X(av_write_frame) X(av_write_trailer) X(avio_open)           \
-            X(avio_open2) X(av_frame_get_buffer) X(avformat_alloc_output_context2)                 \
-                X(av_packet_rescale_ts)
+    X(avcodec_send_frame)                                                                          \
+    X(avcodec_receive_packet)                                                                      \
+    X(avformat_write_header) X(av_interleaved_write_frame) X(av_write_frame) X(av_write_trailer)   \
+        X(avio_open) X(avio_open2) X(av_frame_get_buffer) X(avformat_alloc_output_context2)        \
+            X(av_packet_rescale_ts)
+
+/* Of EGL and OSMesa; a GL function comes by the two last ones, and is then missing. */
+#define GL_BY_DLSYM(X)                                                                             \
+    X(eglGetPlatformDisplay)                                                                       \
+    X(eglGetPlatformDisplayEXT) X(eglInitialize) X(eglBindAPI) X(eglChooseConfig)                  \
+        X(eglCreateContext) X(eglMakeCurrent) X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent)   \
+            X(eglGetProcAddress) X(OSMesaGetProcAddress)
 
 typedef long Any(long, long, long, long, long, long);
-#define STAND_IN(name)                                                                             \
+#define STAND_IN_FOR(name, kind, failure)                                                          \
     static Any *real_##name;                                                                       \
     static long fault_##name(long a, long b, long c, long d, long e, long f)                       \
     {                                                                                              \
-        return fails("libav", __builtin_return_address(0)) ? -ENOSPC                               \
-                                                           : real_##name(a, b, c, d, e, f);        \
+        return fails(kind, __builtin_return_address(0)) ? failure : real_##name(a, b, c, d, e, f); \
     }
+#define STAND_IN(name)    STAND_IN_FOR(name, "libav", -ENOSPC)
+#define GL_STAND_IN(name) STAND_IN_FOR(name, "gl", 0)
 BY_DLSYM(STAND_IN)
+GL_BY_DLSYM(GL_STAND_IN)
 
 void *dlsym(void *library, const char *name)
 {
@@ -223,5 +234,6 @@ void *dlsym(void *library, const char *name)
         return (void *)fault_##known;                                                              \
     }
     BY_DLSYM(HAND_OUT)
+    GL_BY_DLSYM(HAND_OUT)
     return found;
 }

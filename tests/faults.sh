@@ -1,13 +1,13 @@
 #!/bin/sh
 # Makes the n-th call of each kind fail (tests/faults.c) in a small run with a movie, for n = 1, 1 + STRIDE, ...: memory,
-# write, open, sync, rename, OpenCL, libav. However it ends: by no signal, in time, with no success claimed that is none,
+# write, open, sync, rename, OpenCL, libav, GL. However it ends: by no signal, in time, with no success claimed that is none,
 # and in a folder from which `orzo resume` gives the bytes of the run without a fault, or that can be run again.
 #   tests/faults.sh [STRIDE] [PROGRAM] [KIND]...
 set -u
 root=$(cd "$(dirname "$0")/.." && pwd)
 stride=${1:-1}
 orzo=${2:-$root/build/orzo}
-[ $# -gt 2 ] && shift 2 && kinds=$* || kinds='open sync rename write libav memory opencl'
+[ $# -gt 2 ] && shift 2 && kinds=$* || kinds='open sync rename write libav gl memory opencl'
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
