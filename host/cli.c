@@ -15,7 +15,7 @@ static const struct {
 } command_rows[] = {
     {"run", "SCENE", "oOsedtpgunmlfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1,
      1, "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
-    {"resume", "DIR", "sdtguS",
+    {"resume", "DIR", "sdtgumlS",
      "goes on with a run that was interrupted or killed, or to a later end, from its last state", 1,
      1, "orzo resume runs/an6 --set time.taps=600"},
     {"check", "SCENE", "vsdtpgfS",

@@ -48,6 +48,9 @@ static void test_stream_and_latest(void **state)
     assert_int_equal(orzo("run shown.yaml -o end --latest --set 'snapshots.taps=[2]'"), 0);
     assert_true(same_files("end/latest.png", "end/snapshots/tap_00002.png"));
     assert_true(same_files("end/latest.png", "both/latest.png"));
+    assert_int_equal(orzo("resume both --set time.taps=3 --latest --stream more.mkv"), 0);
+    assert_matroska("more.mkv");
+    assert_false(same_files("end/latest.png", "both/latest.png"));
     assert_int_equal(orzo("run shown.yaml -o both --overwrite"), 0);
     assert_false(is_there("both/latest.png"));
 }
