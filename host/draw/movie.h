@@ -2,8 +2,8 @@
  * that makes no movie never maps it.
  *
  * A movie is written beside path as path.part, in fragments: whatever ends the process, what lies
- * there plays, up to the frames that the encoder still held (half a second of 30 frames a second).
- * At its end it is written once more as path.new, with its index in front, and renamed. */
+ * there plays, up to the twelve frames that the encoder may still hold (0.4 s of 30 frames a
+ * second). At its end it is written once more as path.new, with its index in front, and renamed. */
 #pragma once
 
 #include "base/state.h"
