@@ -36,6 +36,7 @@ static const struct {
     {"libav", "host/draw/movie"}, {"libsw", "host/draw/movie"},
     {"yaml.h", "host/scene/"},    {"ft2build.h", "host/draw/"},
     {"png.h", "host/draw/"},      {"hdf5.h", "host/run/state_file"},
+    {"microhttpd.h", "host/run/page_server"},
 };
 
 static bool begins(const char *text, const char *start)
