@@ -1,10 +1,14 @@
 /* When a run is looked at, counted by hand. */
 #include "observe/schedule.h"
 
+#include "model/motion.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -71,10 +75,81 @@ static void test_frames_stand_with_the_floor(void **state)
     OzScene scene = {.step = 1e-3, .duration = 1.9, .period = 0.03};
     scene.movie = (OzMovieSettings){.present = true, .length = 2, .fps = 10};
     OzSchedule schedule = oz_schedule_create(&scene, -1);
-    assert_true(fabs(schedule.frame - 0.09) < 1e-15); /* 0.1, to whole periods */
+    assert_true(fabs(schedule.track[OZ_TRACK_FRAME].interval - 0.09) <
+                1e-15); /* 0.1, to whole periods */
     scene.duration = 0.19;
     schedule = oz_schedule_create(&scene, -1);
-    assert_true(fabs(schedule.frame - 0.01) < 1e-15);
+    assert_true(fabs(schedule.track[OZ_TRACK_FRAME].interval - 0.01) < 1e-15);
+}
+
+/* The steps, of 1 ms, at which a kind of event is due up to `most`, as text. */
+static void list_steps(OzSchedule *schedule, int kind, int64_t most, char *text, size_t size)
+{
+    int64_t step = 0;
+    int due = 0;
+    size_t used = strlen(text);
+    while (step < most && oz_schedule_next(schedule, &step, &due)) {
+        if (due >> kind & 1) {
+            used += (size_t)snprintf(text + used, size - used, "%d ", (int)step);
+        }
+    }
+}
+
+/* 10 Hz until 30 ms, when 20 Hz are asked for; the floor takes them at 50 ms, in tap 0.5. Rows lie
+ * at whole taps, samples at quarters, whatever the frequency; what is told in seconds stays. */
+static void test_taps_across_a_change(void **state)
+{
+    (void)state;
+    OzWall old = {.motion = {.present = true, .frequency = 10, .amplitude = 1}}, new = old;
+    OzScene scene = {.step = 1e-3, .duration = 0.2, .taps = 2, .period = 0.1, .wall_count = 1};
+    scene.observe.interval = 0.1;
+    scene.observe.interval_taps = 1;
+    scene.observe.samples_per_tap = 4;
+    scene.walls = &old;
+    OzScene next = scene;
+    new.motion.frequency = 20;
+    next.walls = &new;
+    next.period = next.observe.interval = 0.05;
+    oz_motion_take_over(&next, &scene, 0.03);
+    for (int kind = ROW; kind <= SAMPLE; kind++) {
+        char text[128] = "";
+        OzSchedule schedule = oz_schedule_create(&scene, -1);
+        list_steps(&schedule, kind, 25, text, sizeof text);
+        oz_schedule_take_over(&schedule, &next, 30);
+        list_steps(&schedule, kind, 1000, text, sizeof text);
+        assert_string_equal(text, kind == ROW ? "0 75 125 " : "0 25 50 63 75 88 100 113 125 ");
+        assert_int_equal(schedule.last_step, 125); /* tap 2 */
+    }
+}
+
+/* Another interval begins at its own whole multiples after the change, frames stay as they were. An
+ * end that has passed is now. */
+static void test_seconds_across_a_change(void **state)
+{
+    (void)state;
+    OzScene scene = {.step = 1e-3, .duration = 0.2}, next;
+    char text[128] = "";
+    scene.observe.interval = 0.03;
+    scene.movie = (OzMovieSettings){.present = true, .speed = 0.4, .fps = 10};
+    next = scene;
+    next.observe.interval = 0.05;
+    OzSchedule schedule = oz_schedule_create(&scene, -1), frames = schedule;
+    list_steps(&schedule, ROW, 30, text, sizeof text);
+    oz_schedule_take_over(&schedule, &next, 45);
+    list_steps(&schedule, ROW, 1000, text, sizeof text);
+    assert_string_equal(text, "0 30 50 100 150 200 ");
+    text[0] = '\0';
+    list_steps(&frames, MOVIE, 45, text, sizeof text);
+    oz_schedule_take_over(&frames, &next, 90);
+    list_steps(&frames, MOVIE, 1000, text, sizeof text);
+    assert_string_equal(text, "0 40 80 120 160 200 ");
+    next.duration = 0.01;
+    schedule = oz_schedule_create(&scene, -1);
+    text[0] = '\0';
+    list_steps(&schedule, ROW, 30, text, sizeof text);
+    oz_schedule_take_over(&schedule, &next, 45);
+    list_steps(&schedule, ROW, 1000, text, sizeof text);
+    assert_string_equal(text, "0 30 45 ");
 }
 
 int main(void)
@@ -83,6 +158,8 @@ int main(void)
         cmocka_unit_test(test_rows_and_samples),
         cmocka_unit_test(test_frames),
         cmocka_unit_test(test_frames_stand_with_the_floor),
+        cmocka_unit_test(test_taps_across_a_change),
+        cmocka_unit_test(test_seconds_across_a_change),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -200,8 +200,10 @@ static OzStatus time_observing(Shares *s, const OzSchedule *schedule)
         OZ_PASS(oz_series_write(s->series, &s->now));
     }
     double step = s->bed->scene.step;
-    s->part[PART_SAMPLE] = (Share){(middle - start) / SAMPLES, rate(schedule->sample, step)};
-    s->part[PART_ROW] = (Share){(clock_of(&s->device) - middle) / ROWS, rate(schedule->row, step)};
+    s->part[PART_SAMPLE] =
+        (Share){(middle - start) / SAMPLES, rate(schedule->track[OZ_TRACK_SAMPLE].interval, step)};
+    s->part[PART_ROW] = (Share){(clock_of(&s->device) - middle) / ROWS,
+                                rate(schedule->track[OZ_TRACK_ROW].interval, step)};
     return OZ_OK;
 }
 
@@ -230,7 +232,8 @@ static OzStatus time_pictures(Shares *s, const OzSchedule *schedule)
     }
     OZ_PASS(oz_file_make_folder(s->folder));
     OZ_PASS(oz_pictures_create(&s->pictures, &settings, &s->bed->scene));
-    if (draw_frames(s, rate(schedule->frame, s->bed->scene.step)) != OZ_OK) {
+    if (draw_frames(s, rate(schedule->track[OZ_TRACK_FRAME].interval, s->bed->scene.step)) !=
+        OZ_OK) {
         oz_log_line("drawing and encoding not measured: %s", oz_status_text());
     }
     return OZ_OK;

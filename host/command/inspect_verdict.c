@@ -189,7 +189,7 @@ static double print_movie(FILE *file, const OzVerdict *v, const OzSchedule *sche
         return 0;
     }
     double end = oz_step_clock_time(&schedule->clock, schedule->last_step);
-    double count = floor(end / schedule->frame + 1e-9) + 1;
+    double count = floor(end / schedule->track[OZ_TRACK_FRAME].interval + 1e-9) + 1;
     fprintf(file, "  movie            %.0f pictures of %d x %d", count, v->scene->movie.width,
             v->scene->movie.height);
     if (time_picture(v, &seconds) != OZ_OK) {

@@ -100,7 +100,8 @@ static void choose_movie(OzRedrawPlan *plan, const OzScene *run, const OzScene *
         return;
     }
     OzSchedule schedule = oz_schedule_create(asked, last_time(plan));
-    take_evenly(plan, OZ_FRAME_MOVIE, schedule.frame, last_time(plan), "movie");
+    take_evenly(plan, OZ_FRAME_MOVIE, schedule.track[OZ_TRACK_FRAME].interval, last_time(plan),
+                "movie");
 }
 
 /* Up to when the run is known to have been: its last frame, and a gap between frames beyond. */

@@ -3,6 +3,7 @@
 
 #include "draw/framing.h"
 #include "draw/palette.h"
+#include "model/motion.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,7 +81,7 @@ static void add_heading(const Page *page)
     int used = snprintf(text, sizeof text, "t = %.3f s", page->snapshot->time);
     if (scene->period > 0) {
         snprintf(text + used, sizeof text - (size_t)used, "   tap %.1f",
-                 page->snapshot->time / scene->period);
+                 oz_motion_tap(scene, page->snapshot->time));
     }
     if (title) {
         write_text(page, OZ_WEIGHT_BOLD, 1.05 * page->size, 0, page->margin, y, INK, title);

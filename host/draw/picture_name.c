@@ -1,6 +1,8 @@
 /* Names from times. Knows nothing of pictures. */
 #include "draw/picture_name.h"
 
+#include "model/motion.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -70,7 +72,9 @@ void oz_picture_name_make(const OzScene *scene, double time, int decimals, char 
 {
     int found = find_asked(scene, time);
     double period = is_by_tap(scene) ? scene->period : 0;
-    double number = found >= 0 ? asked(scene, found) : period > 0 ? time / period : time;
+    double number = found >= 0   ? asked(scene, found)
+                    : period > 0 ? oz_motion_tap(scene, time)
+                                 : time;
     double off = fabs(number - round(number)) * period;
     if (!(period > 0)) {
         snprintf(name, size, "time_%.*f.png", decimals, number);

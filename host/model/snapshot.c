@@ -2,6 +2,7 @@
 #include "model/snapshot.h"
 
 #include "base/memory.h"
+#include "model/motion.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -104,12 +105,8 @@ void oz_snapshot_move_walls(OzSnapshot *snapshot)
 {
     const OzScene *scene = snapshot->scene;
     for (int w = 0; w < scene->wall_count; w++) {
-        const OzMotion *motion = &scene->walls[w].motion;
-        double rate = 2 * 3.14159265358979323846 * motion->frequency;
-        bool moves = motion->present;
-        snapshot->wall_offset[w] = moves ? motion->amplitude * sin(rate * snapshot->time) : 0;
-        snapshot->wall_velocity[w] =
-            moves ? motion->amplitude * rate * cos(rate * snapshot->time) : 0;
+        oz_motion_offset(&scene->walls[w].motion, snapshot->time, &snapshot->wall_offset[w],
+                         &snapshot->wall_velocity[w]);
     }
 }
 

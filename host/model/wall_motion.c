@@ -1,6 +1,8 @@
 /* Rigid motion of walls. */
 #include "model/wall_motion.h"
 
+#include "model/motion.h"
+
 #include <math.h>
 
 bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest)
@@ -11,12 +13,10 @@ bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest)
 OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest)
 {
     const OzMotion *motion = &wall->motion;
-    double rate = 2 * 3.14159265358979323846 * motion->frequency;
     OzWallPose pose = {0};
     if (motion->present && !at_rest) {
-        pose.rise = motion->amplitude * sin(rate * time);
-        pose.speed = motion->amplitude * rate * cos(rate * time);
-        pose.turn = motion->angular_velocity * time;
+        oz_motion_offset(motion, time, &pose.rise, &pose.speed);
+        pose.turn = oz_motion_turn(motion, time);
         pose.angular_velocity = motion->angular_velocity;
     }
     return pose;

@@ -2,6 +2,7 @@
  * Knows nothing of files and of tap means, which it is handed. */
 #include "observe/observables.h"
 
+#include "model/motion.h"
 #include "observe/element_energy.h"
 #include "observe/flat.h"
 
@@ -23,9 +24,9 @@ static bool time_now(const OzObservation *o, double *value)
 
 static bool tap(const OzObservation *o, double *value)
 {
-    double period = o->snapshot->scene->period;
-    *value = period > 0 ? o->snapshot->time / period : 0;
-    return period > 0;
+    const OzScene *scene = o->snapshot->scene;
+    *value = oz_motion_tap(scene, o->snapshot->time);
+    return scene->period > 0;
 }
 
 static bool density(const OzObservation *o, double *value)

@@ -1,6 +1,8 @@
 /* Events of a run. */
 #include "observe/schedule.h"
 
+#include "model/motion.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,61 +33,69 @@ static double phase_of(const OzScene *scene)
     return share[scene->observe.at] * scene->period;
 }
 
+/* s between events of each kind; 0: there are none. */
+static void intervals_of(const OzScene *scene, double until, double intervals[OZ_TRACKS])
+{
+    double duration = until >= 0 && until < scene->duration ? until : scene->duration;
+    double samples = (double)scene->observe.samples_per_tap;
+    intervals[OZ_TRACK_ROW] = scene->observe.interval;
+    intervals[OZ_TRACK_SAMPLE] = phase_of(scene) > 0 ? scene->period
+                                 : scene->period > 0 ? scene->period / samples
+                                                     : 0;
+    intervals[OZ_TRACK_FRAME] = frame_interval(scene, duration);
+    intervals[OZ_TRACK_STROBE] = scene->snapshots.strobe;
+    intervals[OZ_TRACK_CONTACTS] = scene->observe.contacts ? scene->observe.contacts_interval : 0;
+    intervals[OZ_TRACK_CHECKPOINT] = scene->checkpoint.interval_taps * scene->period;
+}
+
+static int64_t last_step_of(const OzScene *scene, const OzStepClock *clock, double until)
+{
+    double duration = until >= 0 && until < scene->duration ? until : scene->duration;
+    return oz_step_clock_nearest(clock, duration);
+}
+
 OzSchedule oz_schedule_create(const OzScene *scene, double until)
 {
-    OzSchedule s = {.scene = scene, .clock = oz_step_clock_begin(scene->step)};
-    double duration = until >= 0 && until < scene->duration ? until : scene->duration;
-    s.last_step = oz_step_clock_nearest(&s.clock, duration);
-    s.row = scene->observe.interval;
+    OzSchedule s = {.scene = scene,
+                    .clock = oz_step_clock_begin(scene->step),
+                    .turn = INFINITY,
+                    .until = until};
+    double intervals[OZ_TRACKS];
+    intervals_of(scene, until, intervals);
+    s.last_step = last_step_of(scene, &s.clock, until);
     s.phase = phase_of(scene);
-    s.sample = s.phase > 0         ? scene->period
-               : scene->period > 0 ? scene->period / (double)scene->observe.samples_per_tap
-                                   : 0;
-    s.frame = frame_interval(scene, duration);
-    s.strobe = scene->snapshots.strobe;
-    s.checkpoint = scene->checkpoint.interval_taps * scene->period;
-    s.contact = scene->observe.contacts ? scene->observe.contacts_interval : 0;
+    for (int k = 0; k < OZ_TRACKS; k++) {
+        s.track[k].interval = intervals[k];
+        s.track[k].from = k == OZ_TRACK_ROW || k == OZ_TRACK_SAMPLE ? s.phase : 0;
+    }
+    s.track[OZ_TRACK_CHECKPOINT].count = 1; /* the start is not kept */
     return s;
 }
 
-/* Event `index` of a kind, the first at time `from`. */
-static int64_t step_from(const OzSchedule *s, double from, double interval, int64_t index)
+static double time_of(const OzTrack *track)
 {
-    return interval > 0 ? oz_step_clock_nearest(&s->clock, from + (double)index * interval)
-                        : INT64_MAX;
+    return track->interval > 0 ? track->from + (double)track->count * track->interval : INFINITY;
 }
 
-static int64_t step_of(const OzSchedule *s, double interval, int64_t index)
+/* The track whose event is next, and its time. */
+static OzTrack *next_of(OzSchedule *s, int kind, double *time)
 {
-    return step_from(s, 0, interval, index);
+    *time = time_of(&s->track[kind]);
+    if (s->later[kind].interval > 0 && *time >= s->turn) {
+        *time = time_of(&s->later[kind]);
+        return &s->later[kind];
+    }
+    return &s->track[kind];
 }
 
-/* Row 0 is the start whatever the phase. */
-static int64_t row_step(const OzSchedule *s)
+static int64_t step_of(const OzSchedule *s, double time)
 {
-    return s->phase > 0 && s->rows > 0 ? step_from(s, s->phase, s->row, s->rows - 1)
-                                       : step_of(s, s->row, s->rows);
-}
-
-static int64_t sample_step(const OzSchedule *s)
-{
-    return step_from(s, s->phase, s->sample, s->samples);
+    return isfinite(time) ? oz_step_clock_nearest(&s->clock, time) : INT64_MAX;
 }
 
 static int64_t earlier(int64_t a, int64_t b)
 {
     return a < b ? a : b;
-}
-
-/* Counts the events of one kind that are due by a step; true when there were any. */
-static bool pass(const OzSchedule *s, double interval, int64_t *count, int64_t step)
-{
-    bool any = false;
-    while (step_of(s, interval, *count) <= step) {
-        ++*count;
-        any = true;
-    }
-    return any;
 }
 
 static int64_t snapshot_step(const OzSchedule *s)
@@ -103,47 +113,57 @@ static int64_t kept_step(const OzSchedule *s)
                                  : INT64_MAX;
 }
 
-/* Counts states to be kept that are due by a step; those by interval begin after the start. */
-static bool pass_checkpoints(OzSchedule *s, int64_t step)
+/* Counts the events of one kind that are due by a step; true when there were any. */
+static bool pass(OzSchedule *s, int kind, int64_t step)
 {
     bool any = false;
-    for (; step_of(s, s->checkpoint, s->checkpoints + 1) <= step; s->checkpoints++) {
+    double time = 0;
+    OzTrack *track = next_of(s, kind, &time);
+    while (step_of(s, time) <= step) {
+        track->count++;
         any = true;
+        track = next_of(s, kind, &time);
     }
+    return any;
+}
+
+/* States to be kept. */
+static bool pass_checkpoints(OzSchedule *s, int64_t step)
+{
+    bool any = pass(s, OZ_TRACK_CHECKPOINT, step);
     for (; kept_step(s) <= step; s->kept++) {
         any = true;
     }
     return any;
 }
 
-/* Counts rows and samples that are due by a step, likewise. */
-static bool pass_rows(OzSchedule *s, int64_t step)
+/* Row 0 is the start whatever the phase. */
+static bool is_first(const OzSchedule *s)
 {
-    bool any = false;
-    for (; row_step(s) <= step; s->rows++) {
-        any = true;
-    }
-    return any;
+    return !s->begun && s->track[OZ_TRACK_ROW].interval > 0;
 }
 
-static bool pass_samples(OzSchedule *s, int64_t step)
+static bool pass_rows(OzSchedule *s, int64_t step)
 {
-    bool any = false;
-    for (; sample_step(s) <= step; s->samples++) {
-        any = true;
+    bool first = is_first(s);
+    s->begun = true;
+    return pass(s, OZ_TRACK_ROW, step) || first;
+}
+
+static int64_t next_step(OzSchedule *s)
+{
+    int64_t next = is_first(s) ? 0 : earlier(snapshot_step(s), kept_step(s));
+    for (int k = 0; k < OZ_TRACKS; k++) {
+        double time = 0;
+        next_of(s, k, &time);
+        next = earlier(next, step_of(s, time));
     }
-    return any;
+    return next;
 }
 
 bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
 {
-    int64_t next = earlier(row_step(s), sample_step(s));
-    next = earlier(next, step_of(s, s->frame, s->frames));
-    next = earlier(next, step_of(s, s->strobe, s->strobes));
-    next = earlier(next, step_of(s, s->contact, s->contacts));
-    next = earlier(next, snapshot_step(s));
-    next = earlier(next, step_of(s, s->checkpoint, s->checkpoints + 1));
-    next = earlier(next, kept_step(s));
+    int64_t next = next_step(s);
     if (s->over) {
         return false;
     }
@@ -152,12 +172,12 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     *step = next;
     *due = s->over && s->phase == 0 ? OZ_DUE_ROW : 0;
     *due |= pass_rows(s, next) ? OZ_DUE_ROW : 0;
-    *due |= pass_samples(s, next) ? OZ_DUE_SAMPLE : 0;
-    *due |= pass(s, s->frame, &s->frames, next) ? OZ_DUE_MOVIE : 0;
-    *due |= pass(s, s->strobe, &s->strobes, next) ? OZ_DUE_STROBE : 0;
+    *due |= pass(s, OZ_TRACK_SAMPLE, next) ? OZ_DUE_SAMPLE : 0;
+    *due |= pass(s, OZ_TRACK_FRAME, next) ? OZ_DUE_MOVIE : 0;
+    *due |= pass(s, OZ_TRACK_STROBE, next) ? OZ_DUE_STROBE : 0;
     *due |= pass_checkpoints(s, next) ? OZ_DUE_CHECKPOINT : 0;
-    *due |= pass(s, s->contact, &s->contacts, next) ? OZ_DUE_CONTACTS : 0;
-    bool with_rows = s->scene->observe.contacts && s->contact == 0;
+    *due |= pass(s, OZ_TRACK_CONTACTS, next) ? OZ_DUE_CONTACTS : 0;
+    bool with_rows = s->scene->observe.contacts && s->track[OZ_TRACK_CONTACTS].interval == 0;
     *due |= with_rows && (*due & OZ_DUE_ROW) ? OZ_DUE_CONTACTS : 0;
     while (snapshot_step(s) <= next) {
         *due |= OZ_DUE_SNAPSHOT;
@@ -166,12 +186,91 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     return true;
 }
 
+/* What has taken over is the track from now on. */
+static void settle_tracks(OzSchedule *s, double now)
+{
+    for (int k = 0; k < OZ_TRACKS; k++) {
+        if (s->later[k].interval > 0 && now >= s->turn) {
+            s->track[k] = s->later[k];
+        }
+        s->later[k] = (OzTrack){0};
+    }
+    s->turn = INFINITY;
+}
+
+/* The first event after `from` of those that lie whole intervals after `zero`. */
+static OzTrack track_after(double zero, double interval, double from)
+{
+    const double rounding = 1e-9; /* of an interval */
+    double count = floor((from - zero) / interval + rounding) + 1;
+    return (OzTrack){.from = zero + count * interval, .interval = interval};
+}
+
+/* Whether a kind's events lie at taps. */
+static bool is_by_tap(const OzScene *scene, int kind)
+{
+    return kind == OZ_TRACK_SAMPLE || kind == OZ_TRACK_CHECKPOINT ||
+           (kind == OZ_TRACK_ROW && (scene->observe.interval_taps > 0 || phase_of(scene) > 0));
+}
+
+/* Events at taps go by the old period until the wall takes its new one. An event at the very turn
+ * is the new track's. */
+static void take_track(OzSchedule *s, const OzScene *next, int kind, double interval, double now)
+{
+    bool by_tap = is_by_tap(next, kind);
+    double since = oz_motion_since(next),
+           phase = by_tap && kind != OZ_TRACK_CHECKPOINT ? phase_of(next) : 0;
+    if (interval == s->track[kind].interval) {
+        return;
+    }
+    if (interval > 0 && by_tap && since > now) {
+        double zero = since - oz_motion_tap(next, since) * next->period + phase;
+        s->later[kind] = track_after(zero, interval, since - 1e-6 * next->period);
+        s->turn = since;
+    } else if (interval > 0) {
+        double zero = by_tap ? now - oz_motion_tap(next, now) * next->period + phase : 0;
+        s->track[kind] = track_after(zero, interval, now);
+    } else {
+        s->track[kind].interval = 0;
+    }
+}
+
+void oz_schedule_find_end(OzSchedule *s)
+{
+    s->last_step = last_step_of(s->scene, &s->clock, s->until);
+}
+
+void oz_schedule_take_over(OzSchedule *s, const OzScene *next, int64_t step)
+{
+    const OzSnapshotSettings *shots = &next->snapshots;
+    double now = oz_step_clock_time(&s->clock, step), intervals[OZ_TRACKS];
+    settle_tracks(s, now);
+    oz_step_clock_change(&s->clock, step, next->step);
+    intervals_of(next, s->until, intervals);
+    for (int k = 0; k < OZ_TRACKS; k++) {
+        take_track(s, next, k, intervals[k], now);
+    }
+    s->scene = next;
+    s->snapshots = 0;
+    while (s->snapshots < shots->count &&
+           oz_step_clock_nearest(&s->clock, shots->times[s->snapshots]) <= step) {
+        s->snapshots++;
+    }
+    s->kept = 0;
+    while (s->kept < next->checkpoint.count && kept_step(s) <= step) {
+        s->kept++;
+    }
+    oz_schedule_find_end(s);
+    s->last_step = s->last_step > step ? s->last_step : step;
+}
+
 bool oz_schedule_missed(const OzSchedule *s, char *text, size_t size)
 {
     enum { NAMED = 8 };
     const OzSnapshotSettings *shots = &s->scene->snapshots;
     bool taps = shots->tap_count > 0;
-    double end = oz_step_clock_time(&s->clock, s->last_step) / (taps ? s->scene->period : 1);
+    double end = oz_step_clock_time(&s->clock, s->last_step);
+    end = taps ? oz_motion_tap(s->scene, end) : end;
     int first = 0, named = 0;
     while (first < shots->count &&
            oz_step_clock_nearest(&s->clock, shots->times[first]) <= s->last_step) {
@@ -203,28 +302,44 @@ static bool same(const double *a, int a_count, const double *b, int b_count)
 bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
 {
     const OzScene *x = a->scene, *y = b->scene;
-    return a->last_step == b->last_step && a->row == b->row && a->sample == b->sample &&
-           a->phase == b->phase && a->frame == b->frame && a->strobe == b->strobe &&
-           a->contact == b->contact && a->checkpoint == b->checkpoint &&
+    for (int k = 0; k < OZ_TRACKS; k++) {
+        if (a->track[k].interval != b->track[k].interval) {
+            return false;
+        }
+    }
+    return a->last_step == b->last_step && a->phase == b->phase &&
            same(x->snapshots.times, x->snapshots.count, y->snapshots.times, y->snapshots.count) &&
            same(x->checkpoint.times, x->checkpoint.count, y->checkpoint.times, y->checkpoint.count);
+}
+
+static OzStatus track_state(OzTrack *track, OzStateVisit *visit, const char *name, int kind)
+{
+    OzStatus status = OZ_OK;
+    oz_state_enter_one(visit, name, kind);
+    OZ_TRY(oz_state_double(visit, "from", "s", &track->from, 1));
+    OZ_TRY(oz_state_double(visit, "interval", "s", &track->interval, 1));
+    OZ_TRY(oz_state_index(visit, "count", &track->count, 0, INT64_MAX));
+    oz_state_leave(visit);
+done:
+    return status;
 }
 
 OzStatus oz_schedule_state(OzSchedule *s, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
     int64_t snapshots = s->snapshots, kept = s->kept;
-    OZ_TRY(oz_state_enter(visit, "schedule", 3));
+    double checkpoint = s->track[OZ_TRACK_CHECKPOINT].interval;
+    OZ_TRY(oz_state_enter(visit, "schedule", 4));
     OZ_TRY(oz_step_clock_state(&s->clock, visit, "clock"));
-    OZ_TRY(oz_state_index(visit, "rows", &s->rows, 0, INT64_MAX));
-    OZ_TRY(oz_state_index(visit, "samples", &s->samples, 0, INT64_MAX));
-    OZ_TRY(oz_state_index(visit, "frames", &s->frames, 0, INT64_MAX));
-    OZ_TRY(oz_state_index(visit, "strobes", &s->strobes, 0, INT64_MAX));
-    OZ_TRY(oz_state_index(visit, "contacts", &s->contacts, 0, INT64_MAX));
+    for (int k = 0; k < OZ_TRACKS; k++) {
+        OZ_TRY(track_state(&s->track[k], visit, "track", k));
+        OZ_TRY(track_state(&s->later[k], visit, "later", k));
+    }
+    s->track[OZ_TRACK_CHECKPOINT].interval = checkpoint;
+    OZ_TRY(oz_state_double(visit, "turn", "s", &s->turn, 1));
+    OZ_TRY(oz_state_bool(visit, "begun", &s->begun));
     OZ_TRY(oz_state_index(visit, "snapshots", &snapshots, 0, s->scene->snapshots.count));
-    OZ_TRY(oz_state_index(visit, "checkpoints", &s->checkpoints, 0, INT64_MAX - 1));
     OZ_TRY(oz_state_index(visit, "kept", &kept, 0, INT64_MAX));
-    OZ_TRY(oz_state_double(visit, "frame", "s between frames", &s->frame, 1));
     oz_state_leave(visit);
     s->snapshots = (int)snapshots;
     s->kept = (int)earlier(kept, s->scene->checkpoint.count);

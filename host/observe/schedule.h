@@ -21,26 +21,52 @@ enum {
     OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS /* what needs the snapshot's contacts */
 };
 
+/* Events of one kind: event `count` is next, at from + count x interval. */
+typedef struct OzTrack {
+    double from, interval; /* s; interval 0: there are none */
+    int64_t count;         /* that have been due            */
+} OzTrack;
+
+typedef enum OzTrackKind {
+    OZ_TRACK_ROW,
+    OZ_TRACK_SAMPLE,
+    OZ_TRACK_FRAME,
+    OZ_TRACK_STROBE,
+    OZ_TRACK_CONTACTS,
+    OZ_TRACK_CHECKPOINT,
+    OZ_TRACKS
+} OzTrackKind;
+
 typedef struct OzSchedule {
     const OzScene *scene; /* borrowed */
     OzStepClock clock;    /* of the simulation */
     int64_t last_step;
-    double row, sample, frame, strobe, contact,
-        checkpoint; /* s between events; 0: there are none */
+    OzTrack track[OZ_TRACKS];
+    OzTrack later[OZ_TRACKS]; /* takes over from its track at `turn`; interval 0: it does not  */
+    double turn;              /* s; INFINITY: there is nothing to take over                    */
     double phase; /* s after whole periods: rows and samples at observe.at; 0: at whole ones too */
-    bool over;    /* the last step has been given                                   */
-    int64_t rows, samples, frames, strobes, contacts,
-        checkpoints;     /* events of each kind that have been due */
-    int snapshots, kept; /* the same of those at moments of their own */
+    bool begun;   /* row 0, at time 0, has been due                                         */
+    bool over;    /* the last step has been given                                           */
+    int snapshots, kept; /* that have been due, of those at moments of their own              */
+    double until; /* s: the run ends there if that is earlier than the scene's end; negative: not */
 } OzSchedule;
 
 /* The schedule of a scene, ending at the time `until` if that is earlier (negative: not given). Row
- * 0 is at time 0. With observe.at: mean, rows follow each `row` seconds and at the last step,
+ * 0 is at time 0. With observe.at: mean, rows follow each `interval` seconds and at the last step,
  * samples samples_per_tap times a period. With top or bottom, there is a sample in every period
  * where the first moving wall is highest or lowest, and rows at such moments only, the first in the
- * first period, the others each `row` seconds after. Contacts asked for without an interval are due
- * with every row. */
+ * first period, the others each `interval` seconds after. Contacts asked for without an interval
+ * are due with every row. */
 OzSchedule oz_schedule_create(const OzScene *scene, double until);
+
+/* Lets another scene's events follow after this step, up to which all have been due: what keeps its
+ * distance goes on, what changes it is due at whole multiples of the new one, of taps where it is
+ * written in taps. These change when the first moving wall does (oz_motion_since). A scene that
+ * ends earlier than this step ends here. */
+void oz_schedule_take_over(OzSchedule *schedule, const OzScene *next, int64_t step);
+
+/* Finds the end again, after what the scene's end depends on has been loaded. */
+void oz_schedule_find_end(OzSchedule *schedule);
 
 /* The next step at which something is due, and what; events at one step come together. False when
  * there is nothing more up to the last step; the last step itself always comes, if

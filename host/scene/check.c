@@ -102,13 +102,13 @@ static void derive_times(Checker *checker)
     if (scene->taps > 0) {
         scene->duration = scene->taps * scene->period;
     }
+    bool is_free = scene->observe.interval == 0 && scene->observe.interval_taps == 0;
+    scene->observe.interval_taps = is_free && scene->period > 0 ? 1 : scene->observe.interval_taps;
     if (scene->observe.interval_taps > 0) {
         scene->observe.interval = scene->observe.interval_taps * scene->period;
     }
-    if (scene->observe.interval == 0) {
-        /* A still scene of no duration gets any interval: it never comes to a second row. */
-        double still = scene->duration > 0 ? scene->duration / 100 : 1;
-        scene->observe.interval = scene->period > 0 ? scene->period : still;
+    if (scene->observe.interval == 0) { /* without a duration there is no second row */
+        scene->observe.interval = scene->duration > 0 ? scene->duration / 100 : 1;
     }
     if (scene->movie.speed == 0 && scene->movie.length == 0) {
         scene->movie.speed = 1;

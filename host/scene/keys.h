@@ -28,9 +28,6 @@ typedef enum OzKeyType {
     OZ_KEY_EXTENDS  /* nothing: used up before keys are read                       */
 } OzKeyType;
 
-/* What a change of this key asks of a running simulation, for a live reload. */
-typedef enum OzReload { OZ_RELOAD_REFUSE, OZ_RELOAD_APPLY, OZ_RELOAD_REBUILD } OzReload;
-
 /* When a row is written back. */
 typedef enum OzKeyWrite {
     OZ_WRITE_ALWAYS,
@@ -43,7 +40,6 @@ typedef enum OzKeyWrite {
 typedef struct OzKey {
     const char *path; /* "time.step"; "grains[].diameter" lives in an item of the list grains */
     OzKeyType type;
-    OzReload reload;
     const char *unit;          /* "" for pure numbers and the like                        */
     double low, high;          /* both allowed; of every number in the value              */
     const char *fallback;      /* the default as YAML, or NULL                            */
@@ -61,6 +57,7 @@ typedef struct OzKey {
     unsigned kinds;       /* bit i: belongs to items whose kind is i; 0: to all      */
     unsigned shapes;      /* bit i: to grains whose shape is i; 0: to all             */
     unsigned laws;        /* bit i: belongs to the contact law i; 0: to all          */
+    const char *fixed;    /* why it cannot change while a scene runs; NULL: it can   */
     const char *rival;    /* the neighbouring key that says the same otherwise       */
     const char *inherits; /* the key whose value it takes when not written           */
     bool shared;          /* it always takes that: refused where written             */
@@ -89,7 +86,7 @@ const char *oz_keys_choice_name(const char *path, int value);
 /* The bytes that a row's value takes at its offset, without what it points to. */
 size_t oz_keys_size(const OzKey *key);
 
-/* Every key whose path holds this part (NULL: every key), once, those of every model first, then those
- * of one alone: meaning, type, range, unit, default and what it belongs to. False when there is
- * none. */
+/* Every key whose path holds this part (NULL: every key), once, those of every model first, then
+ * those of one alone: meaning, type, range, unit, default and what it belongs to. False when there
+ * is none. */
 bool oz_keys_print(const char *part, FILE *file);

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "scene/changes.h"
 #include "scene/check.h"
 #include "scene/document.h"
 #include "scene/faults.h"
@@ -17,7 +18,8 @@
 #include <string.h>
 
 typedef struct Loader {
-    OzSource *sources; /* the scene, what it extends, then one for each setting */
+    const OzScene *running; /* that the scene shall take over from; NULL: none      */
+    OzSource *sources;      /* the scene, what it extends, then one for each setting */
     int source_count;
     char **labels; /* of the settings and the extended file                 */
     OzFaults faults;
@@ -167,6 +169,16 @@ done:
     return status;
 }
 
+/* Takes out what stands at a path; nothing there is fine. */
+static void take_out(OzNode *root, const char *path)
+{
+    OzNode *node = oz_tree_at(root, path);
+    if (node && node->parent) {
+        oz_tree_detach(node);
+        oz_tree_free(node);
+    }
+}
+
 static OzStatus parse_setting(Loader *loader, const char *setting, int i)
 {
     OzStatus status = OZ_OK;
@@ -179,6 +191,10 @@ static OzStatus parse_setting(Loader *loader, const char *setting, int i)
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a setting");
     }
     source->name = loader->labels[i + 2];
+    if (setting[0] == '-' && loader->running) {
+        take_out(loader->root, setting + 1);
+        return OZ_OK;
+    }
     if (!equals || equals == setting) {
         oz_faults_add(&loader->faults, source, 1, "no key and value; expected --set key=value");
         return OZ_OK;
@@ -210,14 +226,18 @@ static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_
         OZ_PASS(parse_setting(loader, settings[i], i));
     }
     OZ_PASS(oz_read_scene(scene, loader->root, &loader->faults));
-    return oz_check_scene(scene, loader->root, &loader->faults);
+    OZ_PASS(oz_check_scene(scene, loader->root, &loader->faults));
+    return loader->running
+               ? oz_changes_refuse(loader->running, scene, loader->root, &loader->faults)
+               : OZ_OK;
 }
 
-static OzStatus load_text(OzScene *scene, const char *path, const char *text, size_t length,
-                          char *const *settings, int setting_count)
+/* Where a text came from, to be named in messages; NULL: from the file at path. */
+static OzStatus load_text(OzScene *scene, const OzScene *running, const char *path,
+                          const char *text, size_t length, char *const *settings, int setting_count)
 {
     OzStatus status = OZ_OK;
-    Loader loader = {0};
+    Loader loader = {.running = running};
     *scene = (OzScene){0};
     OZ_TRY(loader_create(&loader, path, setting_count));
     OZ_TRY(oz_memory_text(&scene->path, path));
@@ -239,6 +259,12 @@ done:
 
 OzStatus oz_scene_load(OzScene *scene, const char *path, char *const *settings, int setting_count)
 {
+    return oz_scene_reload(scene, NULL, path, settings, setting_count);
+}
+
+OzStatus oz_scene_reload(OzScene *scene, const OzScene *running, const char *path,
+                         char *const *settings, int setting_count)
+{
     char *text = NULL;
     size_t length = 0;
     *scene = (OzScene){0};
@@ -249,7 +275,7 @@ OzStatus oz_scene_load(OzScene *scene, const char *path, char *const *settings, 
         status = oz_status_fail(OZ_ERR_INPUT, "%s; expected a scene file", why);
     }
     if (status == OZ_OK) {
-        status = load_text(scene, path, text, length, settings, setting_count);
+        status = load_text(scene, running, path, text, length, settings, setting_count);
     }
     free(text);
     return status;
@@ -258,7 +284,25 @@ OzStatus oz_scene_load(OzScene *scene, const char *path, char *const *settings, 
 OzStatus oz_scene_parse(OzScene *scene, const char *path, const char *text, char *const *settings,
                         int setting_count)
 {
-    return load_text(scene, path, text, strlen(text), settings, setting_count);
+    return load_text(scene, NULL, path, text, strlen(text), settings, setting_count);
+}
+
+OzStatus oz_scene_change(OzScene *scene, const OzScene *running, char *const *settings,
+                         int setting_count)
+{
+    char *text = NULL;
+    size_t length = 0;
+    *scene = (OzScene){0};
+    FILE *file = open_memstream(&text, &length);
+    if (file) {
+        oz_write_scene(running, file);
+    }
+    OzStatus status =
+        !file || fclose(file) != 0 || !text
+            ? oz_status_fail(OZ_ERR_MEMORY, "out of memory for a scene")
+            : load_text(scene, running, running->path, text, length, settings, setting_count);
+    free(text);
+    return status;
 }
 
 OzStatus oz_scene_write(const OzScene *scene, FILE *file)
@@ -267,6 +311,66 @@ OzStatus oz_scene_write(const OzScene *scene, FILE *file)
     fflush(file);
     return ferror(file) ? oz_status_fail(OZ_ERR_FILE, "cannot write the scene %s", scene->name)
                         : OZ_OK;
+}
+
+/* A list's items and what each of their rows owns. */
+static OzStatus own_items(const OzKey *list, OzScene *copy, const OzScene *scene)
+{
+    OzStatus status = OZ_OK;
+    char **items = oz_value_at(list, copy);
+    int count = *oz_value_count(list, scene);
+    size_t length = strlen(list->path);
+    OZ_PASS(oz_memory_new((void **)items, (size_t)count, list->item_size, "a scene's list"));
+    *oz_value_count(list, copy) = count;
+    if (count > 0) {
+        memcpy(*items, *(char *const *)oz_value_at(list, scene), (size_t)count * list->item_size);
+    }
+    for (const OzKey *key = list + 1; key->path; key++) {
+        bool below = strncmp(key->path, list->path, length) == 0;
+        for (int i = 0; below && i < count; i++) {
+            OzStatus own = oz_value_own(key, *items + (size_t)i * list->item_size);
+            status = status == OZ_OK ? own : status;
+        }
+    }
+    return status;
+}
+
+/* What rows outside of lists own; lists are left empty. */
+static OzStatus own_rows(OzScene *copy)
+{
+    OzStatus status = OZ_OK;
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        if (key->type == OZ_KEY_ITEMS) {
+            *(void **)oz_value_at(key, copy) = NULL;
+            *oz_value_count(key, copy) = 0;
+        } else if (!strstr(key->path, "[]")) {
+            OzStatus own = oz_value_own(key, copy);
+            status = status == OZ_OK ? own : status;
+        }
+    }
+    return status;
+}
+
+OzStatus oz_scene_copy(OzScene *copy, const OzScene *scene)
+{
+    OzStatus status = OZ_OK;
+    *copy = *scene;
+    copy->sweep = (OzSweep){0};
+    copy->path = copy->base = copy->name = NULL;
+    OZ_TRY(own_rows(copy));
+    OZ_TRY(oz_memory_text(&copy->path, scene->path));
+    OZ_TRY(oz_memory_text(&copy->base, scene->base));
+    OZ_TRY(oz_memory_text(&copy->name, scene->name));
+    for (const OzKey *key = oz_keys_all(); key->path; key++) {
+        if (key->type == OZ_KEY_ITEMS) {
+            OZ_TRY(own_items(key, copy, scene));
+        }
+    }
+done:
+    if (status != OZ_OK) {
+        oz_scene_free(copy);
+    }
+    return status;
 }
 
 static void free_items(const OzKey *list, OzScene *scene)

@@ -72,7 +72,15 @@ typedef struct OzContactValues {
     double poisson_ratio;           /* hertz-mindlin                                          */
 } OzContactValues;
 
-/* Sinusoidal motion along z: offset A sin(2 pi f t), 0 at time 0 and upwards first. */
+/* A stretch of shaking: offset (-1)^halves A sin(2 pi f (t - since)). */
+typedef struct OzShake {
+    double since;                /* s, a zero crossing                          */
+    double halves;               /* whole: half periods of the wall before that */
+    double amplitude, frequency; /* m, Hz */
+} OzShake;
+
+/* Sinusoidal motion along z: offset A sin(2 pi f t), 0 at time 0 and upwards first, unless it took
+ * over from another motion (model/motion.h). */
 typedef struct OzMotion {
     bool present;
     double frequency;          /* Hz                                                           */
@@ -80,6 +88,10 @@ typedef struct OzMotion {
     double amplitude;          /* m                                                      written */
     double written_amplitude;  /* m; 0 when the acceleration ratio was written                  */
     double angular_velocity;   /* rad/s about the wall's point, trigrains                       */
+    OzShake shake;  /* since when it is shaken so (amplitude and frequency are those above);
+                     * zero in a scene as loaded                                                */
+    OzShake before; /* how it is shaken until then                                              */
+    double turned, turned_since; /* rad, s: its angle at a time, and that time; zero as loaded  */
 } OzMotion;
 
 typedef struct OzWall {
@@ -311,8 +323,22 @@ OzStatus oz_scene_load(OzScene *scene, const char *path, char *const *settings, 
 OzStatus oz_scene_parse(OzScene *scene, const char *path, const char *text, char *const *settings,
                         int setting_count);
 
+/* As oz_scene_load, of a scene that shall take over from the running one: what cannot change is
+ * refused too (scene/changes.h), at file and line. */
+OzStatus oz_scene_reload(OzScene *scene, const OzScene *running, const char *path,
+                         char *const *settings, int setting_count);
+
+/* The running scene with these settings on it, likewise; "-key.path" takes a key out. Phases of
+ * walls are left to model/motion.h. */
+OzStatus oz_scene_change(OzScene *scene, const OzScene *running, char *const *settings,
+                         int setting_count);
+
 /* Writes the scene with every default filled in, as a file that loads to the same scene. */
 OzStatus oz_scene_write(const OzScene *scene, FILE *file);
+
+/* A copy that shares no memory with the scene; its sweep is left out. The caller frees it, after a
+ * failure too. */
+OzStatus oz_scene_copy(OzScene *copy, const OzScene *scene);
 
 /* Frees what scene owns and zeroes it; a zeroed scene is fine. */
 void oz_scene_free(OzScene *scene);

@@ -340,6 +340,24 @@ void oz_value_copy(const OzKey *key, void *base, const OzKey *from, const void *
     }
 }
 
+OzStatus oz_value_own(const OzKey *key, void *base)
+{
+    void **owned = oz_value_at(key, base);
+    if (key->type == OZ_KEY_TEXT || key->type == OZ_KEY_FILE) {
+        const char *text = *owned;
+        *owned = NULL;
+        return oz_memory_text((char **)owned, text);
+    }
+    if (key->type == OZ_KEY_NUMBERS && *owned) {
+        const void *numbers = *owned;
+        size_t count = (size_t)*oz_value_count(key, base);
+        *owned = NULL;
+        OZ_PASS(oz_memory_new(owned, count, sizeof(double), "numbers"));
+        memcpy(*owned, numbers, count * sizeof(double));
+    }
+    return OZ_OK;
+}
+
 void oz_value_free(const OzKey *key, void *base)
 {
     if (key->type == OZ_KEY_TEXT || key->type == OZ_KEY_FILE || key->type == OZ_KEY_NUMBERS) {

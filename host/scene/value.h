@@ -24,5 +24,9 @@ bool oz_value_same(const OzKey *key, const void *base, const OzKey *other, const
 /* Gives key the value of another row of its type, which owns no memory. */
 void oz_value_copy(const OzKey *key, void *base, const OzKey *from, const void *from_base);
 
+/* For base that was copied word by word: gives a text or list row memory of its own, with the same
+ * contents. Fails with OZ_ERR_MEMORY alone; the row is empty then. */
+OzStatus oz_value_own(const OzKey *key, void *base);
+
 /* Frees what a text or list row owns. */
 void oz_value_free(const OzKey *key, void *base);

@@ -123,7 +123,7 @@ static void print_list(const OzKey *key, const void *place, int count, FILE *fil
     fputc(']', file);
 }
 
-static void print_value(const OzKey *key, const void *base, FILE *file)
+void oz_write_value(const OzKey *key, const void *base, FILE *file)
 {
     const void *place = oz_value_at(key, base);
     const OzRange *range = place;
@@ -187,25 +187,30 @@ static bool has_contacts(const OzScene *scene)
 }
 
 /* A law's values: of that law alone, and where they are not asked for those that are there. */
-static bool is_of_law(const Writer *writer, const OzKey *key, const void *base)
+static bool is_of_law(const OzScene *scene, const OzKey *key, const void *base)
 {
-    return !key->laws || (key->laws >> writer->scene->contact.law & 1 &&
-                          (has_contacts(writer->scene) || oz_value_holds(key, base)));
+    return !key->laws || (key->laws >> scene->contact.law & 1 &&
+                          (has_contacts(scene) || oz_value_holds(key, base)));
 }
 
-static bool is_written(const Writer *writer, const OzKey *key, const void *base)
+static bool is_sensible(const OzScene *scene, const OzKey *key, const void *base)
+{
+    return key->type != OZ_KEY_EXTENDS && oz_keys_serves(key, (int)scene->model) &&
+           is_of(key, key->kinds, "kind", base) && is_of(key, key->shapes, "shape", base) &&
+           is_of_law(scene, key, base);
+}
+
+bool oz_write_has(const OzScene *scene, const OzKey *key, const void *base)
 {
     bool in_item = strstr(key->path, "[]") != NULL;
-    if (key->type == OZ_KEY_EXTENDS || !oz_keys_serves(key, (int)writer->scene->model) ||
-        !is_of(key, key->kinds, "kind", base) || !is_of(key, key->shapes, "shape", base) ||
-        !is_of_law(writer, key, base)) {
+    if (!is_sensible(scene, key, base)) {
         return false;
     }
     if (key->type == OZ_KEY_SECTION) {
         return *(const bool *)oz_value_at(key, base);
     }
     if (in_item && key->inherits) {
-        return !oz_value_same(key, base, oz_keys_find(key->inherits), writer->scene);
+        return !oz_value_same(key, base, oz_keys_find(key->inherits), scene);
     }
     switch (key->write) {
     case OZ_WRITE_NONZERO:
@@ -214,8 +219,7 @@ static bool is_written(const Writer *writer, const OzKey *key, const void *base)
         return !oz_value_holds(neighbour(key, key->rival), base) &&
                (key->required || oz_value_holds(key, base));
     case OZ_WRITE_UNLESS_INHERITED:
-        return !oz_value_same(key, base, oz_keys_of(key->inherits, (int)writer->scene->model),
-                              writer->scene);
+        return !oz_value_same(key, base, oz_keys_of(key->inherits, (int)scene->model), scene);
     case OZ_WRITE_MARKED:
         return *(const bool *)((const char *)base + key->count_offset);
     default:
@@ -262,7 +266,7 @@ static void write_items(Writer *writer, const OzKey *list, const OzKey *end, con
 static bool any_written(const Writer *writer, const OzKey *key, const OzKey *end, const void *base)
 {
     for (; key < end; key++) {
-        if (is_written(writer, key, base)) {
+        if (oz_write_has(writer->scene, key, base)) {
             return true;
         }
     }
@@ -275,7 +279,7 @@ static void write_name(Writer *writer, const OzKey *key, const OzKey *end, size_
 {
     size_t length = strcspn(key->path + start, ".[");
     bool whole = key->path[start + length] == '\0';
-    if (whole ? !is_written(writer, key, base) : !any_written(writer, key, end, base)) {
+    if (whole ? !oz_write_has(writer->scene, key, base) : !any_written(writer, key, end, base)) {
         return;
     }
     begin_line(writer, key->path + start, length);
@@ -283,7 +287,7 @@ static void write_name(Writer *writer, const OzKey *key, const OzKey *end, size_
         write_items(writer, key, end, base);
     } else if (whole && key->type != OZ_KEY_SECTION) {
         fputc(' ', writer->file);
-        print_value(key, base, writer->file);
+        oz_write_value(key, base, writer->file);
         fputc('\n', writer->file);
     } else {
         fputc('\n', writer->file);

@@ -30,10 +30,24 @@ OzStatus oz_batch_create(OzBatch *batch, const OzMember *members, int member_cou
     OZ_TRY(OZ_NEW(&batch->stopped, member_count));
     OZ_TRY(OZ_NEW(&batch->deep_count, member_count));
     OZ_TRY(OZ_NEW(&batch->deep_told, member_count));
-    memcpy(batch->members, members, (size_t)member_count * sizeof *members);
+    OZ_TRY(OZ_NEW(&batch->scenes, member_count));
+    for (int m = 0; m < member_count; m++) {
+        OZ_TRY(oz_scene_copy(&batch->scenes[m], members[m].scene));
+        batch->members[m] = (OzMember){&batch->scenes[m], members[m].grains};
+    }
     begin_clocks(batch);
 done:
     return status;
+}
+
+OzStatus oz_batch_take_scene(OzBatch *batch, int member, const OzScene *scene)
+{
+    OzScene copy;
+    OZ_PASS(oz_scene_copy(&copy, scene));
+    oz_scene_free(&batch->scenes[member]);
+    batch->scenes[member] = copy;
+    oz_step_clock_change(&batch->clock[member], batch->step, scene->step);
+    return OZ_OK;
 }
 
 void oz_batch_free(OzBatch *batch)
@@ -41,6 +55,10 @@ void oz_batch_free(OzBatch *batch)
     for (int m = 0; batch->stopped && m < batch->member_count; m++) {
         free(batch->stopped[m]);
     }
+    for (int m = 0; batch->scenes && m < batch->member_count; m++) {
+        oz_scene_free(&batch->scenes[m]);
+    }
+    free(batch->scenes);
     free(batch->members);
     free(batch->reached);
     free(batch->clock);

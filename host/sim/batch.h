@@ -18,7 +18,8 @@ typedef enum OzSettling {
 } OzSettling;
 
 typedef struct OzBatch {
-    OzMember *members;
+    OzMember *members; /* with scenes of its own, below */
+    OzScene *scenes;   /* one a member: copies          */
     int member_count;
     int64_t step;          /* made since time 0 (or since settling began) by those that go on */
     int64_t *reached;      /* one a member: steps that it has made itself                     */
@@ -34,8 +35,8 @@ typedef struct OzBatch {
     OzSimCounts counts;
 } OzBatch;
 
-/* Copies the members, all at step 0. The caller frees with oz_batch_free (zeroed is fine), also
- * after a failure. */
+/* Copies the members and their scenes, all at step 0. The caller frees with oz_batch_free (zeroed
+ * is fine), also after a failure. */
 OzStatus oz_batch_create(OzBatch *batch, const OzMember *members, int member_count);
 void oz_batch_free(OzBatch *batch);
 
@@ -65,6 +66,9 @@ OzStatus oz_batch_stop(OzBatch *batch, int member);
  * stopped now, it goes on by `most` instead (what the member that came farthest made), and the call
  * fails as oz_batch_check does. */
 OzStatus oz_batch_end_launch(OzBatch *batch, int steps, int most);
+
+/* Gives a member a copy of another scene, and its clock that scene's step from here on. */
+OzStatus oz_batch_take_scene(OzBatch *batch, int member, const OzScene *scene);
 
 /* Time of a step of a member's present stretch, s. */
 double oz_batch_time(const OzBatch *batch, int member, int64_t step);

@@ -33,7 +33,7 @@ OzStatus oz_batch_fit_most(const OzDevice *device, const OzMember *member, int64
     const OzModel *model = oz_models_of(member->scene);
     OzModelLayout layout;
     double largest = 1, sum = 0;
-    OZ_TRY(oz_model_layout(&layout, model, member, device));
+    OZ_TRY(oz_model_layout(&layout, model, member, device, NULL));
     for (int f = 0; f < model->field_count; f++) {
         double field = 1.5 * (double)model->field_bytes(f, layout.switches, layout.sizes);
         largest = fmax(largest, field);

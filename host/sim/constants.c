@@ -18,13 +18,6 @@ OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *val
     return law;
 }
 
-void oz_constants_motion(const OzMotion *motion, double time, double *offset, double *velocity)
-{
-    double rate = 2 * 3.14159265358979323846 * motion->frequency;
-    *offset = motion->present ? motion->amplitude * sin(rate * time) : 0;
-    *velocity = motion->present ? motion->amplitude * rate * cos(rate * time) : 0;
-}
-
 static double larger(double a, double b)
 {
     return a > b ? a : b;
@@ -112,23 +105,39 @@ static void fill_shapes(OzParameters *parameters, const OzGrains *grains)
     }
 }
 
-OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
-                           const OzScene *scene, const OzGrains *grains)
+/* By the scene's own extent and step. */
+static OzStatus choose_units(OzParameters *parameters, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
-    memset(parameters, 0, sizeof *parameters);
-    if (scene->wall_count > OZ_WALLS_MAX) {
-        return oz_status_fail(OZ_ERR_INPUT, "%s: %d walls, at most %d", scene->path,
-                              scene->wall_count, OZ_WALLS_MAX);
-    }
     parameters->length_unit = 1;
     parameters->domain = 1e9;
     parameters->units = (OzUnits){1, 1, 1};
     if (scene->precision == OZ_PRECISION_FLOAT) {
-        OZ_TRY(choose_unit(&parameters->length_unit, scene, grains));
+        OZ_PASS(choose_unit(&parameters->length_unit, scene, grains));
         parameters->domain = 0x1p30;
         parameters->units = oz_units_choose(grains, scene->step);
     }
+    return OZ_OK;
+}
+
+static OzStatus keep_units(OzParameters *parameters, const OzScene *scene, const OzGrains *grains,
+                           const OzParameters *running)
+{
+    double most = running->length_unit * 0x1p30 / 1.5, far = extent(scene, grains);
+    parameters->length_unit = running->length_unit;
+    parameters->domain = running->domain;
+    parameters->units = running->units;
+    if (scene->precision == OZ_PRECISION_FLOAT && !(far < most)) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: the scene reaches %g m from the origin; the running one holds "
+                              "places up to %.3g m",
+                              scene->path, far, most);
+    }
+    return OZ_OK;
+}
+
+static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene,
+                      const OzGrains *grains)
+{
     parameters->inverse_unit = 1 / parameters->length_unit;
     parameters->dt = scene->step;
     memcpy(parameters->gravity, scene->gravity, sizeof scene->gravity);
@@ -138,6 +147,27 @@ OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX
     parameters->deep_look = fmin(1, fmin(parameters->deep_warn, parameters->deep_stop));
     fill_walls(parameters, wall_order, scene);
     fill_shapes(parameters, grains);
-done:
-    return status;
+}
+
+OzStatus oz_constants_refill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
+                             const OzScene *scene, const OzGrains *grains,
+                             const OzParameters *running)
+{
+    OzParameters filled = {.dt = 0};
+    if (scene->wall_count > OZ_WALLS_MAX) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s: %d walls, at most %d", scene->path,
+                              scene->wall_count, OZ_WALLS_MAX);
+    }
+    OZ_PASS(running ? keep_units(&filled, scene, grains, running)
+                    : choose_units(&filled, scene, grains));
+    fill_rest(&filled, wall_order, scene, grains);
+    *parameters = filled;
+    return OZ_OK;
+}
+
+OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
+                           const OzScene *scene, const OzGrains *grains)
+{
+    memset(parameters, 0, sizeof *parameters);
+    return oz_constants_refill(parameters, wall_order, scene, grains, NULL);
 }

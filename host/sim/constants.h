@@ -14,11 +14,15 @@
 OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
                            const OzScene *scene, const OzGrains *grains);
 
+/* The same for a scene that takes over from one whose parameters these are: units and length_unit
+ * stay, as the device's arrays are in them. Fails also where walls now lie too far away for them.
+ */
+OzStatus oz_constants_refill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
+                             const OzScene *scene, const OzGrains *grains,
+                             const OzParameters *running);
+
 /* The law of the scene's contacts of given values (of two grains: the scene's; of a wall: its own),
  * calibrated where the scene asks for it. */
 OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values);
-
-/* Offset (m) and velocity (m/s) of a wall at a time. */
-void oz_constants_motion(const OzMotion *motion, double time, double *offset, double *velocity);
 
 #endif

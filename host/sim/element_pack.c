@@ -264,6 +264,33 @@ OzStatus oz_element_pack_parameters(OzArrays *arrays, int member,
                                    (const double *)&counted, sizeof counted / sizeof(double));
 }
 
+OzStatus oz_element_pack_adopt(OzArrays *arrays, const OzArrays *from, int member, double ratio)
+{
+    OzStatus status = OZ_OK;
+    int slots = oz_element_fields_sizes(arrays)->slots;
+    int order = oz_element_fields_switches(arrays)->order;
+    int known = oz_element_fields_switches(from)->order;
+    double *words = NULL, *old = NULL;
+    if (order == known && ratio == 1) {
+        return OZ_OK;
+    }
+    OZ_TRY(OZ_NEW(&words, (size_t)slots * (size_t)state_words(arrays)));
+    OZ_TRY(oz_arrays_read_scalars(from, OZ_ELEMENT_FIELD_state, member, &old));
+    for (int i = 0; i < 3 * slots; i++) {
+        double scale = 1;
+        for (int n = 0; n < order && n < known; n++, scale *= ratio) {
+            words[at(arrays, i / 3, state_words(arrays), i % 3 * order + n)] =
+                scale * old[at(from, i / 3, state_words(from), i % 3 * known + n)];
+        }
+    }
+    OZ_TRY(oz_arrays_write_scalars(arrays, OZ_ELEMENT_FIELD_state, member, words,
+                                   (size_t)slots * (size_t)state_words(arrays)));
+done:
+    free(words);
+    free(old);
+    return status;
+}
+
 OzStatus oz_element_pack_state(const OzArrays *arrays, int member,
                                const OzElementParameters *parameters, OzSnapshot *snapshot)
 {

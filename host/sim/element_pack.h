@@ -31,6 +31,10 @@ OzStatus oz_element_pack_parameters(OzArrays *arrays, int member,
 OzStatus oz_element_pack_bodies(OzArrays *arrays, int member, const OzGrains *grains,
                                 unsigned present);
 
+/* Writes the state that other arrays of the same elements hold, for steps `ratio` times as long as
+ * theirs and as many derivatives as there are here; those that the others lack are zero. */
+OzStatus oz_element_pack_adopt(OzArrays *arrays, const OzArrays *from, int member, double ratio);
+
 /* Reads the free elements' state into snapshot. */
 OzStatus oz_element_pack_state(const OzArrays *arrays, int member,
                                const OzElementParameters *parameters, OzSnapshot *snapshot);

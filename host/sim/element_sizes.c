@@ -73,7 +73,8 @@ static void extents(const OzElements *elements, double middle[2], double size[2]
     }
 }
 
-OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, const OzGrains *grains)
+OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, const OzGrains *grains,
+                                     const void *running)
 {
     OzElementParameters *p = parameters;
     const OzElements *elements = grains->elements;
@@ -85,7 +86,8 @@ OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, con
     }
     p->units = (OzUnits){1, 1, 1};
     if (scene->precision == OZ_PRECISION_FLOAT) {
-        p->units = oz_units_choose(grains, scene->step);
+        p->units = running ? ((const OzElementParameters *)running)->units
+                           : oz_units_choose(grains, scene->step);
     }
     p->dt = scene->step;
     p->gravity[0] = scene->gravity[0];

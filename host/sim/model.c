@@ -45,14 +45,14 @@ void oz_model_print_switches(const OzModel *model, const void *switches, FILE *f
 }
 
 OzStatus oz_model_layout(OzModelLayout *layout, const OzModel *model, const OzMember *member,
-                         const OzDevice *device)
+                         const OzDevice *device, const void *running)
 {
     *layout = (OzModelLayout){0};
     OZ_PASS(oz_memory_new(&layout->switches, model->switches_bytes, 1, "switches"));
     OZ_PASS(oz_memory_new(&layout->parameters, model->parameters_bytes, 1, "parameters"));
     OZ_PASS(oz_memory_new(&layout->sizes, model->sizes_bytes, 1, "sizes"));
     model->derive(layout->switches, member->scene, member->grains, device);
-    OZ_PASS(model->fill(layout->parameters, member->scene, member->grains));
+    OZ_PASS(model->fill(layout->parameters, member->scene, member->grains, running));
     model->choose(layout->sizes, layout->parameters, member->scene, member->grains,
                   layout->switches);
     return OZ_OK;

@@ -89,9 +89,11 @@ typedef struct OzModel {
     void (*more_left_out)(const void *switches, const char *separator, FILE *file);
     const char *(*program)(const void *switches);
 
-    /* Constants of a scene, in double and SI; sizes that a member needs, and what follows from them
-     * in the parameters; sizes that serve another member too. */
-    OzStatus (*fill)(void *parameters, const OzScene *scene, const OzGrains *grains);
+    /* Constants of a scene, in double and SI, in the units of running parameters where there are
+     * such (else NULL): it can be called again at any time; sizes that a member needs, and what
+     * follows from them in the parameters; sizes that serve another member too. */
+    OzStatus (*fill)(void *parameters, const OzScene *scene, const OzGrains *grains,
+                     const void *running);
     void (*choose)(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
                    const void *switches);
     void (*join)(void *sizes, const void *other);
@@ -129,6 +131,11 @@ typedef struct OzModel {
     OzStatus (*save_springs)(OzSim *sim);
     OzStatus (*state)(OzSim *sim, OzStateVisit *visit);
 
+    /* For a simulation that goes on from another one, or from itself, with other parameters: puts
+     * into the arrays what they hold otherwise under these (NULL: nothing is). `from` made steps of
+     * this length, s. */
+    OzStatus (*adopt)(OzSim *sim, const OzSim *from, int member, double step);
+
     /* A member's state now, walls included; its contacts and, with the ledger on, its energies,
      * unless a guard has stopped it. */
     OzStatus (*unpack)(OzSim *sim, int member, OzSnapshot *snapshot);
@@ -154,14 +161,14 @@ void oz_model_options(const OzModel *model, const void *switches, char *text, si
 /* Prints the switches, and the features left out. */
 void oz_model_print_switches(const OzModel *model, const void *switches, FILE *file);
 
-/* Derives switches and fills parameters and sizes for one scene; the caller frees all three with
- * oz_model_layout_free, after a failure too. */
+/* Derives switches and fills parameters (as fill does) and sizes for one scene; the caller frees
+ * all three with oz_model_layout_free, after a failure too. */
 typedef struct OzModelLayout {
     void *switches, *parameters, *sizes;
 } OzModelLayout;
 
 OzStatus oz_model_layout(OzModelLayout *layout, const OzModel *model, const OzMember *member,
-                         const OzDevice *device);
+                         const OzDevice *device, const void *running);
 void oz_model_layout_free(OzModelLayout *layout);
 
 #endif

@@ -2,6 +2,7 @@
 #include "sim/reference_guard.h"
 
 #include "base/memory.h"
+#include "model/motion.h"
 #include "sim/contacts.h"
 
 #include <stdlib.h>
@@ -90,7 +91,7 @@ static void move_before(OzReference *r, double dt)
     }
     for (int w = 0; w < r->physics.wall_count; w++) {
         const OzMotion *motion = &r->scene->walls[r->physics.wall_order[w]].motion;
-        oz_constants_motion(motion, force_time, &r->wall_offset[w], &r->wall_speed[w]);
+        oz_motion_offset(motion, force_time, &r->wall_offset[w], &r->wall_speed[w]);
     }
 }
 
@@ -180,7 +181,7 @@ static void note_wall(OzReference *r, int i, int wall, double dt)
 {
     const OzMotion *motion = &r->scene->walls[r->physics.wall_order[wall]].motion;
     double offset, speed;
-    oz_constants_motion(motion, oz_step_clock_time(&r->clock, r->step) + dt, &offset, &speed);
+    oz_motion_offset(motion, oz_step_clock_time(&r->clock, r->step) + dt, &offset, &speed);
     for (int end = 0; end < r->physics.ends; end++) {
         const OzWallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
         if (f->contact.touching) {

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "model/calibrate.h"
 #include "model/hertz.h"
+#include "model/motion.h"
 #include "sim/constants.h"
 
 #include <math.h>
@@ -38,7 +39,7 @@ static double fastest_start(const OzScene *scene, const OzGrains *grains)
     }
     for (int w = 0; w < scene->wall_count; w++) {
         double offset, speed;
-        oz_constants_motion(&scene->walls[w].motion, 0, &offset, &speed);
+        oz_motion_offset(&scene->walls[w].motion, 0, &offset, &speed);
         fastest = fmax(fastest, speed);
     }
     return fastest;

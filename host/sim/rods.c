@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "compute/cl_try.h"
+#include "model/motion.h"
 #include "sim/host_lists.h"
 #include "sim/launch.h"
 #include "sim/pack.h"
@@ -56,10 +57,11 @@ static int64_t count_grains(const OzGrains *grains)
     return grains->count;
 }
 
-static OzStatus fill(void *parameters, const OzScene *scene, const OzGrains *grains)
+static OzStatus fill(void *parameters, const OzScene *scene, const OzGrains *grains,
+                     const void *running)
 {
     int order[OZ_WALLS_MAX];
-    return oz_constants_fill(parameters, order, scene, grains);
+    return oz_constants_refill(parameters, order, scene, grains, running);
 }
 
 /* Walls are numbered by kind in the kernels, one numbering for all members. */
@@ -167,7 +169,7 @@ static void put_motion(double words[OZ_MOTION], const OzMotion *motion, double t
                        const OzParameters *p)
 {
     double offset, speed;
-    oz_constants_motion(motion, time, &offset, &speed);
+    oz_motion_offset(motion, time, &offset, &speed);
     words[OZ_M_OFFSET] = offset / p->units.length;
     words[OZ_M_SPEED] = speed / oz_units_speed(&p->units);
     words[OZ_M_RISE] = rint(offset / p->length_unit);
@@ -256,6 +258,15 @@ done:
     return status;
 }
 
+/* Accelerations are kept by integrators that move first alone. */
+static OzStatus adopt(OzSim *sim, const OzSim *from, int member, double step)
+{
+    (void)member;
+    (void)step;
+    oz_rods_own(sim)->primed &= oz_rods_switches(from)->moves_before != 0;
+    return OZ_OK;
+}
+
 const OzModel oz_rods_model = {
     .name = "rods",
     .field_count = OZ_FIELD_COUNT,
@@ -291,6 +302,7 @@ const OzModel oz_rods_model = {
     .let_go = let_go,
     .save_springs = save_springs,
     .state = own_state,
+    .adopt = adopt,
     .unpack = oz_rods_read_snapshot_state,
     .contacts = oz_rods_read_snapshot_contacts,
     .energy = oz_rods_read_snapshot_energy,

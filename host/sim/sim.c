@@ -48,16 +48,22 @@ static OzStatus take_layout(OzSim *sim, int m, const OzModelLayout *own, OzModel
     return OZ_OK;
 }
 
+/* A member's layout, in the units of the simulation that it goes on from, if there is one. */
+static OzStatus layout_of(OzModelLayout *layout, const OzSim *sim, int m, const OzSim *running)
+{
+    return oz_model_layout(layout, sim->model, &sim->batch.members[m], sim->device,
+                           running ? oz_sim_parameters(running, m) : NULL);
+}
+
 /* Switches, which all members must share, and sizes that serve all; arrays of these. */
-static OzStatus choose_layout(OzSim *sim)
+static OzStatus choose_layout(OzSim *sim, const OzSim *running)
 {
     OzStatus status = OZ_OK;
-    const OzMember *members = sim->batch.members;
     OzModelLayout shared = {0}, own = {0};
-    OZ_TRY(oz_model_layout(&shared, sim->model, &members[0], sim->device));
+    OZ_TRY(layout_of(&shared, sim, 0, running));
     OZ_TRY(take_layout(sim, 0, &shared, &shared));
     for (int m = 1; m < sim->batch.member_count; m++) {
-        OZ_TRY(oz_model_layout(&own, sim->model, &members[m], sim->device));
+        OZ_TRY(layout_of(&own, sim, m, running));
         OZ_TRY(take_layout(sim, m, &own, &shared));
         oz_model_layout_free(&own);
     }
@@ -92,7 +98,7 @@ done:
 }
 
 static OzStatus create(OzSim *sim, const OzMember *members, int member_count,
-                       const char *source_dir)
+                       const char *source_dir, const OzSim *running)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(oz_batch_create(&sim->batch, members, member_count));
@@ -100,15 +106,21 @@ static OzStatus create(OzSim *sim, const OzMember *members, int member_count,
                          "parameters"));
     OZ_TRY(oz_memory_new(&sim->control, (size_t)member_count, sim->model->control_bytes,
                          "control words"));
-    OZ_TRY(choose_layout(sim));
+    OZ_TRY(choose_layout(sim, running));
     OZ_TRY(build(sim, source_dir));
     OZ_TRY(sim->model->start(sim));
 done:
     return status;
 }
 
-OzStatus oz_sim_create(OzSim **out, const OzDevice *device, const OzMember *members,
+OzStatus oz_sim_create(OzSim **sim, const OzDevice *device, const OzMember *members,
                        int member_count, const char *source_dir)
+{
+    return oz_sim_create_after(sim, device, members, member_count, source_dir, NULL);
+}
+
+OzStatus oz_sim_create_after(OzSim **out, const OzDevice *device, const OzMember *members,
+                             int member_count, const char *source_dir, const OzSim *running)
 {
     OzStatus status = OZ_OK;
     OzSim *sim = NULL;
@@ -117,7 +129,7 @@ OzStatus oz_sim_create(OzSim **out, const OzDevice *device, const OzMember *memb
     sim->device = device;
     sim->model = oz_models_of(members[0].scene);
     sim->is_empty = true;
-    OZ_TRY(create(sim, members, member_count, source_dir));
+    OZ_TRY(create(sim, members, member_count, source_dir, running));
     *out = sim;
     sim = NULL;
 done:
@@ -220,7 +232,7 @@ OzStatus oz_sim_describe(const OzDevice *device, const OzScene *scene, const OzG
     const OzModel *model = oz_models_of(scene);
     const OzMember member = {scene, grains};
     OzModelLayout layout;
-    OZ_TRY(oz_model_layout(&layout, model, &member, device));
+    OZ_TRY(oz_model_layout(&layout, model, &member, device, NULL));
     oz_model_print_switches(model, layout.switches, file);
     fprintf(file, "device memory of one scene on %s:\n", device->name);
     oz_arrays_print(model, layout.switches, layout.sizes, grains, file);

@@ -10,7 +10,8 @@
 
 typedef struct OzSim OzSim;
 
-/* One scene of a simulation; both are borrowed and must outlive it. */
+/* One scene of a simulation, which copies what it needs of it, and its grains, borrowed, which must
+ * outlive it. */
 typedef struct OzMember {
     const OzScene *scene;
     const OzGrains *grains;

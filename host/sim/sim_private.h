@@ -23,6 +23,11 @@ struct OzSim {
 OzParametersHead *oz_sim_parameters(const OzSim *sim, int member);
 OzControlHead *oz_sim_control(const OzSim *sim, int member);
 
+/* As oz_sim_create, for scenes of the same grains that shall go on from those of a running
+ * simulation (NULL: none), in whose units it counts; its state has still to be moved. */
+OzStatus oz_sim_create_after(OzSim **sim, const OzDevice *device, const OzMember *members,
+                             int member_count, const char *source_dir, const OzSim *running);
+
 /* Uploads all members' parameters. */
 OzStatus oz_sim_write_parameters(OzSim *sim);
 

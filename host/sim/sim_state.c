@@ -2,14 +2,19 @@
 #include "sim/sim_state.h"
 
 #include "base/memory.h"
+#include "model/motion.h"
 #include "sim/launch.h"
 #include "sim/sim_private.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* What is loaded: all of it as it was saved, or what another program of the same grains can use. */
+typedef enum Way { WHOLE, FITTING } Way;
+
 /* Words must mean what they meant: the program is the same. */
-static OzStatus switches_state(OzSim *sim, OzStateVisit *visit)
+static OzStatus switches_state(OzSim *sim, OzStateVisit *visit, Way way)
 {
     OzStatus status = OZ_OK;
     const int *own = sim->arrays.switches;
@@ -18,7 +23,7 @@ static OzStatus switches_state(OzSim *sim, OzStateVisit *visit)
         const char *name = k < 0 ? "DOUBLE" : sim->model->switches[k].name;
         int value = own[k + 1];
         OZ_TRY(oz_state_int(visit, name, "none", &value));
-        if (value != own[k + 1]) {
+        if (value != own[k + 1] && way == WHOLE) {
             status = oz_status_fail(OZ_ERR_INPUT,
                                     "state: the kernel switch %s was %d and is %d in this run",
                                     name, value, own[k + 1]);
@@ -31,11 +36,17 @@ done:
 }
 
 /* Takes the capacities of lists in which springs were saved. */
-static OzStatus resize(OzSim *sim, OzSizesHead *saved)
+static OzStatus resize(OzSim *sim, OzSizesHead *saved, Way way)
 {
     size_t bytes = sim->model->sizes_bytes;
     const OzSizesHead *own = oz_arrays_sizes(&sim->arrays);
-    OzSizesHead rest;
+    OzSizesHead rest, capacities = *saved;
+    if (way == FITTING) {
+        memcpy(saved, own, bytes);
+        saved->outer_capacity = capacities.outer_capacity;
+        saved->inner_capacity = capacities.inner_capacity;
+        saved->back_capacity = capacities.back_capacity;
+    }
     memcpy(&rest, saved, sizeof rest);
     rest.outer_capacity = own->outer_capacity;
     rest.inner_capacity = own->inner_capacity;
@@ -54,7 +65,7 @@ static OzStatus resize(OzSim *sim, OzSizesHead *saved)
     return oz_arrays_resize(&sim->arrays, saved);
 }
 
-static OzStatus sizes_state(OzSim *sim, OzStateVisit *visit)
+static OzStatus sizes_state(OzSim *sim, OzStateVisit *visit, Way way)
 {
     OzStatus status = OZ_OK;
     OzSizesHead *sizes = NULL;
@@ -64,15 +75,24 @@ static OzStatus sizes_state(OzSim *sim, OzStateVisit *visit)
     OZ_TRY(oz_state_items(visit, "sizes", "none", OZ_STATE_INT32, sizes,
                           (int64_t)(bytes / sizeof(int))));
     if (visit->is_loading) {
-        OZ_TRY(resize(sim, sizes));
+        OZ_TRY(resize(sim, sizes, way));
     }
 done:
     free(sizes);
     return status;
 }
 
+/* Whether the entry that comes next was saved in just this shape. */
+static bool is_there(const OzStateVisit *visit, const char *name, OzStateKind kind, int64_t count)
+{
+    char path[sizeof visit->path + 64];
+    snprintf(path, sizeof path, "%s%s", visit->path, name);
+    const OzStateEntry *entry = oz_state_find(visit->state, path);
+    return entry && entry->kind == kind && entry->count == count;
+}
+
 /* A member's stretch of a field, in its own kind of word. */
-static OzStatus field_state(OzSim *sim, int field, int member, OzStateVisit *visit)
+static OzStatus field_state(OzSim *sim, int field, int member, OzStateVisit *visit, Way way)
 {
     OzStatus status = OZ_OK;
     const OzField *row = &sim->model->fields[field];
@@ -81,6 +101,10 @@ static OzStatus field_state(OzSim *sim, int field, int member, OzStateVisit *vis
     OzStateKind kind = wide ? OZ_STATE_DOUBLE : row->kind;
     void *words = NULL;
     if (bytes == 0 || (row->class != OZ_FIELD_STATE && row->class != OZ_FIELD_SPRING)) {
+        return OZ_OK;
+    }
+    if (way == FITTING && visit->is_loading &&
+        !is_there(visit, row->name, kind, (int64_t)(bytes / oz_state_kind_bytes(kind)))) {
         return OZ_OK;
     }
     OZ_TRY(oz_arrays_download(&sim->arrays, field, member, &words));
@@ -115,21 +139,29 @@ done:
     return status;
 }
 
-static OzStatus member_state(OzSim *sim, int member, OzStateVisit *visit)
+static OzStatus member_state(OzSim *sim, int member, OzStateVisit *visit, Way way)
 {
     OzStatus status = OZ_OK;
     oz_state_enter_one(visit, "member", member);
     OZ_TRY(units_state(sim, member, visit));
+    OZ_TRY(oz_motion_state(&sim->batch.scenes[member], visit));
     for (int f = 0; f < sim->model->field_count; f++) {
-        OZ_TRY(field_state(sim, f, member, visit));
+        OZ_TRY(field_state(sim, f, member, visit, way));
     }
     oz_state_leave(visit);
 done:
     return status;
 }
 
-/* Lists that hold again, where there is anything to list. */
-static OzStatus renew(OzSim *sim)
+OzStatus oz_sim_state_save_springs(OzSim *sim)
+{
+    OZ_PASS(oz_launch_write_control(sim));
+    OZ_PASS(sim->model->save_springs(sim));
+    return oz_launch_write_control(sim);
+}
+
+/* Where there is anything to list. */
+OzStatus oz_sim_state_renew(OzSim *sim)
 {
     int made = 0;
     bool any = false;
@@ -139,26 +171,44 @@ static OzStatus renew(OzSim *sim)
     return any ? oz_launch_steps(sim, 0, &made) : OZ_OK;
 }
 
-OzStatus oz_sim_state_visit(OzSim *sim, OzStateVisit *visit)
+static OzStatus visit_all(OzSim *sim, OzStateVisit *visit, Way way)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "sim", 1));
-    OZ_TRY(switches_state(sim, visit));
-    OZ_TRY(sizes_state(sim, visit));
+    OZ_TRY(oz_state_enter(visit, "sim", 2));
+    OZ_TRY(switches_state(sim, visit, way));
+    OZ_TRY(sizes_state(sim, visit, way));
     OZ_TRY(oz_batch_state(&sim->batch, visit));
     if (!visit->is_loading) {
-        OZ_TRY(oz_launch_write_control(sim));
-        OZ_TRY(sim->model->save_springs(sim));
-        OZ_TRY(oz_launch_write_control(sim));
+        OZ_TRY(oz_sim_state_save_springs(sim));
     }
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(member_state(sim, m, visit));
+        OZ_TRY(member_state(sim, m, visit, way));
     }
     if (sim->model->state) {
         OZ_TRY(sim->model->state(sim, visit));
     }
     oz_state_leave(visit);
-    OZ_TRY(renew(sim));
 done:
+    return status;
+}
+
+OzStatus oz_sim_state_visit(OzSim *sim, OzStateVisit *visit)
+{
+    OZ_PASS(visit_all(sim, visit, WHOLE));
+    return oz_sim_state_renew(sim);
+}
+
+OzStatus oz_sim_state_move(OzSim *to, OzSim *from)
+{
+    OzStatus status = OZ_OK;
+    OzState state = {0};
+    OzStateVisit save = oz_state_save(&state), load = oz_state_load(&state);
+    OZ_TRY(visit_all(from, &save, WHOLE));
+    OZ_TRY(visit_all(to, &load, FITTING));
+    for (int m = 0; to->model->adopt && m < to->batch.member_count; m++) {
+        OZ_TRY(to->model->adopt(to, from, m, oz_sim_parameters(from, m)->dt));
+    }
+done:
+    oz_state_free(&state);
     return status;
 }

@@ -123,6 +123,13 @@ static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
                           oz_element_own(sim)->present, sim->batch.member_count);
 }
 
+/* States are counted in powers of the step, as many as the integrator keeps. */
+static OzStatus adopt(OzSim *sim, const OzSim *from, int member, double step)
+{
+    return oz_element_pack_adopt(&sim->arrays, &from->arrays, member,
+                                 oz_element_parameters(sim, member)->dt / step);
+}
+
 const OzModel oz_trigrains_model = {
     .name = "trigrains",
     .field_count = OZ_ELEMENT_FIELD_COUNT,
@@ -154,6 +161,7 @@ const OzModel oz_trigrains_model = {
     .let_go = let_go,
     .save_springs = let_go,
     .state = own_state,
+    .adopt = adopt,
     .unpack = oz_element_read_snapshot_state,
     .contacts = oz_element_read_snapshot_contacts,
     .energy = oz_element_read_snapshot_energy,

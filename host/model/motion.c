@@ -1,0 +1,180 @@
+/* Phases of moving walls. */
+#include "model/motion.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* An odd number of half periods turns a sine round, exactly. */
+static double sign_of(const OzShake *shake)
+{
+    return fmod(shake->halves, 2) == 0 ? 1 : -1;
+}
+
+static const OzShake *shake_at(const OzMotion *motion, double time)
+{
+    return time < motion->shake.since ? &motion->before : &motion->shake;
+}
+
+/* The scene's numbers are those of the shake that it asks for. */
+static double amplitude_of(const OzMotion *motion, const OzShake *shake)
+{
+    return shake == &motion->before ? shake->amplitude : motion->amplitude;
+}
+
+static double frequency_of(const OzMotion *motion, const OzShake *shake)
+{
+    return shake == &motion->before ? shake->frequency : motion->frequency;
+}
+
+void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity)
+{
+    const OzShake *shake = shake_at(motion, time);
+    double amplitude = sign_of(shake) * amplitude_of(motion, shake);
+    double rate = 2 * PI * frequency_of(motion, shake), phase = rate * (time - shake->since);
+    *offset = motion->present ? amplitude * sin(phase) : 0;
+    *velocity = motion->present ? amplitude * rate * cos(phase) : 0;
+}
+
+double oz_motion_turn(const OzMotion *motion, double time)
+{
+    return motion->turned + motion->angular_velocity * (time - motion->turned_since);
+}
+
+/* The wall whose periods are taps; NULL: none. */
+static const OzMotion *leader(const OzScene *scene)
+{
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzMotion *motion = &scene->walls[w].motion;
+        if (motion->present && motion->frequency > 0) {
+            return motion;
+        }
+    }
+    return NULL;
+}
+
+double oz_motion_tap(const OzScene *scene, double time)
+{
+    const OzMotion *motion = leader(scene);
+    if (!motion) {
+        return scene->period > 0 ? time / scene->period : 0;
+    }
+    const OzShake *shake = shake_at(motion, time);
+    return shake->halves / 2 + (time - shake->since) / (1 / frequency_of(motion, shake));
+}
+
+double oz_motion_time(const OzScene *scene, double tap)
+{
+    const OzMotion *motion = leader(scene);
+    if (!motion) {
+        return tap * scene->period;
+    }
+    bool is_before = tap < motion->shake.halves / 2;
+    const OzShake *shake = is_before ? &motion->before : &motion->shake;
+    return shake->since + (tap - shake->halves / 2) * (1 / frequency_of(motion, shake));
+}
+
+double oz_motion_since(const OzScene *scene)
+{
+    const OzMotion *motion = leader(scene);
+    return motion ? motion->shake.since : 0;
+}
+
+/* The shake that is on at this time, with its own numbers. */
+static OzShake running_shake(const OzMotion *motion, double time)
+{
+    const OzShake *shake = shake_at(motion, time);
+    OzShake own = *shake;
+    own.amplitude = amplitude_of(motion, shake);
+    own.frequency = frequency_of(motion, shake);
+    return own;
+}
+
+/* Half periods until the next zero crossing; a step that lies there to rounding lies there. */
+static double halves_to_go(const OzShake *shake, double time)
+{
+    const double rounding = 1e-9;
+    return ceil(2 * shake->frequency * (time - shake->since) - rounding);
+}
+
+static void take_shake(OzMotion *next, const OzMotion *running, double time)
+{
+    if (next->amplitude == running->amplitude && next->frequency == running->frequency) {
+        next->shake = running->shake;
+        next->before = running->before;
+        return;
+    }
+    next->before = running_shake(running, time);
+    next->shake.since = time;
+    if (next->before.frequency > 0) {
+        double halves = halves_to_go(&next->before, time);
+        next->shake.since = next->before.since + halves / (2 * next->before.frequency);
+        next->shake.halves = next->before.halves + halves;
+    }
+}
+
+static void take_turn(OzMotion *next, const OzMotion *running, double time)
+{
+    bool same = next->angular_velocity == running->angular_velocity;
+    next->turned = same ? running->turned : oz_motion_turn(running, time);
+    next->turned_since = same ? running->turned_since : time;
+}
+
+/* Times that were written as taps. */
+static void derive_times(OzScene *scene)
+{
+    OzSnapshotSettings *shots = &scene->snapshots;
+    if (scene->taps > 0) {
+        scene->duration = oz_motion_time(scene, scene->taps);
+    }
+    for (int i = 0; shots->tap_count > 0 && i < shots->count; i++) {
+        shots->times[i] = oz_motion_time(scene, shots->taps[i]);
+    }
+    for (int i = 0; scene->checkpoint.tap_count > 0 && i < scene->checkpoint.count; i++) {
+        scene->checkpoint.times[i] = oz_motion_time(scene, scene->checkpoint.taps[i]);
+    }
+}
+
+void oz_motion_take_over(OzScene *next, const OzScene *running, double time)
+{
+    for (int w = 0; w < next->wall_count && w < running->wall_count; w++) {
+        OzMotion *motion = &next->walls[w].motion;
+        if (motion->present && running->walls[w].motion.present) {
+            take_shake(motion, &running->walls[w].motion, time);
+            take_turn(motion, &running->walls[w].motion, time);
+        }
+    }
+    derive_times(next);
+}
+
+static OzStatus shake_state(OzShake *shake, OzStateVisit *visit, const char *name)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_enter(visit, name, 1));
+    OZ_TRY(oz_state_double(visit, "since", "s", &shake->since, 1));
+    OZ_TRY(oz_state_double(visit, "halves", "half periods", &shake->halves, 1));
+    OZ_TRY(oz_state_double(visit, "amplitude", "m", &shake->amplitude, 1));
+    OZ_TRY(oz_state_double(visit, "frequency", "Hz", &shake->frequency, 1));
+    oz_state_leave(visit);
+done:
+    return status;
+}
+
+OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    for (int w = 0; w < scene->wall_count; w++) {
+        OzMotion *motion = &scene->walls[w].motion;
+        oz_state_enter_one(visit, "wall", w);
+        OZ_TRY(shake_state(&motion->shake, visit, "shake"));
+        OZ_TRY(shake_state(&motion->before, visit, "before"));
+        OZ_TRY(oz_state_double(visit, "turned", "rad", &motion->turned, 1));
+        OZ_TRY(oz_state_double(visit, "turned_since", "s", &motion->turned_since, 1));
+        oz_state_leave(visit);
+    }
+    if (visit->is_loading) {
+        derive_times(scene);
+    }
+done:
+    return status;
+}

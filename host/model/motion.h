@@ -1,0 +1,30 @@
+/* Where a moving wall is at a time, and how a motion of other numbers takes over from a running
+ * one: a shaken wall changes at its next zero crossing, a turning one at once; neither ever jumps.
+ * A motion as loaded has phase 0 at time 0. */
+#pragma once
+
+#include "base/state.h"
+#include "scene/scene.h"
+
+/* Offset (m, upwards) and velocity (m/s) at a time, s. */
+void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity);
+
+/* Angle, rad, by which the wall has turned about its point. */
+double oz_motion_turn(const OzMotion *motion, double time);
+
+/* The tap of a time: periods of the first moving wall since time 0, a real number that counts true
+ * periods across changes of its frequency; 0 without one. And the time of a tap, s. */
+double oz_motion_tap(const OzScene *scene, double time);
+double oz_motion_time(const OzScene *scene, double tap);
+
+/* The time from which taps go by scene->period, s: of the last change, perhaps still to come. */
+double oz_motion_since(const OzScene *scene);
+
+/* Lets the motions of `next`, as loaded, go on from those of the scene that runs at this time, the
+ * same walls moving in both: a wall whose amplitude or frequency differs moves as before until its
+ * next zero crossing, phases are continuous, and what next says in taps lies where these taps will
+ * be (duration, snapshots). */
+void oz_motion_take_over(OzScene *next, const OzScene *running, double time);
+
+/* Saves or loads (base/state.h) the phases of all walls, and what follows from them. */
+OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit);

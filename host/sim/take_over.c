@@ -1,0 +1,127 @@
+/* Scenes that take over. It knows no model and no key. */
+#include "sim/take_over.h"
+
+#include "base/memory.h"
+#include "sim/launch.h"
+#include "sim/sim_private.h"
+#include "sim/sim_state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What a scene would be, and what it is, in the units of the simulation. */
+typedef struct Compared {
+    OzModelLayout next, running;
+} Compared;
+
+static OzStatus lay_out(Compared *c, const OzSim *sim, int member, const OzScene *next)
+{
+    const OzMember *of = &sim->batch.members[member];
+    const OzMember other = {next, of->grains};
+    const void *units = oz_sim_parameters(sim, member);
+    OZ_PASS(oz_model_layout(&c->next, sim->model, &other, sim->device, units));
+    return oz_model_layout(&c->running, sim->model, of, sim->device, units);
+}
+
+/* State that the next program needs and the running one does not keep; what begins empty is none.
+ */
+static OzStatus check_state(const Compared *c, const OzModel *model, const OzScene *next)
+{
+    for (int f = 0; f < model->field_count; f++) {
+        size_t needed = model->field_bytes(f, c->next.switches, c->next.sizes);
+        size_t kept = model->field_bytes(f, c->running.switches, c->running.sizes);
+        bool begins_empty = strcmp(model->fields[f].name, "ledger") == 0;
+        if (model->fields[f].class == OZ_FIELD_STATE && needed > 0 && kept == 0 && !begins_empty) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "%s: it needs %s of the grains, which the running scene does not "
+                                  "keep; expected another run",
+                                  next->path, model->fields[f].name);
+        }
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_take_over_compare(OzTakeOver *how, const OzSim *sim, int member, const OzScene *next)
+{
+    OzStatus status = OZ_OK;
+    Compared c = {0};
+    OZ_TRY(lay_out(&c, sim, member, next));
+    OZ_TRY(check_state(&c, sim->model, next));
+    bool same = memcmp(c.next.switches, c.running.switches, sim->model->switches_bytes) == 0 &&
+                memcmp(c.next.sizes, c.running.sizes, sim->model->sizes_bytes) == 0;
+    *how = same ? OZ_TAKE_OVER_APPLY : OZ_TAKE_OVER_REBUILD;
+done:
+    oz_model_layout_free(&c.next);
+    oz_model_layout_free(&c.running);
+    return status;
+}
+
+/* New parameters; drag is there while settling alone, and is not the scene's. */
+static OzStatus take(OzSim *sim, int member, const OzScene *next)
+{
+    OzStatus status = OZ_OK;
+    OzModelLayout layout = {0};
+    OzParametersHead *own = oz_sim_parameters(sim, member);
+    const OzMember other = {next, sim->batch.members[member].grains};
+    double step = own->dt, drag = own->drag;
+    OZ_TRY(oz_model_layout(&layout, sim->model, &other, sim->device, own));
+    OZ_TRY(oz_batch_take_scene(&sim->batch, member, next));
+    memcpy(own, layout.parameters, sim->model->parameters_bytes);
+    own->drag = drag;
+    if (sim->model->adopt) {
+        OZ_TRY(sim->model->adopt(sim, sim, member, step));
+    }
+done:
+    oz_model_layout_free(&layout);
+    return status;
+}
+
+OzStatus oz_take_over_apply(OzSim *sim, const OzScene *const *next)
+{
+    OZ_PASS(oz_sim_state_save_springs(sim));
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        if (!sim->batch.stopped[m]) {
+            OZ_PASS(take(sim, m, next[m]));
+        }
+    }
+    OZ_PASS(oz_sim_write_parameters(sim));
+    return oz_sim_state_renew(sim);
+}
+
+OzStatus oz_take_over_build(OzSim **sim, const OzSim *running, const OzDevice *device,
+                            const OzScene *const *next, const char *source_dir)
+{
+    OzStatus status = OZ_OK;
+    int count = running->batch.member_count;
+    OzMember *members = NULL;
+    *sim = NULL;
+    OZ_TRY(OZ_NEW(&members, count));
+    for (int m = 0; m < count; m++) {
+        members[m] = (OzMember){next[m], running->batch.members[m].grains};
+    }
+    OZ_TRY(oz_sim_create_after(sim, device, members, count, source_dir, running));
+done:
+    free(members);
+    return status;
+}
+
+OzStatus oz_take_over_swap(OzSim *sim, OzSim *running, const OzScene *const *next)
+{
+    OzStatus status = OZ_OK;
+    int count = running->batch.member_count;
+    const OzSwitchesHead *now = oz_arrays_switches(&sim->arrays);
+    const OzSwitchesHead *before = oz_arrays_switches(&running->arrays);
+    OZ_TRY(oz_sim_state_move(sim, running));
+    for (int m = 0; m < count; m++) {
+        const OzScene *scene = sim->batch.stopped[m] ? running->batch.members[m].scene : next[m];
+        OZ_TRY(oz_batch_take_scene(&sim->batch, m, scene));
+    }
+    sim->batch.counts = running->batch.counts;
+    sim->batch.launch_steps = running->batch.launch_steps;
+    OZ_TRY(oz_sim_state_renew(sim));
+    if (now->ledger && !before->ledger) {
+        OZ_TRY(sim->model->start_ledger(sim));
+    }
+done:
+    return status;
+}

@@ -1,0 +1,137 @@
+/* Walls whose motion changes: the closed form on both sides of the zero crossing. */
+#include "model/motion.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* A scene of one wall that is shaken so. */
+typedef struct Floor {
+    OzWall wall;
+    OzScene scene;
+} Floor;
+
+static void make(Floor *floor, double amplitude, double frequency)
+{
+    *floor = (Floor){0};
+    floor->wall.motion =
+        (OzMotion){.present = true, .amplitude = amplitude, .frequency = frequency};
+    floor->scene.walls = &floor->wall;
+    floor->scene.wall_count = 1;
+    floor->scene.period = 1 / frequency;
+}
+
+static double offset_at(const Floor *floor, double time, double *speed)
+{
+    double offset = 0;
+    oz_motion_offset(&floor->wall.motion, time, &offset, speed);
+    return offset;
+}
+
+/* Of sums of a few numbers of order one. */
+static const double rounding = 1e-12;
+
+#define ASSERT_NEAR(a, b) assert_true(fabs((a) - (b)) < rounding)
+
+/* 10 Hz and 20 Hz: asked for at 0.03 s, on at 0.05 s, where the old wall goes down through zero. */
+static void test_takes_over_at_zero_crossing(void **state)
+{
+    (void)state;
+    Floor old, next;
+    double speed = 0, before = 0;
+    make(&old, 1, 10);
+    make(&next, 3, 20);
+    next.scene.taps = 3;
+    oz_motion_take_over(&next.scene, &old.scene, 0.03);
+    for (double t = 0.03; t < 0.05; t += 0.003) {
+        assert_true(offset_at(&next, t, &speed) == offset_at(&old, t, &before));
+        assert_true(speed == before);
+    }
+    ASSERT_NEAR(offset_at(&next, 0.05, &speed), 0);
+    ASSERT_NEAR(speed / (-3 * 2 * PI * 20), 1); /* on the way down, as before */
+    ASSERT_NEAR(offset_at(&next, 0.05 + 0.0125, &speed), -3);
+    ASSERT_NEAR(offset_at(&next, 0.05 + 0.0375, &speed), 3);
+    ASSERT_NEAR(oz_motion_tap(&next.scene, 0.03), 0.3);
+    ASSERT_NEAR(oz_motion_tap(&next.scene, 0.05), 0.5);
+    ASSERT_NEAR(oz_motion_tap(&next.scene, 0.1), 1.5); /* half an old period, one new one */
+    for (double t = 0; t < 0.3; t += 0.007) {
+        ASSERT_NEAR(oz_motion_time(&next.scene, oz_motion_tap(&next.scene, t)), t);
+    }
+    ASSERT_NEAR(next.scene.duration, 0.05 + 2.5 / 20);
+}
+
+/* What nobody asked to change moves as before, to the bit, also while a change is still to come. */
+static void test_unchanged_stays(void **state)
+{
+    (void)state;
+    Floor first, second, third;
+    double speed = 0, other = 0;
+    make(&first, 1, 10);
+    make(&second, 1, 10);
+    oz_motion_take_over(&second.scene, &first.scene, 0.123);
+    assert_true(offset_at(&second, 0.4567, &speed) == offset_at(&first, 0.4567, &other));
+    make(&second, 2, 15);
+    oz_motion_take_over(&second.scene, &first.scene, 0.123);
+    make(&third, 2, 15);
+    oz_motion_take_over(&third.scene, &second.scene, 0.13);
+    for (double t = 0.1; t < 0.4; t += 0.013) {
+        assert_true(offset_at(&third, t, &speed) == offset_at(&second, t, &other));
+    }
+}
+
+/* A second change before the crossing replaces the first; asked for at the crossing it waits no
+ * longer, and one after it goes on from there. */
+static void test_changes_follow_each_other(void **state)
+{
+    (void)state;
+    Floor first, second, third, fourth;
+    double speed = 0;
+    make(&first, 1, 10);
+    make(&second, 2, 40);
+    oz_motion_take_over(&second.scene, &first.scene, 0.01);
+    make(&third, 5, 10);
+    oz_motion_take_over(&third.scene, &second.scene, 0.02);
+    ASSERT_NEAR(offset_at(&third, 0.025, &speed), 1);
+    ASSERT_NEAR(offset_at(&third, 0.075, &speed), -5);
+    make(&fourth, 7, 10);
+    oz_motion_take_over(&fourth.scene, &third.scene, 0.1);
+    ASSERT_NEAR(oz_motion_since(&fourth.scene), 0.1);
+    ASSERT_NEAR(offset_at(&fourth, 0.125, &speed), 7);
+    ASSERT_NEAR(oz_motion_tap(&fourth.scene, 0.2), 2);
+}
+
+/* A drum changes at once, and its angle does not jump. */
+static void test_drums_go_on_from_their_angle(void **state)
+{
+    (void)state;
+    Floor slow = {.wall.motion = {.present = true, .angular_velocity = 2}}, fast = slow, again;
+    slow.scene = fast.scene = (OzScene){.wall_count = 1};
+    slow.scene.walls = &slow.wall;
+    fast.scene.walls = &fast.wall;
+    fast.wall.motion.angular_velocity = -5;
+    oz_motion_take_over(&fast.scene, &slow.scene, 3);
+    ASSERT_NEAR(oz_motion_turn(&fast.wall.motion, 3), 6);
+    ASSERT_NEAR(oz_motion_turn(&fast.wall.motion, 4), 1);
+    again = fast;
+    again.scene.walls = &again.wall;
+    again.wall.motion = (OzMotion){.present = true, .angular_velocity = -5};
+    oz_motion_take_over(&again.scene, &fast.scene, 9);
+    ASSERT_NEAR(oz_motion_turn(&again.wall.motion, 4), 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_takes_over_at_zero_crossing),
+        cmocka_unit_test(test_unchanged_stays),
+        cmocka_unit_test(test_changes_follow_each_other),
+        cmocka_unit_test(test_drums_go_on_from_their_angle),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
