@@ -13,8 +13,8 @@ static const struct {
     int least_paths, most_paths;
     const char *example;
 } command_rows[] = {
-    {"run", "SCENE", "oOsedtpgunmlfS", "simulate; leaves movie, pictures, series.csv, final.csv", 1,
-     1, "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
+    {"run", "SCENE", "oOsedtpgunmlfSwRP", "simulate; leaves movie, pictures, series.csv, final.csv",
+     1, 1, "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
     {"resume", "DIR", "sdtgumlS",
      "goes on with a run that was interrupted or killed, or to a later end, from its last state", 1,
      1, "orzo resume runs/an6 --set time.taps=600"},
@@ -50,6 +50,9 @@ static const struct {
     {'p', "--precision", "float|double", "the same as --set precision=..."},
     {'g', "--gl", "egl|osmesa", "how to draw off-screen"},
     {'u', "--until", "T", "stop at time T, s"},
+    {'w', "--watch", NULL, "take what is changed in the scene file while it runs"},
+    {'R', "--replay", NULL, "SCENE is a run's folder: that run again, with its changes"},
+    {'P', "--realtime", "F", "no faster than F simulated seconds a second (0: as the movie shows)"},
     {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later"},
     {'m', "--stream", "FILE|-",
      "the movie's frames as they are drawn, as Matroska: into a new file, a named pipe or a pipe"},
@@ -189,6 +192,18 @@ static OzStatus parse_until(OzOptions *options, const char *value)
     return OZ_OK;
 }
 
+static OzStatus parse_pace(OzOptions *options, const char *value)
+{
+    char *end = NULL;
+    options->pace = strtod(value, &end);
+    options->has_pace = true;
+    if (*value == '\0' || *end || !isfinite(options->pace) || options->pace < 0) {
+        return wrong(value,
+                     "--realtime with simulated seconds a second, as in 0.1; 0: as the movie");
+    }
+    return OZ_OK;
+}
+
 static OzStatus parse_budget(OzOptions *options, const char *value)
 {
     char *end = NULL;
@@ -263,6 +278,8 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return parse_gl(options, value);
     case 'e':
         return parse_seeds(options, value);
+    case 'P':
+        return parse_pace(options, value);
     case 'u':
         return parse_until(options, value);
     case 'S':
@@ -297,6 +314,8 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         options->force |= letter == 'f';
         options->columns |= letter == 'c';
         options->verbose |= letter == 'v';
+        options->watch |= letter == 'w';
+        options->replay |= letter == 'R';
         return OZ_OK;
     }
 }

@@ -34,6 +34,10 @@ typedef struct OzOptions {
     double share;                                 /* --share of report --hits; 0: not given */
     bool extreme, map, stability, ensemble, hits; /* report                   */
     const char *sizes;                            /* --sizes, as written              */
+    bool watch, replay;                   /* of run                           */
+    const char *replay_folder;            /* of the run that is repeated, set by run */
+    bool has_pace;                        /* --realtime                       */
+    double pace;                          /* simulated seconds a second; 0: the movie's */
     const char *yardstick;                        /* --yardstick                      */
 } OzOptions;
 

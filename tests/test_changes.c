@@ -193,12 +193,35 @@ static void test_copy(void **state)
     oz_scene_free(&copy);
 }
 
+/* Rows of the other model are nobody's. */
+static void test_trigrains(void **state)
+{
+    (void)state;
+    OzScene one, other;
+    OzChanges changes;
+    const char *dice = "model: trigrains\ntime: {step: 1e-6, duration: 1}\n"
+                       "grains: [{kind: single, shape: square, edge: 1e-3, position: [0, 1]}]\n"
+                       "walls: [{kind: drum, diameter: 5, motion: {angular_velocity: 2}}]\n"
+                       "movie: {}\nsnapshots: {times: [0.5]}\n";
+    char *settings[] = {"walls.0.motion.angular_velocity=3", "beams.damping=0.01"};
+    must(oz_scene_parse(&one, "dice.yaml", dice, NULL, 0));
+    must(oz_scene_change(&other, &one, settings, 2));
+    must(oz_changes_find(&changes, &one, &other));
+    assert_int_equal(changes.count, 2);
+    assert_string_equal(changes.rows[0].path, "beams.damping");
+    assert_string_equal(changes.rows[1].now, "3");
+    oz_changes_free(&changes);
+    oz_scene_free(&one);
+    oz_scene_free(&other);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_found),   cmocka_unit_test(test_law),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_refused_at_its_line),
-        cmocka_unit_test(test_swept),   cmocka_unit_test(test_copy),
+        cmocka_unit_test(test_found),     cmocka_unit_test(test_law),
+        cmocka_unit_test(test_refused),   cmocka_unit_test(test_refused_at_its_line),
+        cmocka_unit_test(test_swept),     cmocka_unit_test(test_copy),
+        cmocka_unit_test(test_trigrains),
     };
     return cmocka_run_group_tests(tests, open_running, close_running);
 }

@@ -207,7 +207,7 @@ static void test_one_owner(void **state)
     snprintf(said, sizeof said, "owned/.. is in use by process %d", (int)child);
     shell("mkdir owned/below");
     expect(2, "is in use by process", "run bed.yaml -o owned/below");
-    kill(child, SIGHUP); /* ends in order */
+    kill(child, SIGTERM); /* ends in order */
     assert_int_equal(wait_for(child, 20), 130);
     assert_int_equal(count_lines("owned/final.csv"), 31);
     assert_true(contains("owned/log.txt", "interrupted at step"));

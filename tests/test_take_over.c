@@ -214,7 +214,7 @@ static void test_steps_and_integrators_of_elements(void **state)
         rig_open(&next, thrown, rows[k].then, 5e-6);
         OzSim *sim = start_sim(&now, &rig_device);
         must(oz_sim_advance(sim, 500));
-        must(oz_take_over_compare(&asked, sim, 0, &next.scene));
+        must(oz_take_over_compare(&asked, &rig_device, &now.grains, &now.scene, &next.scene));
         assert_int_equal(asked == OZ_TAKE_OVER_REBUILD, strcmp(rows[k].first, rows[k].then) != 0);
         take(&sim, &now, &next, rows[k].how);
         OzSnapshot end = state_at(&next, sim, 1000);
@@ -237,7 +237,9 @@ static void test_state_that_is_not_there(void **state)
     rig_open(&next, thrown, "velocity-verlet", 2e-6);
     next.scene.beams.substeps = 4;
     OzSim *sim = start_sim(&now, &rig_device);
-    assert_int_equal(oz_take_over_compare(&asked, sim, 0, &next.scene), OZ_ERR_INPUT);
+    assert_int_equal(
+        oz_take_over_compare(&asked, &rig_device, &now.grains, &now.scene, &next.scene),
+        OZ_ERR_INPUT);
     assert_string_equal(oz_status_text(),
                         "rig.yaml: it needs slow_load of the grains, which the running scene does "
                         "not keep; expected another run");
@@ -259,17 +261,17 @@ static void test_what_a_change_asks(void **state)
     next.scene.gravity[2] = -120;
     next.scene.step = 2e-5;
     next.scene.walls[0].motion.amplitude *= 2;
-    must(oz_take_over_compare(&asked, sim, 0, &next.scene));
+    must(oz_take_over_compare(&asked, &rig_device, &now.grains, &now.scene, &next.scene));
     assert_int_equal(asked, OZ_TAKE_OVER_APPLY);
     next.scene.contact.friction = 0;
-    must(oz_take_over_compare(&asked, sim, 0, &next.scene));
+    must(oz_take_over_compare(&asked, &rig_device, &now.grains, &now.scene, &next.scene));
     assert_int_equal(asked, OZ_TAKE_OVER_APPLY); /* the walls still have friction */
     next.scene.walls[0].contact.friction = next.scene.walls[1].contact.friction = 0;
-    must(oz_take_over_compare(&asked, sim, 0, &next.scene));
+    must(oz_take_over_compare(&asked, &rig_device, &now.grains, &now.scene, &next.scene));
     assert_int_equal(asked, OZ_TAKE_OVER_REBUILD);
     next.scene.walls[0].contact.friction = 0.4;
     next.scene.contact.parallel = OZ_PARALLEL_LINE;
-    must(oz_take_over_compare(&asked, sim, 0, &next.scene));
+    must(oz_take_over_compare(&asked, &rig_device, &now.grains, &now.scene, &next.scene));
     assert_int_equal(asked, OZ_TAKE_OVER_REBUILD);
     oz_sim_free(sim);
     rig_close(&now);

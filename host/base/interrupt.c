@@ -1,14 +1,20 @@
 /* Signals. */
 #include "base/interrupt.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
 #include <time.h>
+#include <unistd.h>
 
 /* A signal is sent to the process, so what came of it is the process's too. Free of locks: a
  * handler sets it and threads ask. */
 static atomic_bool asked;
+
+/* Files are to be read again. */
+static atomic_bool reread;
+static bool had_terminal; /* when signals began to be watched */
 
 /* Whether a signal came, and when, on the monotonic clock; used by the handler alone. */
 static bool came;
@@ -33,6 +39,30 @@ static void note_signal(int number)
     }
 }
 
+/* Asked by the handler: open is safe there. */
+static bool has_terminal(void)
+{
+    int file = open("/dev/tty", O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (file >= 0) {
+        close(file);
+    }
+    return file >= 0;
+}
+
+static void note_hangup(int number)
+{
+    if (had_terminal && !has_terminal()) {
+        note_signal(number);
+    } else {
+        atomic_store(&reread, true);
+    }
+}
+
+bool oz_interrupt_take_reread(void)
+{
+    return atomic_exchange(&reread, false);
+}
+
 void oz_interrupt_watch(void)
 {
     struct sigaction action = {.sa_handler = note_signal}, before;
@@ -41,6 +71,8 @@ void oz_interrupt_watch(void)
     sigaddset(&action.sa_mask, SIGHUP);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    had_terminal = has_terminal();
+    action.sa_handler = note_hangup;
     if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
         sigaction(SIGHUP, &action, NULL); /* under nohup it stays ignored */
     }

@@ -107,6 +107,16 @@ static void add_captions(const Page *page)
     }
 }
 
+/* What has just been changed. */
+static void add_news(const Page *page)
+{
+    double y = page->look->height - page->margin - 2.2 * page->size;
+    if (page->look->caption) {
+        write_text(page, OZ_WEIGHT_BOLD, page->size, 0.5, 0.5 * page->look->width, y, INK,
+                   page->look->caption);
+    }
+}
+
 static void length_text(char *text, size_t size, double length)
 {
     static const struct {
@@ -257,6 +267,7 @@ void oz_overlay_draw(const OzFont *font, OzImage *image, const OzSnapshot *snaps
     }
     add_heading(&page);
     add_captions(&page);
+    add_news(&page);
     add_scale_bar(&page);
     if (look->colour == OZ_COLOUR_TYPE) {
         add_type_legend(&page);

@@ -29,6 +29,8 @@ struct OzPictures {
     OzSnapshot *states; /* for the strobe */
     int state_count;
     double drawing, encoding;
+    char caption[200]; /* of the movie, for so many more frames */
+    int64_t caption_frames;
 };
 
 /* What is drawn on trial. */
@@ -269,6 +271,29 @@ static void show(const OzPictures *pictures)
     }
 }
 
+void oz_pictures_take(OzPictures *pictures, const char *caption)
+{
+    const double seconds = 2;
+    pictures->is_framed = false;
+    pictures->decimals = oz_picture_name_decimals(pictures->scene);
+    oz_image_free(&pictures->still_image); /* of another size, perhaps */
+    if (caption[0]) {
+        snprintf(pictures->caption, sizeof pictures->caption, "%s", caption);
+        pictures->caption_frames = (int64_t)(seconds * pictures->scene->movie.fps);
+    }
+}
+
+/* A frame of the movie, with its caption while there is one. */
+static OzStatus draw_frame(OzPictures *pictures, const OzSnapshot *snapshot)
+{
+    OzLook look = pictures->look;
+    if (pictures->caption_frames > 0) {
+        pictures->caption_frames--;
+        look.caption = pictures->caption;
+    }
+    return draw(pictures, snapshot, 1, &look, &pictures->image);
+}
+
 OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose)
 {
     double start = oz_clock_now();
@@ -280,13 +305,14 @@ OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int p
     if (!pictures->is_framed) {
         oz_pictures_frame(pictures, snapshot);
     }
+    bool plain = pictures->caption_frames == 0;
     if (purpose & OZ_FRAME_MOVIE) {
-        OZ_PASS(draw(pictures, snapshot, 1, &pictures->look, &pictures->image));
+        OZ_PASS(draw_frame(pictures, snapshot));
         show(pictures);
         OZ_PASS(add_to_movie(pictures));
     }
     if (purpose & OZ_FRAME_SNAPSHOT) {
-        OZ_PASS(add_picture(pictures, snapshot, purpose & OZ_FRAME_MOVIE));
+        OZ_PASS(add_picture(pictures, snapshot, plain && purpose & OZ_FRAME_MOVIE));
     }
     if (purpose & OZ_FRAME_STROBE) {
         OZ_PASS(keep_state(pictures, snapshot));
@@ -328,12 +354,24 @@ done:
     return status;
 }
 
+static OzStatus caption_state(OzPictures *pictures, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    OZ_TRY(oz_state_index(visit, "caption_frames", &pictures->caption_frames, 0, INT64_MAX));
+    OZ_TRY(oz_state_items(visit, "caption", "text", OZ_STATE_BYTES, pictures->caption,
+                          sizeof pictures->caption));
+    pictures->caption[sizeof pictures->caption - 1] = '\0';
+done:
+    return status;
+}
+
 OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "pictures", 2));
+    OZ_TRY(oz_state_enter(visit, "pictures", 3));
     OZ_TRY(oz_state_bool(visit, "has_frame", &pictures->has_frame));
     OZ_TRY(oz_framing_state(&pictures->frame, visit));
+    OZ_TRY(caption_state(pictures, visit));
     OZ_TRY(strobe_state(pictures, grains, visit));
     OZ_TRY(movie_state(pictures, visit));
     oz_state_leave(visit);

@@ -32,6 +32,10 @@ void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot);
  * those for the strobe copies are kept, at most OZ_PICTURES_STATES of them. */
 OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose);
 
+/* The scene has changed: pictures keep their framing and take its colours and views from now on,
+ * and the movie shows the caption (empty: none) for two seconds. None may wait to be drawn. */
+void oz_pictures_take(OzPictures *pictures, const char *caption);
+
 /* Saves or loads (base/state.h) all that later pictures depend on: the framing, the states kept for
  * the strobe, of these grains, and the movie (oz_movie_state: saving puts all its frames so far on
  * the disk, loading goes on with the movie that is in the folder). */

@@ -208,6 +208,18 @@ OzStatus oz_render_queue_finish(OzRenderQueue *render_queue, OzPictures *picture
     return status;
 }
 
+OzStatus oz_render_queue_wait(OzRenderQueue *render_queue, OzPictures *pictures)
+{
+    if (!render_queue || !pictures) {
+        return OZ_OK;
+    }
+    lock(render_queue);
+    wait_for_all(render_queue);
+    OzStatus status = tell_failure(render_queue);
+    unlock(render_queue);
+    return status;
+}
+
 OzStatus oz_render_queue_state(OzRenderQueue *render_queue, OzPictures *pictures,
                                const OzGrains *grains, OzStateVisit *visit)
 {

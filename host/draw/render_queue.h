@@ -36,6 +36,10 @@ OzLive *oz_render_queue_live(OzRenderQueue *render_queue);
 OzStatus oz_render_queue_add(OzRenderQueue *render_queue, OzPictures *pictures,
                              const OzSnapshot *snapshot, int purpose);
 
+/* Until every picture that waits is drawn; NULL for either is fine. Fails with the first failure so
+ * far. */
+OzStatus oz_render_queue_wait(OzRenderQueue *render_queue, OzPictures *pictures);
+
 /* oz_pictures_state once every picture that waits is drawn; NULL for either visits nothing. Fails
  * with the first failure so far. */
 OzStatus oz_render_queue_state(OzRenderQueue *render_queue, OzPictures *pictures,

@@ -147,6 +147,19 @@ void oz_motion_take_over(OzScene *next, const OzScene *running, double time)
     derive_times(next);
 }
 
+void oz_motion_copy(OzScene *scene, const OzScene *from)
+{
+    for (int w = 0; w < scene->wall_count && w < from->wall_count; w++) {
+        OzMotion *to = &scene->walls[w].motion;
+        const OzMotion *motion = &from->walls[w].motion;
+        to->shake = motion->shake;
+        to->before = motion->before;
+        to->turned = motion->turned;
+        to->turned_since = motion->turned_since;
+    }
+    derive_times(scene);
+}
+
 static OzStatus shake_state(OzShake *shake, OzStateVisit *visit, const char *name)
 {
     OzStatus status = OZ_OK;

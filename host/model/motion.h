@@ -26,5 +26,9 @@ double oz_motion_since(const OzScene *scene);
  * be (duration, snapshots). */
 void oz_motion_take_over(OzScene *next, const OzScene *running, double time);
 
+/* Gives the walls of a scene the phases that the same walls have in another one, and what follows
+ * from them. */
+void oz_motion_copy(OzScene *scene, const OzScene *from);
+
 /* Saves or loads (base/state.h) the phases of all walls, and what follows from them. */
 OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit);

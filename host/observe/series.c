@@ -23,6 +23,7 @@ struct OzSeries {
     char *path;
     int64_t whole; /* bytes of whole rows */
     const OzScene *scene;
+    double interval; /* s, between rows of the even series of a drum */
     OzMeasure measure;
     Ring mean[OZ_TAP_MEANS];
     double (*wall_force)[3]; /* of the row in hand; NULL: nobody asked */
@@ -90,6 +91,7 @@ static OzStatus open_series(OzSeries **series, const char *path, const OzScene *
     int64_t samples = all_phases ? scene->observe.samples_per_tap : 1;
     OZ_TRY(OZ_NEW(series, 1));
     (*series)->scene = scene;
+    (*series)->interval = scene->observe.interval;
     OZ_TRY(oz_memory_text(&(*series)->path, path));
     OZ_TRY(oz_measure_create(&(*series)->measure, scene, grains));
     if (scene->observe.walls) {
@@ -156,6 +158,14 @@ OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
     }
 done:
     return status;
+}
+
+void oz_series_take(OzSeries *series)
+{
+    if (series->interval != series->scene->observe.interval) {
+        series->flow.sample_count = 0;
+        series->interval = series->scene->observe.interval;
+    }
 }
 
 void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot)

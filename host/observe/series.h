@@ -30,6 +30,9 @@ OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit);
  * before the first sample. */
 void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot);
 
+/* The scene has changed. Rows at another interval begin an even series of a drum anew. */
+void oz_series_take(OzSeries *series);
+
 /* Writes one row and flushes. Needs contacts and, with the ledger on, the ledger: their cells are
  * empty otherwise. energy_residual counts from the first row written. */
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot);

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 void oz_checkpoint_head_free(OzCheckpointHead *head)
 {
@@ -81,6 +82,64 @@ OzStatus oz_checkpoint_head_fill(OzCheckpointHead *head, const OzOptions *option
     head->own_settings = options->resumes ? options->own_settings : options->setting_count;
     head->no_video = options->no_video;
     return OZ_OK;
+}
+
+/* Whether a line sets or takes out this key. */
+static bool is_about(const char *line, const char *key)
+{
+    size_t length = strlen(key);
+    bool out = line[0] == '-';
+    char end = strncmp(line + out, key, length) == 0 ? line[out + length] : 'x';
+    return out ? end == '\n' || end == '\0' : end == '=';
+}
+
+/* The lines of settings without those about the keys that change, of the first ones all. */
+static void print_kept(FILE *file, const char *line, int own, const OzChanges *changes)
+{
+    for (int number = 0; line && *line; number++) {
+        size_t length = strcspn(line, "\n");
+        bool kept = true;
+        for (int i = 0; i < changes->count && number >= own; i++) {
+            kept = kept && !is_about(line, changes->rows[i].path);
+        }
+        if (kept) {
+            fprintf(file, "%.*s\n", (int)length, line);
+        }
+        line += length + (line[length] == '\n');
+    }
+}
+
+/* `orzo resume` begins with these on top of the folder's scene.yaml. */
+static OzStatus change_settings(OzCheckpointHead *head, bool is_ensemble, const OzChanges *changes)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    if (file) {
+        print_kept(file, head->settings, is_ensemble ? head->own_settings : 0, changes);
+    }
+    for (int i = 0; file && i < changes->count; i++) {
+        const OzChange *c = &changes->rows[i];
+        fprintf(file, c->now[0] ? "%s=%s\n" : "-%s%s\n", c->path, c->now);
+    }
+    if (!file || fclose(file) != 0 || !text) {
+        free(text);
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a run's settings");
+    }
+    free(head->settings);
+    head->settings = text;
+    return OZ_OK;
+}
+
+OzStatus oz_checkpoint_change(OzCheckpoint *checkpoint, const OzScene *scene,
+                              const OzChanges *changes)
+{
+    double every = scene->checkpoint.every;
+    if (every != checkpoint->every) {
+        checkpoint->every = every;
+        checkpoint->next = every > 0 ? oz_clock_now() + every : INFINITY;
+    }
+    return change_settings(&checkpoint->head, checkpoint->is_ensemble, changes);
 }
 
 bool oz_checkpoint_is_due(const OzCheckpoint *checkpoint)

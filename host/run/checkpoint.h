@@ -6,6 +6,7 @@
 
 #include "base/state.h"
 #include "cli.h"
+#include "scene/changes.h"
 #include "scene/scene.h"
 
 /* What a state's file says of its run. Texts are owned; zeroed is valid. */
@@ -43,6 +44,10 @@ typedef struct OzCheckpoint {
     double next;   /* wall clock: when one is due                         */
     double period; /* s, of the first moving wall: kept states are called after taps; 0: times */
 } OzCheckpoint;
+
+/* Another scene runs now, which differs in this: later states say so. */
+OzStatus oz_checkpoint_change(OzCheckpoint *checkpoint, const OzScene *scene,
+                              const OzChanges *changes);
 
 bool oz_checkpoint_is_due(const OzCheckpoint *checkpoint);
 

@@ -182,3 +182,15 @@ bool oz_groups_is_begun(const OzGroups *groups)
 {
     return groups->member_count > 0 && groups->members[0]->goes_on;
 }
+
+OzStatus oz_groups_tell_losses(const OzGroups *groups)
+{
+    int64_t lost = 0;
+    for (int64_t i = 0; i < groups->plan.count; i++) {
+        lost +=
+            groups->outcomes[i] == OZ_OUTCOME_STOPPED || groups->outcomes[i] == OZ_OUTCOME_FAILED;
+    }
+    return lost == 0 ? OZ_OK
+                     : oz_status_fail(groups->loss, "%lld of %lld members did not reach their end",
+                                      (long long)lost, (long long)groups->plan.count);
+}

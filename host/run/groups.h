@@ -40,3 +40,7 @@ bool oz_groups_is_begun(const OzGroups *groups);
 
 /* Workers at a time: one a thread of a CPU; a GPU takes all members at once. */
 int64_t oz_groups_most_workers(const OzGroups *groups);
+
+/* Fails as the first member that did not reach its end did, saying how many there are; OZ_OK
+ * without any. */
+OzStatus oz_groups_tell_losses(const OzGroups *groups);

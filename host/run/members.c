@@ -120,10 +120,15 @@ static OzStatus check_contacts(const OzScene *scene, const OzGrains *grains, boo
     return status == OZ_OK ? oz_resolution_judge(scene, grains, force) : status;
 }
 
-OzStatus oz_members_judge(const OzScene *scene, const OzGrains *grains, bool force)
+OzStatus oz_members_judge_step(const OzScene *scene, const OzGrains *grains, bool force)
 {
     bool flat = scene->model == OZ_MODEL_TRIGRAINS;
-    OZ_PASS(flat ? check_elements(scene, grains, force) : check_contacts(scene, grains, force));
+    return flat ? check_elements(scene, grains, force) : check_contacts(scene, grains, force);
+}
+
+OzStatus oz_members_judge(const OzScene *scene, const OzGrains *grains, bool force)
+{
+    OZ_PASS(oz_members_judge_step(scene, grains, force));
     return oz_start_judge(scene, grains, force);
 }
 

@@ -31,6 +31,10 @@ void oz_members_free(OzMembers *plan);
  * caller frees them, also on failure. */
 OzStatus oz_members_place(OzGrains *grains, const OzScene *scene);
 
+/* Refuses a step at which a contact of the scene grows by itself, or warns in the log with force.
+ */
+OzStatus oz_members_judge_step(const OzScene *scene, const OzGrains *grains, bool force);
+
 /* Refuses a step at which a contact of the scene grows by itself and a start that is not sound
  * (sim/start.h), or warns in the log with force. */
 OzStatus oz_members_judge(const OzScene *scene, const OzGrains *grains, bool force);

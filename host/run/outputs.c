@@ -17,6 +17,8 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "series.csv",
                                          "contacts.csv",
                                          "frames.bin",
+                                         "scene_final.yaml",
+                                         "reloads.csv",
                                          "final.csv",
                                          "final.csv.part",
                                          "movie.mp4",
@@ -59,12 +61,12 @@ static OzStatus claim(char **path, const char *folder, const char *name, const c
     return part ? oz_folder_note(folder, part) : OZ_OK;
 }
 
-OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder)
+static OzStatus write_scene(const OzScene *scene, const char *folder, const char *name)
 {
     OzStatus status = OZ_OK;
     char *path = NULL;
     FILE *file = NULL;
-    OZ_TRY(claim(&path, folder, "scene.yaml", NULL));
+    OZ_TRY(claim(&path, folder, name, NULL));
     file = fopen(path, "w");
     if (!file) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
@@ -77,6 +79,11 @@ done:
     }
     free(path);
     return status;
+}
+
+OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder)
+{
+    return write_scene(scene, folder, "scene.yaml");
 }
 
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
@@ -108,6 +115,10 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
         OZ_TRY(claim(&contacts, outputs->folder, "contacts.csv", NULL));
         OZ_TRY((outputs->goes_on ? oz_contact_rows_go_on
                                  : oz_contact_rows_create)(&outputs->contact_rows, contacts));
+    }
+    OZ_TRY(oz_reload_log_create(&outputs->reloads, outputs->folder, outputs->goes_on));
+    if (options->watch) {
+        OZ_TRY(oz_reload_log_begin(outputs->reloads));
     }
     if (pictures) {
         OZ_TRY(claim(&frames, outputs->folder, "frames.bin", NULL));
@@ -161,6 +172,33 @@ OzStatus oz_outputs_look(OzOutputs *outputs, int due)
             oz_render_queue_add(outputs->render_queue, outputs->pictures, &outputs->now, purpose));
     }
     return OZ_OK;
+}
+
+OzStatus oz_outputs_take(OzOutputs *outputs, OzScene *next, const char *caption)
+{
+    bool wanted = next->movie.present && next->movie.captions;
+    if (outputs->is_open) {
+        OZ_PASS(oz_render_queue_wait(outputs->render_queue, outputs->pictures));
+    }
+    oz_scene_free(&outputs->scene);
+    outputs->scene = *next;
+    *next = (OzScene){0};
+    if (outputs->is_open && outputs->pictures) {
+        oz_pictures_take(outputs->pictures, wanted ? caption : "");
+    }
+    if (outputs->is_open) {
+        oz_series_take(outputs->series);
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_outputs_note_end(OzOutputs *outputs, int64_t step, double time, const char *how)
+{
+    if (!outputs->reloads || !oz_reload_log_has(outputs->reloads)) {
+        return OZ_OK;
+    }
+    OZ_PASS(oz_reload_log_end(outputs->reloads, step, time, how));
+    return write_scene(&outputs->scene, outputs->folder, "scene_final.yaml");
 }
 
 OzStatus oz_outputs_write_final(OzOutputs *outputs)

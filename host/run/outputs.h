@@ -8,6 +8,7 @@
 #include "observe/contact_rows.h"
 #include "observe/frames.h"
 #include "observe/series.h"
+#include "run/reload_log.h"
 
 #include <stdbool.h>
 
@@ -30,7 +31,8 @@ typedef enum OzOutcome {
     X(OzFrames, frames, oz_frames_state(o->frames, visit), oz_frames_finish(o->frames))            \
     X(OzContactRows, contact_rows, oz_contact_rows_state(o->contact_rows, visit),                  \
       oz_contact_rows_free(o->contact_rows))                                                       \
-    X(OzSeries, series, oz_series_state(o->series, visit), oz_series_free(o->series))
+    X(OzSeries, series, oz_series_state(o->series, visit), oz_series_free(o->series))              \
+    X(OzReloadLog, reloads, oz_reload_log_state(o->reloads, visit), oz_reload_log_free(o->reloads))
 
 /* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while
  * open. */
@@ -74,6 +76,14 @@ OzStatus oz_outputs_state(OzOutputs *outputs, OzStateVisit *visit);
 
 /* What is due (OZ_DUE_ bits) of outputs->now. */
 OzStatus oz_outputs_look(OzOutputs *outputs, int due);
+
+/* Another scene takes over from this state on: it becomes the outputs' own, and *next empty. The
+ * movie shows the caption for two seconds, unless its scene wants none. */
+OzStatus oz_outputs_take(OzOutputs *outputs, OzScene *next, const char *caption);
+
+/* Where a run that can be changed ends, in reloads.csv, and its scene as it is then, in
+ * scene_final.yaml. */
+OzStatus oz_outputs_note_end(OzOutputs *outputs, int64_t step, double time, const char *how);
 
 /* outputs->now as final.csv, and a drum's inclination_spectrum.csv. */
 OzStatus oz_outputs_write_final(OzOutputs *outputs);

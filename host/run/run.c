@@ -10,6 +10,10 @@
 #include "run/costs.h"
 #include "run/ensemble_tables.h"
 #include "run/groups.h"
+#include "run/pace.h"
+#include "run/replay.h"
+#include "run/swap.h"
+#include "run/watch.h"
 #include "run/worker.h"
 
 #include <math.h>
@@ -35,6 +39,9 @@ typedef struct Run {
     OzWorker *workers;
     OzCheckpoint *checkpoints; /* one a worker */
     int worker_count;
+    OzReload *reload; /* what asks for changes           */
+    OzWatch *watch;   /* of the scene's files            */
+    OzReplay replay;  /* of the run that is repeated     */
     atomic_bool ended;
     double started; /* wall clock */
 } Run;
@@ -129,6 +136,18 @@ static OzStatus open_live(Run *run)
     return options->stream ? oz_movie_stream_create(&live->stream, options->stream) : OZ_OK;
 }
 
+/* Whoever may ask for changes: the scene's files, or a signal. A run that repeats another one takes
+ * that one's alone. */
+static OzStatus open_reload(Run *run)
+{
+    const OzScene *scene = &run->groups.plan.scene;
+    if (run->options->replay) {
+        return oz_replay_read(&run->replay, run->options->replay_folder);
+    }
+    OZ_PASS(oz_reload_create(&run->reload, run->options, scene));
+    return run->options->watch ? oz_watch_start(&run->watch, run->reload, scene) : OZ_OK;
+}
+
 static OzStatus open_run(Run *run)
 {
     const OzOptions *options = run->options;
@@ -146,7 +165,7 @@ static OzStatus open_run(Run *run)
         oz_log_line("--stream and --latest show the first member");
     }
     run->groups.device = &run->device;
-    return OZ_OK;
+    return open_reload(run);
 }
 
 static int choose_worker_count(const Run *run)
@@ -197,6 +216,10 @@ static OzStatus open_workers(Run *run)
                              .is_ensemble = run->groups.plan.is_ensemble,
                              .leads = k == 0,
                              .started = run->started,
+                             .reload = run->reload,
+                             .replay = run->options->replay ? &run->replay : NULL,
+                             .first = first,
+                             .pace = oz_pace_of(run->options, &run->groups.members[0]->scene),
                              .ended = &run->ended};
         OZ_PASS(oz_worker_open(worker, &run->device, run->options->source_dir));
         OZ_PASS(open_checkpoint(run, k));
@@ -288,6 +311,25 @@ static OzStatus take_states(Run *run)
     return OZ_OK;
 }
 
+/* Members can be changed while they run. */
+static OzStatus run_workers(Run *run)
+{
+    OzStatus status = OZ_OK;
+    if (run->reload) {
+        OZ_TRY(oz_reload_enter(run->reload, &run->device, run->groups.members,
+                               run->groups.member_count, run->worker_count));
+    }
+    status = oz_worker_run(run->workers, run->worker_count);
+done:
+    for (int k = 0; k < run->worker_count; k++) {
+        oz_swap_end(&run->workers[k]);
+    }
+    if (run->reload) {
+        oz_reload_leave(run->reload);
+    }
+    return status;
+}
+
 static OzStatus run_group(Run *run)
 {
     OzStatus status = OZ_OK;
@@ -298,7 +340,7 @@ static OzStatus run_group(Run *run)
         OZ_TRY(take_states(run));
     }
     ran = true;
-    OZ_TRY(oz_worker_run(run->workers, run->worker_count));
+    OZ_TRY(run_workers(run));
 done:
     return end_group(run, status, ran);
 }
@@ -329,21 +371,11 @@ done:
     return status;
 }
 
-static OzStatus tell_losses(const Run *run)
-{
-    int64_t lost = 0;
-    for (int64_t i = 0; i < run->groups.plan.count; i++) {
-        lost += run->groups.outcomes[i] == OZ_OUTCOME_STOPPED ||
-                run->groups.outcomes[i] == OZ_OUTCOME_FAILED;
-    }
-    return lost == 0
-               ? OZ_OK
-               : oz_status_fail(run->groups.loss, "%lld of %lld members did not reach their end",
-                                (long long)lost, (long long)run->groups.plan.count);
-}
-
 static void close_run(Run *run)
 {
+    oz_watch_end(run->watch);
+    oz_reload_free(run->reload);
+    oz_replay_free(&run->replay);
     oz_render_queue_free(run->render_queue);
     oz_device_close(&run->device);
     oz_groups_free(&run->groups);
@@ -369,7 +401,7 @@ static OzStatus run_all(const OzOptions *options, OzResume *resume)
 done:
     OZ_AFTER(status, write_tables(&run));
     if (status == OZ_OK) {
-        status = tell_losses(&run);
+        status = oz_groups_tell_losses(&run.groups);
     }
     if (status != OZ_OK) {
         oz_log_line("%s", oz_status_text());
@@ -383,9 +415,24 @@ done:
     return status;
 }
 
+/* A run's folder stands for its scene as it began. */
+static OzStatus repeat_run(const OzOptions *asked)
+{
+    OzStatus status = OZ_OK;
+    OzOptions options = *asked;
+    char *scene = NULL;
+    OZ_TRY(oz_file_join(&scene, asked->paths[0], "scene.yaml"));
+    options.replay_folder = asked->paths[0];
+    options.paths[0] = scene;
+    status = run_all(&options, NULL);
+done:
+    free(scene);
+    return status;
+}
+
 OzStatus oz_run_scene(const OzOptions *options)
 {
-    return run_all(options, NULL);
+    return options->replay ? repeat_run(options) : run_all(options, NULL);
 }
 
 OzStatus oz_run_resume(const OzOptions *options)

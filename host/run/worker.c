@@ -8,6 +8,9 @@
 #include "base/stage.h"
 #include "base/thread.h"
 #include "model/calibrate.h"
+#include "model/motion.h"
+#include "run/pace.h"
+#include "run/swap.h"
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
 #include "sim/sim_state.h"
@@ -25,12 +28,24 @@ OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *so
     for (int64_t m = 0; m < worker->member_count; m++) {
         members[m] = (OzMember){&worker->members[m]->scene, &worker->members[m]->grains};
     }
-    OZ_TRY(oz_device_branch(&worker->device, device));
-    OZ_TRY(oz_sim_create(&worker->sim, &worker->device, members, (int)worker->member_count,
+    worker->root = device;
+    worker->source_dir = source_dir;
+    OZ_TRY(OZ_NEW(&worker->device, 1));
+    OZ_TRY(oz_device_branch(worker->device, device));
+    OZ_TRY(oz_sim_create(&worker->sim, worker->device, members, (int)worker->member_count,
                          source_dir));
 done:
     free(members);
     return status;
+}
+
+/* Walls that had changed are in phase again, and what lies at taps where these are. */
+static void take_phases(OzWorker *worker)
+{
+    for (int64_t m = 0; m < worker->member_count; m++) {
+        oz_motion_copy(&worker->members[m]->scene, oz_sim_scene(worker->sim, (int)m));
+    }
+    oz_schedule_find_end(&worker->schedule);
 }
 
 OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit)
@@ -39,6 +54,9 @@ OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit)
     OZ_TRY(oz_state_enter(visit, "worker", 2));
     OZ_TRY(oz_schedule_state(worker->is_due ? &worker->before : &worker->schedule, visit));
     OZ_TRY(oz_sim_state_visit(worker->sim, visit));
+    if (visit->is_loading) {
+        take_phases(worker);
+    }
     for (int64_t m = 0; m < worker->member_count; m++) {
         oz_state_enter_one(visit, "member", m);
         OZ_TRY(oz_outputs_state(worker->members[m], visit));
@@ -52,10 +70,10 @@ done:
 static OzStatus check_taken(const OzWorker *worker, const char *device)
 {
     int64_t step = oz_sim_step(worker->sim), last = worker->schedule.last_step;
-    if (strcmp(device, worker->device.name) != 0) {
+    if (strcmp(device, worker->device->name) != 0) {
         return oz_status_fail(OZ_ERR_INPUT,
                               "the state was made by %s and this is %s; expected the same device",
-                              device, worker->device.name);
+                              device, worker->device->name);
     }
     if (step > last) {
         return oz_status_fail(OZ_ERR_INPUT,
@@ -85,8 +103,13 @@ done:
 
 void oz_worker_close(OzWorker *worker)
 {
+    oz_swap_end(worker);
     oz_sim_free(worker->sim);
-    oz_device_close(&worker->device);
+    if (worker->device) {
+        oz_device_close(worker->device);
+    }
+    free(worker->device);
+    worker->device = NULL;
     worker->sim = NULL;
 }
 
@@ -259,6 +282,32 @@ static OzStatus save_at_end(OzWorker *worker)
     return wanted ? save(worker, false) : OZ_OK;
 }
 
+/* To the event in hand, unless a change comes between, which gives the event back. */
+static OzStatus go(OzWorker *worker, double *shown)
+{
+    while (worker->is_due && !oz_swap_is_at_end(worker) &&
+           oz_sim_step(worker->sim) < worker->event_step) {
+        OZ_PASS(launch(worker, oz_pace_next(worker), shown));
+        OZ_PASS(oz_swap_serve(worker));
+        OZ_PASS(save_if_due(worker));
+        oz_pace_keep(worker);
+    }
+    return OZ_OK;
+}
+
+static OzStatus look_at_event(OzWorker *worker, int64_t *open)
+{
+    if (worker->checkpoint && worker->event_due & OZ_DUE_CHECKPOINT) {
+        OZ_PASS(save(worker, true));
+    }
+    if (worker->schedule.over) {
+        OZ_PASS(save_at_end(worker));
+    }
+    OZ_PASS(look(worker, worker->event_due, open));
+    worker->is_due = false;
+    return OZ_OK;
+}
+
 static OzStatus walk(OzWorker *worker)
 {
     OzStatus status = OZ_OK;
@@ -268,19 +317,11 @@ static OzStatus walk(OzWorker *worker)
     if (worker->leads) {
         oz_log_line("first step %.2f s after start", worker->first_step - worker->started);
     }
-    while (open > 0 && oz_worker_next_event(worker)) {
-        while (oz_sim_step(worker->sim) < worker->event_step) {
-            OZ_TRY(launch(worker, worker->event_step, &shown));
-            OZ_TRY(save_if_due(worker));
+    while (open > 0 && !oz_swap_is_at_end(worker) && oz_worker_next_event(worker)) {
+        OZ_TRY(go(worker, &shown));
+        if (worker->is_due && !oz_swap_is_at_end(worker)) {
+            OZ_TRY(look_at_event(worker, &open));
         }
-        if (worker->checkpoint && worker->event_due & OZ_DUE_CHECKPOINT) {
-            OZ_TRY(save(worker, true));
-        }
-        if (worker->schedule.over) {
-            OZ_TRY(save_at_end(worker));
-        }
-        OZ_TRY(look(worker, worker->event_due, &open));
-        worker->is_due = false;
     }
 done:
     if (status == OZ_ERR_INTERRUPTED) {
@@ -307,6 +348,8 @@ static OzStatus end_member(OzWorker *worker, int64_t m, OzStatus so_far)
     if (has_state(so_far)) {
         OZ_TRY(oz_read_snapshot_snapshot(worker->sim, (int)m, &member->now, false));
         OZ_TRY(oz_outputs_write_final(member));
+        OZ_TRY(oz_outputs_note_end(member, oz_sim_step(worker->sim), oz_sim_time(worker->sim),
+                                   so_far == OZ_OK ? "done" : "interrupted"));
     }
 done:
     OZ_AFTER(status, oz_outputs_close(member));

@@ -7,9 +7,13 @@
 #include "observe/schedule.h"
 #include "run/checkpoint.h"
 #include "run/outputs.h"
+#include "run/reload.h"
+#include "run/replay.h"
 #include "sim/sim.h"
 
 #include <stdatomic.h>
+
+typedef struct OzSwap OzSwap; /* a simulation that is being built */
 
 /* Zeroed is valid: what was not opened is not closed. Everything above `device` is set by who opens
  * it. It must not move in memory while open. */
@@ -27,7 +31,16 @@ typedef struct OzWorker {
     bool leads;               /* shows progress                                        */
     double started;           /* wall clock, of the program                            */
     atomic_bool *ended;       /* shared: a worker that failed ends the others          */
-    OzDevice device;          /* a branch                                              */
+    OzReload *reload;         /* borrowed: changes that are asked for; NULL: none can be       */
+    const OzReplay *replay;   /* borrowed: changes of the run that is repeated; NULL: none     */
+    int64_t first;            /* of its members in the group                                   */
+    double pace;              /* simulated seconds a wall second at most; 0: any               */
+    const OzDevice *root;     /* borrowed                                                      */
+    const char *source_dir;   /* borrowed                                                      */
+    OzDevice *device;         /* a branch, owned                                               */
+    int64_t taken;            /* changes of the group that it has taken                        */
+    OzSwap *swap;             /* NULL: nothing is being built                                  */
+    double pace_clock, pace_time; /* wall clock, simulated time: where the pace is counted from */
     OzSim *sim;
     OzStage stage;            /* in hand, of the worker that leads                     */
     double first_step, spent; /* wall clock; from the first step to the last      */

@@ -36,7 +36,8 @@ void oz_changes_free(OzChanges *changes)
 /* Whether a row takes its value from another one: it is not written then, but has one. */
 static bool inherits(const OzKey *key, const OzScene *scene, const void *base)
 {
-    return key->inherits && !oz_write_has(scene, key, base) &&
+    return key->inherits && oz_keys_serves(key, (int)scene->model) &&
+           !oz_write_has(scene, key, base) &&
            oz_value_same(key, base, oz_keys_of(key->inherits, (int)scene->model), scene);
 }
 

@@ -11,6 +11,7 @@
 #include "scene/keys.h"
 #include "scene/layers.h"
 #include "scene/read.h"
+#include "scene/sweep.h"
 #include "scene/value.h"
 #include "scene/write.h"
 
@@ -191,7 +192,7 @@ static OzStatus parse_setting(Loader *loader, const char *setting, int i)
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a setting");
     }
     source->name = loader->labels[i + 2];
-    if (setting[0] == '-' && loader->running) {
+    if (setting[0] == '-') { /* of a program, never of a person */
         take_out(loader->root, setting + 1);
         return OZ_OK;
     }
@@ -358,6 +359,7 @@ OzStatus oz_scene_copy(OzScene *copy, const OzScene *scene)
     copy->sweep = (OzSweep){0};
     copy->path = copy->base = copy->name = NULL;
     OZ_TRY(own_rows(copy));
+    OZ_TRY(oz_sweep_copy(&copy->sweep, &scene->sweep));
     OZ_TRY(oz_memory_text(&copy->path, scene->path));
     OZ_TRY(oz_memory_text(&copy->base, scene->base));
     OZ_TRY(oz_memory_text(&copy->name, scene->name));

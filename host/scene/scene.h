@@ -237,6 +237,7 @@ typedef struct OzMovieSettings {
     bool cut_outlines; /* cut view: grains before the plane are drawn as faint outlines      */
     bool outlines;     /* trigrains: grains' outlines are drawn                               */
     bool beams;        /* trigrains: beams are drawn                                          */
+    bool captions;     /* what is changed while it runs is shown for two seconds             */
 } OzMovieSettings;
 
 typedef struct OzSnapshotSettings {
@@ -336,7 +337,7 @@ OzStatus oz_scene_change(OzScene *scene, const OzScene *running, char *const *se
 /* Writes the scene with every default filled in, as a file that loads to the same scene. */
 OzStatus oz_scene_write(const OzScene *scene, FILE *file);
 
-/* A copy that shares no memory with the scene; its sweep is left out. The caller frees it, after a
+/* A copy that shares no memory with the scene. The caller frees it, after a
  * failure too. */
 OzStatus oz_scene_copy(OzScene *copy, const OzScene *scene);
 

@@ -245,6 +245,37 @@ static void free_texts(char **texts, int count)
     free(texts);
 }
 
+static OzStatus copy_texts(char ***copy, char *const *texts, int count)
+{
+    OZ_PASS(OZ_NEW(copy, count));
+    for (int i = 0; i < count; i++) {
+        OZ_PASS(oz_memory_text(&(*copy)[i], texts[i]));
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_sweep_copy(OzSweep *copy, const OzSweep *sweep)
+{
+    *copy = (OzSweep){.zip = sweep->zip};
+    OZ_PASS(oz_memory_text(&copy->key, sweep->key));
+    if (sweep->count > 0) {
+        OZ_PASS(copy_texts(&copy->values, sweep->values, sweep->count));
+        copy->count = sweep->count;
+    }
+    if (sweep->key_count > 0) {
+        OZ_PASS(OZ_NEW(&copy->keys, sweep->key_count));
+    }
+    for (; copy->key_count < sweep->key_count; copy->key_count++) {
+        OzSweepKey *to = &copy->keys[copy->key_count];
+        const OzSweepKey *from = &sweep->keys[copy->key_count];
+        OZ_PASS(oz_memory_text(&to->path, from->path));
+        OZ_PASS(oz_memory_text(&to->place, from->place));
+        OZ_PASS(copy_texts(&to->values, from->values, from->count));
+        to->count = from->count;
+    }
+    return OZ_OK;
+}
+
 void oz_sweep_free(OzSweep *sweep)
 {
     for (int k = 0; k < sweep->key_count; k++) {

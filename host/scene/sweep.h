@@ -23,5 +23,8 @@ const char *oz_sweep_value(const OzSweep *sweep, int64_t i, int k);
 /* {key: [value, ...], ...}, as read. */
 void oz_sweep_write(const OzSweep *sweep, FILE *file);
 
+/* A copy that shares no memory; to be freed after a failure too. */
+OzStatus oz_sweep_copy(OzSweep *copy, const OzSweep *sweep);
+
 /* Frees what sweep owns and zeroes it. */
 void oz_sweep_free(OzSweep *sweep);

@@ -205,6 +205,11 @@ double oz_sim_time(const OzSim *sim)
     return oz_step_clock_time(oz_sim_clock(sim), sim->batch.step);
 }
 
+const OzScene *oz_sim_scene(const OzSim *sim, int member)
+{
+    return sim->batch.members[member].scene;
+}
+
 const char *oz_sim_stopped(const OzSim *sim, int member)
 {
     return sim->batch.stopped[member];

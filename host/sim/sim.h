@@ -42,6 +42,9 @@ int64_t oz_sim_step(const OzSim *sim);
 double oz_sim_time(const OzSim *sim);
 const OzStepClock *oz_sim_clock(const OzSim *sim);
 
+/* The scene that a member runs, walls' phases included. Borrowed, until another one takes over. */
+const OzScene *oz_sim_scene(const OzSim *sim, int member);
+
 /* What a guard said when it stopped the member; NULL while it goes on. */
 const char *oz_sim_stopped(const OzSim *sim, int member);
 

@@ -2,26 +2,17 @@
 #include "sim/take_over.h"
 
 #include "base/memory.h"
-#include "sim/launch.h"
+#include "sim/models.h"
 #include "sim/sim_private.h"
 #include "sim/sim_state.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What a scene would be, and what it is, in the units of the simulation. */
+/* What a scene would be, and what it is; units are neither here nor there. */
 typedef struct Compared {
     OzModelLayout next, running;
 } Compared;
-
-static OzStatus lay_out(Compared *c, const OzSim *sim, int member, const OzScene *next)
-{
-    const OzMember *of = &sim->batch.members[member];
-    const OzMember other = {next, of->grains};
-    const void *units = oz_sim_parameters(sim, member);
-    OZ_PASS(oz_model_layout(&c->next, sim->model, &other, sim->device, units));
-    return oz_model_layout(&c->running, sim->model, of, sim->device, units);
-}
 
 /* State that the next program needs and the running one does not keep; what begins empty is none.
  */
@@ -41,14 +32,18 @@ static OzStatus check_state(const Compared *c, const OzModel *model, const OzSce
     return OZ_OK;
 }
 
-OzStatus oz_take_over_compare(OzTakeOver *how, const OzSim *sim, int member, const OzScene *next)
+OzStatus oz_take_over_compare(OzTakeOver *how, const OzDevice *device, const OzGrains *grains,
+                              const OzScene *running, const OzScene *next)
 {
     OzStatus status = OZ_OK;
     Compared c = {0};
-    OZ_TRY(lay_out(&c, sim, member, next));
-    OZ_TRY(check_state(&c, sim->model, next));
-    bool same = memcmp(c.next.switches, c.running.switches, sim->model->switches_bytes) == 0 &&
-                memcmp(c.next.sizes, c.running.sizes, sim->model->sizes_bytes) == 0;
+    const OzModel *model = oz_models_of(running);
+    const OzMember old = {running, grains}, other = {next, grains};
+    OZ_TRY(oz_model_layout(&c.next, model, &other, device, NULL));
+    OZ_TRY(oz_model_layout(&c.running, model, &old, device, NULL));
+    OZ_TRY(check_state(&c, model, next));
+    bool same = memcmp(c.next.switches, c.running.switches, model->switches_bytes) == 0 &&
+                memcmp(c.next.sizes, c.running.sizes, model->sizes_bytes) == 0;
     *how = same ? OZ_TAKE_OVER_APPLY : OZ_TAKE_OVER_REBUILD;
 done:
     oz_model_layout_free(&c.next);

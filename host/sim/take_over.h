@@ -11,9 +11,10 @@ typedef enum OzTakeOver {
     OZ_TAKE_OVER_REBUILD /* another program: kernel switches, or sizes of arrays    */
 } OzTakeOver;
 
-/* What a member's next scene asks for. Refuses with OZ_ERR_INPUT what the running simulation has no
- * state for. */
-OzStatus oz_take_over_compare(OzTakeOver *how, const OzSim *sim, int member, const OzScene *next);
+/* What the next scene of these grains asks for where another one runs on this device. Refuses with
+ * OZ_ERR_INPUT what the running simulation has no state for. */
+OzStatus oz_take_over_compare(OzTakeOver *how, const OzDevice *device, const OzGrains *grains,
+                              const OzScene *running, const OzScene *next);
 
 /* Between launches, from this step on: `next`, one scene a member, runs. Members that a guard has
  * stopped keep theirs. Scenes are copied. Fails with the simulation as it was while no scene has

@@ -1,0 +1,27 @@
+/* The changes of an earlier run, from its reloads.csv, to be made again at the same steps. */
+#pragma once
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What changed at one step, as settings of oz_scene_change. */
+typedef struct OzReplayChange {
+    int64_t step;
+    char **settings;
+    int count;
+} OzReplayChange;
+
+/* Zeroed is none. */
+typedef struct OzReplay {
+    OzReplayChange *changes;
+    int count;
+    int64_t end; /* step at which the run was interrupted    */
+    bool is_cut; /* it was                                   */
+} OzReplay;
+
+/* Of the run in this folder; without a reloads.csv nothing was changed. Refuses with OZ_ERR_INPUT,
+ * at file and line, what no run has written. The caller frees, also on failure. */
+OzStatus oz_replay_read(OzReplay *replay, const char *folder);
+void oz_replay_free(OzReplay *replay);

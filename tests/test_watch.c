@@ -1,0 +1,270 @@
+/* A running scene is changed as people do it: files are edited in every way that editors have, and
+ * what the run says, notes and computes of it is looked at. ORZO_NEEDS_DEVICE. */
+#include "program.h"
+#include "run_bed.h"
+
+#include <fcntl.h>
+
+/* Trigrains of test_state, in a drum-like vessel that is shaken. */
+static const char flat[] =
+    "model: trigrains\n"
+    "time: {step: 4e-6, duration: 100}\n"
+    "gravity: [20, -200]\n"
+    "integrator: gear4\n"
+    "grains: [{kind: random, count: 12, shape: polygon, corners: [3, 5], radius: [1e-3, 2e-3]}]\n"
+    "walls:\n"
+    "  - {kind: vessel, width: 15e-3, height: 3e-2, motion: {frequency: 500, "
+    "acceleration_ratio: 1}}\n"
+    "observe: {ledger: true, interval: 1e-3}\n";
+
+static pid_t start(const char *arguments)
+{
+    char *words[32] = {(char *)(uintptr_t)ORZO_PROGRAM}, copy[512], *rest = copy;
+    int count = 1;
+    snprintf(copy, sizeof copy, "%s", arguments);
+    for (char *word = strsep(&rest, " "); word && count < 31; word = strsep(&rest, " ")) {
+        words[count++] = word;
+    }
+    remove("said");
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        int said = open("said", O_CREAT | O_WRONLY | O_TRUNC, 0644);
+        dup2(said, 1);
+        dup2(said, 2);
+        execv(ORZO_PROGRAM, words);
+        _exit(99);
+    }
+    return child;
+}
+
+static int end_of(pid_t child)
+{
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static void rest(int milliseconds)
+{
+    usleep((useconds_t)milliseconds * 1000);
+}
+
+/* Waits until a file holds the text; a run that is slow to start has three minutes. */
+static void await(const char *name, const char *text)
+{
+    for (int i = 0; i < 9000; i++) {
+        if (is_there(name) && contains(name, text)) {
+            return;
+        }
+        rest(20);
+    }
+    char *all = is_there(name) ? read_file(name, NULL) : NULL;
+    fail_msg("%s never held \"%s\":\n%s", name, text, all ? all : "(no file)");
+}
+
+/* The columns key, old and new of reloads.csv, which do not depend on how fast the machine is. */
+static void assert_reloads(const char *name, const char *expected)
+{
+    char *all = read_file(name, NULL), *rest_of = all, told[4096] = "";
+    for (char *line = strsep(&rest_of, "\n"); line && *line; line = strsep(&rest_of, "\n")) {
+        char *key = strchr(strchr(line, ',') + 1, ',') + 1, *last = strrchr(line, ',');
+        *last = '\0';
+        size_t used = strlen(told);
+        snprintf(told + used, sizeof told - used, "%s\n", key);
+    }
+    assert_string_equal(told, expected);
+    free(all);
+}
+
+static void run_again(const char *folder)
+{
+    char command[300], one[100], other[100];
+    const char *slash = strrchr(folder, '/'), *own = slash ? slash + 1 : folder;
+    snprintf(command, sizeof command, "run %s --replay -o again_%s --no-video", folder, own);
+    assert_int_equal(end_of(start(command)), 0);
+    static const char *const names[] = {"series.csv", "final.csv"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(one, sizeof one, "%s/%s", folder, names[i]);
+        snprintf(other, sizeof other, "again_%s/%s", own, names[i]);
+        if (!same_files(one, other)) {
+            fail_msg("%s and %s differ", one, other);
+        }
+    }
+}
+
+/* The bed, endless for a test, with a friction and a step of its own. */
+static void write_bed(const char *name, const char *friction, const char *step)
+{
+    char text[sizeof bed + 100];
+    snprintf(text, sizeof text, "%s", bed);
+    char *taps = strstr(text, "taps: 2}"), *at = strstr(text, "2e-5");
+    memcpy(taps, "taps: 9}", 8);
+    memcpy(at, step, 4);
+    char *contact = strstr(text, "restitution: 0.5}");
+    char tail[sizeof text];
+    snprintf(tail, sizeof tail, "restitution: 0.5, friction: %s}%s", friction,
+             contact + strlen("restitution: 0.5}"));
+    *contact = '\0';
+    write_file(name, "%s%s", text, tail);
+}
+
+/* In place, by rename, cut off first, wrong in three ways, gone and back; ten in a second. */
+static void test_edits(void **state)
+{
+    (void)state;
+    write_bed("bed.yaml", "0.1", "2e-5");
+    pid_t child = start("run bed.yaml --watch -o edited --set time.taps=1000000 --no-video");
+    await("said", "first step");
+    write_bed("bed.yaml", "0.2", "2e-5");
+    await("said", "contact.friction 0.1 -> 0.2");
+    write_bed("next.yaml", "0.3", "2e-5");
+    rename("next.yaml", "bed.yaml");
+    await("said", "contact.friction 0.2 -> 0.3");
+    write_file("bed.yaml", "model: ro");
+    rest(80);
+    write_bed("bed.yaml", "0.4", "2e-5");
+    await("said", "contact.friction 0.3 -> 0.4");
+    assert_false(contains("said", "goes on as it was"));
+    write_file("bed.yaml", "model: rods\nfriction 0.5\n");
+    await("said", "the run goes on as it was");
+    write_bed("bed.yaml", "0.4", "5e-4");
+    await("said", "time.step 0.0005 s is unstable for a contact of two grains");
+    write_file("bed.yaml", "precision: double\n%s", bed);
+    await("said",
+          "bed.yaml:1: precision runs with float, which cannot change: the grains' state is "
+          "kept in it");
+    remove("bed.yaml");
+    await("said", "bed.yaml");
+    rest(600);
+    write_bed("bed.yaml", "0.5", "2e-5");
+    await("said", "contact.friction 0.4 -> 0.5");
+    for (int i = 0; i < 10; i++) {
+        char friction[8];
+        snprintf(friction, sizeof friction, "0.6%d", i);
+        write_bed("bed.yaml", friction, "2e-5");
+        rest(100);
+    }
+    await("said", "-> 0.69");
+    write_bed("bed.yaml", "0",
+              "2e-5"); /* other kernels, and another change before they are built */
+    rest(100);
+    write_bed("bed.yaml", "0.7", "2e-5");
+    await("said", "contact.friction 0 -> 0.7");
+    rest(300);
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    assert_true(contains("edited/scene.yaml", "friction: 0.1"));
+    assert_true(contains("edited/scene_final.yaml", "friction: 0.7"));
+    assert_true(contains("edited/reloads.csv", "interrupted"));
+    run_again("edited");
+}
+
+/* Of a scene that extends another, that one's file counts too; walls' motion goes on in phase. */
+static void test_base_and_motion(void **state)
+{
+    (void)state;
+    write_bed("base.yaml", "0.1", "2e-5");
+    write_file("upper.yaml", "extends: base.yaml\ntime: {taps: 1000000}\n");
+    pid_t child = start("run upper.yaml --watch -o based --no-video");
+    await("said", "first step");
+    char *text = read_file("base.yaml", NULL), *ratio = strstr(text, "acceleration_ratio: 2");
+    ratio[strlen("acceleration_ratio: ")] = '4';
+    write_file("base.yaml", "%s", text);
+    await("said", "walls.0.motion.acceleration_ratio 2 -> 4");
+    await("said", "walls.0 moves so from its next zero crossing on");
+    memcpy(strstr(text, "frequency: 50"), "frequency: 40", 13);
+    write_file("base.yaml", "%s", text);
+    await("said", "walls.0.motion.frequency 50 -> 40");
+    free(text);
+    rest(300);
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    assert_reloads("based/reloads.csv", "key,old,new\n"
+                                        "walls.0.motion.acceleration_ratio,2,4\n"
+                                        "walls.0.motion.frequency,50,40\n"
+                                        "end,,interrupted\n");
+    run_again("based");
+}
+
+/* SIGHUP reads the file again without --watch, which nobody else does. */
+static void test_signal(void **state)
+{
+    (void)state;
+    write_bed("bed.yaml", "0.1", "2e-5");
+    pid_t child = start("run bed.yaml -o told --set time.taps=1000000 --no-video");
+    await("said", "first step");
+    write_bed("bed.yaml", "0.2", "2e-5");
+    rest(800);
+    assert_false(contains("said", "-> 0.2"));
+    kill(child, SIGHUP);
+    await("said", "contact.friction 0.1 -> 0.2");
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    run_again("told");
+}
+
+/* In double, and of trigrains, whose state is counted in steps. */
+static void test_replay_of_others(void **state)
+{
+    (void)state;
+    write_bed("bed.yaml", "0.1", "2e-5");
+    pid_t child = start("run bed.yaml --watch -o double --set time.taps=1000000 --no-video "
+                        "--precision double");
+    await("said", "first step");
+    write_bed("bed.yaml", "0.4", "1e-5");
+    await("said", "time.step 2e-05 -> 1e-05");
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    run_again("double");
+    write_file("flat.yaml", "%s", flat);
+    child = start("run flat.yaml --watch -o flat --no-video");
+    await("said", "first step");
+    char *text = read_file("flat.yaml", NULL);
+    memcpy(strstr(text, "-200"), "-150", 4);
+    memcpy(strstr(text, "4e-6"), "3e-6", 4);
+    write_file("flat.yaml", "%s", text);
+    await("said", "gravity [20, -200] -> [20, -150]");
+    free(text);
+    rest(200);
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    run_again("flat");
+}
+
+/* The bed with a sweep. */
+static void write_swept(const char *friction, const char *step)
+{
+    write_bed("part.yaml", friction, step);
+    char *text = read_file("part.yaml", NULL);
+    write_file("swept.part", "%ssweep: {contact.friction: [0.2, 0.3]}\n", text);
+    free(text);
+    rename("swept.part", "swept.yaml");
+}
+
+/* Members take a change all alike; what they differ in is refused. */
+static void test_members(void **state)
+{
+    (void)state;
+    write_swept("0.1", "2e-5");
+    pid_t child = start("run swept.yaml --watch -o many --no-video --set time.taps=1000000");
+    await("said", "first step");
+    write_swept("0.5", "2e-5");
+    await("said", "contact.friction runs with 0.1, which cannot change: members differ in it");
+    write_swept("0.1", "1e-5");
+    await("many/friction_0.2/reloads.csv", "time.step");
+    await("many/friction_0.3/reloads.csv", "time.step");
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    run_again("many/friction_0.3");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_edits),   cmocka_unit_test(test_base_and_motion),
+        cmocka_unit_test(test_signal),  cmocka_unit_test(test_replay_of_others),
+        cmocka_unit_test(test_members),
+    };
+    return cmocka_run_group_tests(tests, enter_work, leave_work);
+}
