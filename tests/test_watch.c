@@ -232,6 +232,43 @@ static void test_replay_of_others(void **state)
     run_again("flat");
 }
 
+/* Interrupted after a change of taps and of kernels, and gone on with from its last state: the run
+ * that makes the same changes without a stop has the same bytes. */
+static void test_resumed(void **state)
+{
+    (void)state;
+    write_bed("bed.yaml", "0.1", "2e-5");
+    pid_t child = start("run bed.yaml --watch -o left --set time.taps=1000000 --no-video");
+    await("said", "first step");
+    char *text = read_file("bed.yaml", NULL);
+    memcpy(strstr(text, "frequency: 50"), "frequency: 41", 13);
+    memcpy(strstr(text, "friction: 0.1"), "friction: 0.0", 13);
+    write_file("bed.yaml", "%s", text);
+    free(text);
+    await("said", "contact.friction 0.1 -> 0");
+    rest(100);
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    text = read_file("left/final.csv", NULL);
+    char *log = read_file("left/reloads.csv", NULL), command[100];
+    char *row = strstr(log, "end,,interrupted");
+    assert_non_null(row);
+    while (row[-1] != '\n') {
+        row--;
+    }
+    double end = atof(row); /* its step */
+    snprintf(command, sizeof command, "resume left --until %.6f", end * 2e-5 + 0.5);
+    free(text);
+    free(log);
+    assert_int_equal(end_of(start(command)), 0);
+    assert_false(contains("left/reloads.csv", "interrupted"));
+    snprintf(command, sizeof command, "run left --replay -o whole --no-video --until %.6f",
+             end * 2e-5 + 0.5);
+    assert_int_equal(end_of(start(command)), 0);
+    assert_true(same_files("left/series.csv", "whole/series.csv"));
+    assert_true(same_files("left/final.csv", "whole/final.csv"));
+}
+
 /* The bed with a sweep. */
 static void write_swept(const char *friction, const char *step)
 {
@@ -264,7 +301,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edits),   cmocka_unit_test(test_base_and_motion),
         cmocka_unit_test(test_signal),  cmocka_unit_test(test_replay_of_others),
-        cmocka_unit_test(test_members),
+        cmocka_unit_test(test_members), cmocka_unit_test(test_resumed),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
 }
