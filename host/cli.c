@@ -13,8 +13,9 @@ static const struct {
     int least_paths, most_paths;
     const char *example;
 } command_rows[] = {
-    {"run", "SCENE", "oOsedtpgunmlfSwRP", "simulate; leaves movie, pictures, series.csv, final.csv",
-     1, 1, "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
+    {"run", "SCENE", "oOserdtpgunmlfSwRP",
+     "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1,
+     "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
     {"resume", "DIR", "sdtgumlS",
      "goes on with a run that was interrupted or killed, or to a later end, from its last state", 1,
      1, "orzo resume runs/an6 --set time.taps=600"},
@@ -45,6 +46,8 @@ static const struct {
     {'O', "--overwrite", NULL, "replace the run that is there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
     {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all"},
+    {'r', "--from", "DIR[@tap=N]",
+     "begin with the grains of a run's last state, springs included, or of a kept one (@time=T)"},
     {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},
     {'t', "--threads", "N", "threads of a CPU device"},
     {'p', "--precision", "float|double", "the same as --set precision=..."},
@@ -283,7 +286,8 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
     case 'u':
         return parse_until(options, value);
     case 'S':
-        options->source_dir = value;
+    case 'r':
+        *(letter == 'S' ? &options->source_dir : &options->from) = value;
         return OZ_OK;
     case 'm':
         options->stream = value;

@@ -22,6 +22,7 @@ typedef struct OzOptions {
     double until;       /* --until, s; negative: not given   */
     bool has_seeds;     /* --seeds                          */
     uint64_t seed_first, seed_last;
+    const char *from; /* --from: "DIR", "DIR@tap=N", "DIR@time=T"; NULL: not given */
     bool resumes;     /* the command goes on with a run   */
     int own_settings; /* which began with so many settings */
     const char *stream;                   /* --stream: a path, "-", or NULL    */

@@ -5,6 +5,7 @@
 
 #include "cli.h"
 #include "model/grains.h"
+#include "run/from.h"
 #include "run/inputs.h"
 #include "scene/scene.h"
 
@@ -19,6 +20,7 @@ typedef struct OzMembers {
     int64_t seed_count;       /* members of each combination                     */
     int64_t count;            /* members                                         */
     bool is_ensemble;         /* --seeds or a sweep: members have folders and names */
+    OzFrom from;              /* --from: what members begin with; zeroed: grains are placed */
     OzInputs inputs;          /* files that its scenes were read from and read   */
 } OzMembers;
 

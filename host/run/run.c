@@ -339,6 +339,7 @@ static OzStatus run_group(Run *run)
     if (oz_groups_is_begun(&run->groups)) {
         OZ_TRY(take_states(run));
     }
+    OZ_TRY(oz_from_begin(&run->groups.plan.from, run->workers, run->worker_count));
     ran = true;
     OZ_TRY(run_workers(run));
 done:

@@ -1,0 +1,163 @@
+/* Copying a saved member into others, field by field. It knows no model and no array by name, but
+ * that an empty ledger is no loss. */
+#include "sim/branch.h"
+
+#include "base/memory.h"
+#include "sim/launch.h"
+#include "sim/sim_private.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Source {
+    const OzState *state;
+    const char *prefix;
+} Source;
+
+/* The entry under the prefix, or NULL. */
+static const OzStateEntry *find(const Source *source, const char *group, const char *name)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%ssim/%s%s", source->prefix, group, name);
+    return oz_state_find(source->state, path);
+}
+
+/* Switches that change what a step does with the words and not what they are. */
+static bool may_differ(const char *name)
+{
+    static const char *const names[] = {
+        "LEDGER",   "INTEGRATOR_ID", /* MOVES_BEFORE and ORDER tell */
+        "FRICTION", "HISTORY",       "SLIP_SCALE",  "ATTRACTION_CLAMP", "SURFACES",
+        "LAW_ID",   "LINE",          "SMOOTH",      "AT_CONTACT",       "GYROSCOPIC",
+        "MOVING",   "ALL_PAIRS",     "FORCE_POINT", "DAMPING_SHEAR"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(name, names[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static OzStatus check_switches(const OzSim *sim, const Source *source)
+{
+    const int *own = sim->arrays.switches;
+    for (int k = -1; k < sim->model->switch_count; k++) {
+        const char *name = k < 0 ? "DOUBLE" : sim->model->switches[k].name;
+        const OzStateEntry *saved = find(source, "switches/", name);
+        int value = saved && saved->kind == OZ_STATE_INT32 ? *(const int *)saved->data : -1;
+        if (value != own[k + 1] && !may_differ(name)) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "%s: the state to begin from has the kernel switch %s %d, and "
+                                  "this scene %d; expected a scene of the same precision, kind of "
+                                  "integrator, grains and kinds of walls, on the same device",
+                                  sim->batch.members[0].scene->path, name, value, own[k + 1]);
+        }
+    }
+    return OZ_OK;
+}
+
+/* Lists as long as those in which springs were saved. */
+static OzStatus take_sizes(OzSim *sim, const Source *source)
+{
+    OzStatus status = OZ_OK;
+    OzSizesHead *sizes = NULL;
+    size_t bytes = sim->model->sizes_bytes;
+    const OzStateEntry *saved = find(source, "", "sizes");
+    const OzSizesHead *head = saved ? saved->data : NULL;
+    OZ_TRY(oz_memory_new((void **)&sizes, bytes, 1, "sizes"));
+    memcpy(sizes, sim->arrays.sizes, bytes);
+    int64_t most = INT32_MAX / 16 / (sizes->regions > sizes->slots ? sizes->regions : sizes->slots);
+    if (!head || (size_t)saved->count * sizeof(int) != bytes || head->slots != sizes->slots ||
+        head->regions != sizes->regions || head->outer_capacity < 1 ||
+        head->outer_capacity > most || head->inner_capacity < 1 || head->inner_capacity > most ||
+        head->back_capacity < 1 || head->back_capacity > most) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "%s: the state to begin from is of another number of grains or "
+                                "another device",
+                                sim->batch.members[0].scene->path);
+        goto done;
+    }
+    sizes->outer_capacity = head->outer_capacity;
+    sizes->inner_capacity = head->inner_capacity;
+    sizes->back_capacity = head->back_capacity;
+    OZ_TRY(oz_arrays_resize(&sim->arrays, sizes));
+done:
+    free(sizes);
+    return status;
+}
+
+static OzStatus check_units(const OzSim *sim, int member, const Source *source)
+{
+    const OzUnits *own = &oz_sim_parameters(sim, member)->units;
+    const struct {
+        const char *name;
+        double value;
+    } units[] = {{"unit_length", own->length}, {"unit_time", own->time}, {"unit_mass", own->mass}};
+    for (int i = 0; i < 3; i++) {
+        const OzStateEntry *saved = find(source, "member_0/", units[i].name);
+        if (!saved || saved->kind != OZ_STATE_DOUBLE ||
+            *(const double *)saved->data != units[i].value) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "%s: the state to begin from counts in another %s; expected the "
+                                  "same grains and time.step",
+                                  sim->batch.members[member].scene->path, units[i].name);
+        }
+    }
+    return OZ_OK;
+}
+
+/* A stretch of the member's from what was saved. Springs that were not kept are none. */
+static OzStatus take_field(OzSim *sim, int field, int member, const Source *source)
+{
+    OzStatus status = OZ_OK;
+    const OzField *row = &sim->model->fields[field];
+    size_t bytes = oz_arrays_bytes(&sim->arrays, field);
+    bool wide = oz_arrays_switches(&sim->arrays)->is_double && row->widens;
+    OzStateKind kind = wide ? OZ_STATE_DOUBLE : row->kind;
+    if (bytes == 0 || (row->class != OZ_FIELD_STATE && row->class != OZ_FIELD_SPRING) ||
+        strcmp(row->name, "ledger") == 0) {
+        return OZ_OK;
+    }
+    const OzStateEntry *saved = find(source, "member_0/", row->name);
+    if (!saved && row->class == OZ_FIELD_SPRING) {
+        return OZ_OK;
+    }
+    if (!saved || saved->kind != kind ||
+        (size_t)saved->count * oz_state_kind_bytes(kind) != bytes) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: the state to begin from has no %s that would do here; expected "
+                              "a scene of the same grains, precision and integrator",
+                              sim->batch.members[member].scene->path, row->name);
+    }
+    OZ_TRY(oz_arrays_write(&sim->arrays, field, member, saved->data, bytes));
+    if (field == sim->model->control_field) {
+        memcpy(oz_sim_control(sim, member), saved->data, bytes);
+        oz_sim_control(sim, member)->crossed = 0;
+    }
+done:
+    return status;
+}
+
+OzStatus oz_branch_take(OzSim *sim, const OzState *state, const char *prefix)
+{
+    OzStatus status = OZ_OK;
+    int made = 0;
+    const Source source = {state, prefix};
+    OZ_TRY(check_switches(sim, &source));
+    OZ_TRY(take_sizes(sim, &source));
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        OZ_TRY(check_units(sim, m, &source));
+        for (int f = 0; f < sim->model->field_count; f++) {
+            OZ_TRY(take_field(sim, f, m, &source));
+        }
+    }
+    OZ_TRY(oz_launch_write_control(sim));
+    OZ_TRY(oz_launch_steps(sim, 0, &made));
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        oz_sim_control(sim, m)->refreshes = oz_sim_control(sim, m)->rebuilds = 0;
+    }
+    OZ_TRY(sim->model->start_ledger(sim));
+done:
+    return status;
+}
