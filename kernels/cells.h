@@ -1,19 +1,21 @@
-/* The hashed grid: grains counted into cells and laid out in the order of cells. Cell coordinates
- * wrap around, so space is unbounded; a distance test tells apart what shares a cell. OpenCL C
- * only. */
+/* The hashed grid: bodies counted into cells and laid out in the order of cells, after them those
+ * that reach too far for the cells, which everybody looks at. Cell coordinates wrap around, so space
+ * is unbounded; a distance test tells apart what shares a cell. What a body is, a model's near.h or
+ * element_near.h says: OZ_NEAR_SLOTS(w) slots may hold one, oz_near_listed of them do; its place in
+ * OZ_DIMENSIONS words of kind place_kind, in OZ_NEAR_UNIT(w) m; its reach, m; OZ_NEAR_IS_LARGE(w,
+ * slot). OpenCL C only. */
 #ifndef OZ_KERNELS_CELLS_H
 #define OZ_KERNELS_CELLS_H
 
-#include "kernels/work.h"
+#include "kernels/member.h"
 
 /* Cell coordinate of a place's coordinate; unbounded, wrapped only where it becomes an index. */
-OZ_INLINE int oz_cells_of(const OzWork *w, fixed_position_kind fixed_position)
+OZ_INLINE int oz_cells_of(const OzWork *w, place_kind place)
 {
-    global const OzParameters *p = w->parameters;
-    return (int)floor((scalar)fixed_position * p->length_unit * p->inverse_cell);
+    return (int)floor((scalar)place * OZ_NEAR_UNIT(w) * w->parameters->inverse_cell);
 }
 
-/* Cells of the grid's second axis that are gone through before the next of the third: grains are
+/* Cells of the grid's second axis that are gone through before the next of the third: bodies are
  * sorted in the order of cells, and those that meet should stand so near each other that a cache
  * holds all between. */
 #define OZ_CELLS_STRIP 16
@@ -28,77 +30,77 @@ OZ_INLINE int oz_cells_index(const OzWork *w, int first, int second, int third)
     return row * w->z.cells_along[0] + (first & (w->z.cells_along[0] - 1));
 }
 
-OZ_INLINE void oz_cells_fixed_position(const OzWork *w, int slot,
-                                       fixed_position_kind fixed_position[3])
+/* The cell of a slot's body; the last one, which is no place, for what reaches too far. */
+OZ_INLINE int oz_cells_at(const OzWork *w, int slot)
 {
-    global const fixed_position_kind *record =
-        (global const fixed_position_kind *)(w->record + (size_t)slot * OZ_RECORD + OZ_R_POSITION);
-    fixed_position[0] = record[0];
-    fixed_position[1] = record[1];
-    fixed_position[2] = record[2];
+    place_kind place[3];
+    oz_near_place(w, slot, place);
+    return OZ_NEAR_IS_LARGE(w, slot)
+               ? w->z.cells
+               : oz_cells_index(w, oz_cells_of(w, place[w->z.axis[0]]),
+                                oz_cells_of(w, place[w->z.axis[1]]),
+                                oz_cells_of(w, place[w->z.axis[2]]));
 }
 
-/* Half-length + radius of a grain, m, from its shape. The length of the shaft's vector would not
- * do: its rounding changes as the grain turns, so that two grains of equal reach would change their
- * order in a pair. */
-OZ_INLINE scalar oz_cells_reach(const OzWork *w, int slot)
+/* A slot's skin in the outer list. */
+OZ_INLINE scalar oz_cells_skin(const OzWork *w, int slot)
 {
-    if (OZ_EQUAL) {
-        return w->parameters->reach_max;
-    }
-    global const scalar *words = (global const scalar *)w->shape;
-    return words[oz_lanes_at(slot, OZ_SHAPE, OZ_B_RADIUS)] +
-           words[oz_lanes_at(slot, OZ_SHAPE, OZ_B_HALF_LENGTH)];
+    global const scalar *words = (global const scalar *)w->reference_outer;
+    return words[oz_lanes_at(slot, OZ_REFERENCE, OZ_REFERENCE_SKIN)];
 }
 
-OZ_INLINE void oz_cells_clear(OzWork *w, int item, int stride)
+OZ_INLINE void oz_cells_clear(OzWork *w)
 {
-    for (int c = item; c < w->z.cells + 2; c += stride) {
-        w->cell_first[c] = 0;
+    OZ_EACH(w, cell, w->z.cells + 2)
+    {
+        w->cell_first[cell] = 0;
     }
 }
 
-/* Counts the region's grains by cell. The count of cell c goes into cell_first[c + 2]: after the
- * scan and the filling, each of which moves entries by one place, cell c holds the slots
- * cell_first[c] ... cell_first[c + 1]. */
-OZ_INLINE void oz_cells_bin(OzWork *w, int region)
+/* Counts each body into the entry after its cell's. */
+OZ_INLINE void oz_cells_bin(OzWork *w)
 {
-    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
-        fixed_position_kind fixed_position[3];
-        oz_cells_fixed_position(w, i, fixed_position);
-        int cell = oz_cells_index(w, oz_cells_of(w, fixed_position[w->z.axis[0]]),
-                                  oz_cells_of(w, fixed_position[w->z.axis[1]]),
-                                  oz_cells_of(w, fixed_position[w->z.axis[2]]));
-        w->cell_of[i] = cell;
-        OZ_WORK_COUNT(&w->cell_first[cell + 2]);
+    OZ_EACH(w, slot, OZ_NEAR_SLOTS(w))
+    {
+        if (oz_near_listed(w, slot)) {
+            int cell = oz_cells_at(w, slot);
+            w->cell_of[slot] = cell;
+            OZ_WORK_COUNT(&w->cell_first[cell + 1]);
+        }
     }
 }
 
+/* Counts into first places, each one entry late: filling brings them into line, so that cell c
+ * holds the bodies cell_first[c] ... cell_first[c + 1]. */
 OZ_INLINE void oz_cells_scan(OzWork *w)
 {
     int sum = 0;
-    for (int c = 0; c < w->z.cells + 2; c++) {
-        sum += w->cell_first[c];
-        w->cell_first[c] = sum;
+    for (int cell = 1; cell < w->z.cells + 2; cell++) {
+        int count = w->cell_first[cell];
+        w->cell_first[cell] = sum;
+        sum += count;
     }
 }
 
 /* Slots in the order of cells; within a cell, in any order. */
-OZ_INLINE void oz_cells_fill(OzWork *w, int region)
+OZ_INLINE void oz_cells_fill(OzWork *w)
 {
-    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
-        int to = OZ_WORK_COUNT(&w->cell_first[w->cell_of[i] + 1]);
-        w->sorted_slot[to] = i;
+    OZ_EACH(w, slot, OZ_NEAR_SLOTS(w))
+    {
+        if (oz_near_listed(w, slot)) {
+            int to = OZ_WORK_COUNT(&w->cell_first[w->cell_of[slot] + 1]);
+            w->sorted_slot[to] = slot;
+        }
     }
 }
 
-/* Sorts the slots of a cell by id, so that the order of grains does not depend on which work-item
+/* Sorts the slots of a cell by id, so that the order of bodies does not depend on which work-item
  * was faster. */
 OZ_INLINE void oz_cells_arrange_one(OzWork *w, int first, int last)
 {
     for (int i = first + 1; i < last; i++) {
-        int kept = w->sorted_slot[i], key = w->id[kept], to = i;
-        while (to > first && w->id[w->sorted_slot[to - 1]] > key) {
+        int kept = w->sorted_slot[i], key = OZ_WORK_ID(w, kept), to = i;
+        while (to > first && OZ_WORK_ID(w, w->sorted_slot[to - 1]) > key) {
             w->sorted_slot[to] = w->sorted_slot[to - 1];
             to--;
         }
@@ -106,52 +108,38 @@ OZ_INLINE void oz_cells_arrange_one(OzWork *w, int first, int last)
     }
 }
 
-/* Where a slot's skin in the outer list is kept. */
-OZ_INLINE size_t oz_cells_skin_index(int slot)
+/* Lays out what the search needs of a body. */
+OZ_INLINE void oz_cells_lay(OzWork *w, int to)
 {
-    return oz_lanes_at(slot, OZ_REFERENCE, OZ_REFERENCE_SKIN);
+    int slot = w->sorted_slot[to];
+    place_kind place[3];
+    oz_near_place(w, slot, place);
+    w->sorted_x[to] = place[0];
+    w->sorted_y[to] = place[1];
+#if OZ_DIMENSIONS == 3
+    w->sorted_z[to] = place[2];
+#endif
+    w->sorted_far[to] = oz_near_reach(w, slot) + oz_cells_skin(w, slot);
+    oz_near_lay(w, to, slot);
 }
 
-/* A grain's skin in the outer list: what it moves in outer_time at its present speed, within
- * bounds. */
-OZ_INLINE scalar oz_cells_skin(const OzWork *w, int slot)
+/* Slots that are to be the order of memory sorted within each cell, and everything laid out. */
+OZ_INLINE void oz_cells_arrange(OzWork *w)
 {
-    global const OzParameters *p = w->parameters;
-    global const scalar *record = w->record + (size_t)slot * OZ_RECORD;
-    global const scalar *a = record + OZ_R_SHAFT, *v = record + OZ_R_VELOCITY,
-                        *r = record + OZ_R_RATE;
-    scalar speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!OZ_ROUND) {
-        speed += sqrt((a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) *
-                      (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]));
-    }
-    return fmin(p->outer_most, p->outer_least + speed * p->outer_time);
-}
-
-/* The region's share of cells: slots sorted, and what the search needs of the grains laid out
- * beside. */
-OZ_INLINE void oz_cells_arrange(OzWork *w, int region)
-{
-    int begin = (int)((long)w->z.cells * region / w->z.regions);
-    int end = (int)((long)w->z.cells * (region + 1) / w->z.regions);
-    for (int cell = begin; cell < end; cell++) {
+#if OZ_RESORT
+    OZ_EACH(w, cell, w->z.cells + 1)
+    {
         oz_cells_arrange_one(w, w->cell_first[cell], w->cell_first[cell + 1]);
-    }
-    for (int to = w->cell_first[begin]; to < w->cell_first[end]; to++) {
-        int i = w->sorted_slot[to];
-        fixed_position_kind fixed_position[3];
-        oz_cells_fixed_position(w, i, fixed_position);
-        w->sorted_x[to] = fixed_position[0];
-        w->sorted_y[to] = fixed_position[1];
-        w->sorted_z[to] = fixed_position[2];
-        w->sorted_id[to] = w->id[i];
-        scalar skin = oz_cells_skin(w, i);
-        w->sorted_skin[to] = skin;
-        ((global scalar *)w->reference_outer)[oz_cells_skin_index(i)] = skin;
-        if (!OZ_EQUAL) {
-            w->sorted_reach[to] = oz_cells_reach(w, i);
+        for (int to = w->cell_first[cell]; to < w->cell_first[cell + 1]; to++) {
+            oz_cells_lay(w, to);
         }
     }
+#else
+    OZ_EACH(w, to, w->cell_first[w->z.cells + 1])
+    {
+        oz_cells_lay(w, to);
+    }
+#endif
 }
 
 #endif

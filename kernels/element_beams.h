@@ -5,7 +5,7 @@
 #include "kernels/beam.h"
 #include "kernels/element_sums.h"
 
-OZ_INLINE OzBeamEnd oz_element_beams_end(const OzElementWork *w, const int *slots)
+OZ_INLINE OzBeamEnd oz_element_beams_end(const OzWork *w, const int *slots)
 {
     OzBeamEnd end;
     real words[4];
@@ -15,7 +15,7 @@ OZ_INLINE OzBeamEnd oz_element_beams_end(const OzElementWork *w, const int *slot
     return end;
 }
 
-OZ_INLINE void oz_element_beams_check(OzElementWork *w, const OzBeamForce *f, const int *slots,
+OZ_INLINE void oz_element_beams_check(OzWork *w, const OzBeamForce *f, const int *slots,
                                       int step)
 {
     mask stretched =
@@ -23,13 +23,13 @@ OZ_INLINE void oz_element_beams_check(OzElementWork *w, const OzBeamForce *f, co
     mask bent = !((oz_magnitude(f->bend_a) <= REAL(OZ_BEAM_BEND_MOST)) &
                   (oz_magnitude(f->bend_b) <= REAL(OZ_BEAM_BEND_MOST)));
     if (OZ_ANY(stretched | bent)) {
-        oz_element_work_stop_lanes(w, stretched, OZ_ELEMENT_STOP_STRETCHED, step, slots);
-        oz_element_work_stop_lanes(w, bent, OZ_ELEMENT_STOP_BENT, step, slots);
+        oz_work_stop_lanes(w, stretched, OZ_ELEMENT_STOP_STRETCHED, step, slots);
+        oz_work_stop_lanes(w, bent, OZ_ELEMENT_STOP_BENT, step, slots);
     }
 }
 
 /* Forces of all beams. Lanes beyond the last repeat the first beam. */
-OZ_INLINE void oz_element_beams_pull(OzElementWork *w, int step, OzElementSums *sums)
+OZ_INLINE void oz_element_beams_pull(OzWork *w, int step, OzElementSums *sums)
 {
     int count = w->control->beam_count;
     OZ_EACH(w, block, (count + OZ_LANES - 1) / OZ_LANES)

@@ -17,7 +17,7 @@ typedef struct OzElementPush {
 } OzElementPush;
 
 /* Closes up the region's pairs that may touch. */
-OZ_INLINE void oz_element_contacts_classify(OzElementWork *w, int region)
+OZ_INLINE void oz_element_contacts_classify(OzWork *w, int region)
 {
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region], count = 0;
     for (int first = begin; first < end; first += OZ_LANES) {
@@ -26,14 +26,20 @@ OZ_INLINE void oz_element_contacts_classify(OzElementWork *w, int region)
             a[l] = w->pair_a[first + l];
             b[l] = w->pair_b[first + l];
         }
-        mask hits = oz_element_pair_list_slots(w, a, b, REAL(0.0)) &
+        OzNear one = oz_near_load(w, a), other = oz_near_load(w, b);
+        mask hits = oz_near_pairs(w, &one, &other, REAL(0.0)) &
                     oz_lanes_mask_of(OZ_LANES_IOTA + first < end);
         int hit_count = oz_lanes_compact(active, OZ_LANES_IOTA + first, hits);
-#if OZ_GROUP > 1
-        w->pair_hit[first] = hit_count > 0 ? begin + count : -1;
+#if !OZ_SCATTER
+        for (int l = 0; l < OZ_LANES; l++) {
+            w->pair_hit[first + l] = -1;
+        }
 #endif
         for (int l = 0; l < hit_count; l++) {
             w->touch[begin + count + l] = active[l];
+#if !OZ_SCATTER
+            w->pair_hit[active[l]] = begin + count + l;
+#endif
         }
         count += hit_count;
     }
@@ -41,7 +47,7 @@ OZ_INLINE void oz_element_contacts_classify(OzElementWork *w, int region)
 }
 
 /* Two triangles. */
-OZ_INLINE OzElementPush oz_element_contacts_triangles(const OzElementWork *w, const OzElement *a,
+OZ_INLINE OzElementPush oz_element_contacts_triangles(const OzWork *w, const OzElement *a,
                                                       const OzElement *b)
 {
     OzElementPush push;
@@ -85,7 +91,7 @@ OZ_INLINE OzDiscPlace oz_element_contacts_place(const OzElement *a, const OzElem
 }
 
 /* The force of discs by the law of each lane: 0 among grains, 1 + w at wall w. */
-OZ_INLINE OzDiscForce oz_element_contacts_law(const OzElementWork *w, OzDiscPlace place,
+OZ_INLINE OzDiscForce oz_element_contacts_law(const OzWork *w, OzDiscPlace place,
                                               OzVec2 velocity, real mass, const int *b)
 {
     OzDiscForce sum = oz_disc_force(place, velocity, mass, w->parameters->law[0]);
@@ -106,7 +112,7 @@ OZ_INLINE OzDiscForce oz_element_contacts_law(const OzElementWork *w, OzDiscPlac
 }
 
 /* Puts what a disc does in place of what triangles do, in lanes with one. */
-OZ_INLINE void oz_element_contacts_discs(const OzElementWork *w, const OzElement *a,
+OZ_INLINE void oz_element_contacts_discs(const OzWork *w, const OzElement *a,
                                          const OzElement *b, const int *slots_a, const int *slots_b,
                                          OzElementPush *push)
 {
@@ -142,10 +148,10 @@ OZ_INLINE void oz_element_contacts_discs(const OzElementWork *w, const OzElement
 
 /* Counts deep contacts; of the launch's first step with any keeps the lowest slot and the greatest
  * share. */
-OZ_INLINE void oz_element_contacts_count(OzElementWork *w, real share, mask deep, const int *slots,
+OZ_INLINE void oz_element_contacts_count(OzWork *w, real share, mask deep, const int *slots,
                                          int step)
 {
-    global OzElementControl *control = w->control;
+    global OzControl *control = w->control;
     scalar lane[OZ_LANES];
     int hit[OZ_LANES];
     OZ_LANES_STORE(share, lane);
@@ -164,7 +170,7 @@ OZ_INLINE void oz_element_contacts_count(OzElementWork *w, real share, mask deep
 }
 
 /* Stops where a triangle is inside another or half in it, or a disc by more than its radius. */
-OZ_INLINE void oz_element_contacts_check(OzElementWork *w, const OzElementPush *push, mask present,
+OZ_INLINE void oz_element_contacts_check(OzWork *w, const OzElementPush *push, mask present,
                                          const int *slots, int step)
 {
     mask deep = push->deep & present, swallowed = push->swallowed & present;
@@ -172,13 +178,13 @@ OZ_INLINE void oz_element_contacts_check(OzElementWork *w, const OzElementPush *
     mask stop = !(push->share <= REAL(w->parameters->deep_stop)) & present & !swallowed;
     if (OZ_ANY(deep | swallowed | warn | stop)) {
         oz_element_contacts_count(w, push->share, warn, slots, step);
-        oz_element_work_stop_lanes(w, swallowed, OZ_ELEMENT_STOP_SWALLOWED, step, slots);
-        oz_element_work_stop_lanes(w, deep | stop, OZ_ELEMENT_STOP_DEEP, step, slots);
+        oz_work_stop_lanes(w, swallowed, OZ_ELEMENT_STOP_SWALLOWED, step, slots);
+        oz_work_stop_lanes(w, deep | stop, OZ_ELEMENT_STOP_DEEP, step, slots);
     }
 }
 
 /* What discs dissipate, and what walls put in: the opposite of what is done to them. */
-OZ_INLINE void oz_element_contacts_account(const OzElementWork *w, const OzElementPush *push,
+OZ_INLINE void oz_element_contacts_account(const OzWork *w, const OzElementPush *push,
                                            mask present, const int *slots_b, OzElementSums *sums)
 {
     OzVec2 velocity;
@@ -192,7 +198,7 @@ OZ_INLINE void oz_element_contacts_account(const OzElementWork *w, const OzEleme
 }
 
 /* Forces of the region's touching pairs. Lanes beyond the last repeat the first pair. */
-OZ_INLINE void oz_element_contacts_push(OzElementWork *w, int region, int step, OzElementSums *sums)
+OZ_INLINE void oz_element_contacts_push(OzWork *w, int region, int step, OzElementSums *sums)
 {
     int begin = region * w->z.inner_capacity, end = begin + w->touch_count[region];
     for (int first = begin; first < end; first += OZ_LANES) {

@@ -3,7 +3,8 @@
  * are all made of it. A count of 0 means that the scene does not need the array: it is not
  * allocated. z is the OzElementSizes. Kinds: parameters, control, scalar, real (one scalar per
  * lane), integer, ledger (double). Classes: STATE, what the next step depends on; SPRING, the
- * tangential memory of contacts; LIST, neighbour lists that are made again from these two; SCRATCH,
+ * tangential memory of contacts; LIST, neighbour lists that are made again from these two, ROWS those
+ * of each region's pairs, which outlive larger capacities; SCRATCH,
  * written before it is read by the host at each launch or by each step. Loads are zero between
  * steps. */
 #ifndef OZ_KERNELS_ELEMENT_FIELDS_H
@@ -32,8 +33,8 @@
     X(scalar, sorted_far, z.slots + OZ_LANES, LIST)                                                \
     X(integer, sorted_slot, z.slots + OZ_LANES, LIST)                                              \
     X(integer, sorted_body, z.slots + OZ_LANES, LIST)                                              \
-    X(integer, outer_a, z.regions *z.outer_capacity, LIST)                                         \
-    X(integer, outer_b, z.regions *z.outer_capacity, LIST)                                         \
+    X(integer, outer_a, z.regions *z.outer_capacity, ROWS)                                         \
+    X(integer, outer_b, z.regions *z.outer_capacity, ROWS)                                         \
     X(integer, outer_count, z.regions, LIST)                                                       \
     X(integer, pair_a, z.regions *z.inner_capacity, LIST)                                          \
     X(integer, pair_b, z.regions *z.inner_capacity, LIST)                                          \
@@ -42,17 +43,17 @@
     X(integer, touch, z.regions *z.inner_capacity, SCRATCH)                                        \
     X(integer, touch_count, z.regions, SCRATCH)                                                    \
     X(integer, disc_touch, OZ_DISCS ? z.regions *z.inner_capacity : 0, SCRATCH)                    \
-    X(integer, pair_hit, OZ_GROUP > 1 ? z.regions * z.inner_capacity : 0, SCRATCH)                 \
-    X(integer, pair_first, OZ_GROUP > 1 ? z.free_slots : 0, LIST)                                  \
-    X(integer, pair_number, OZ_GROUP > 1 ? z.free_slots : 0, LIST)                                 \
-    X(integer, back_number, OZ_GROUP > 1 ? z.free_slots : 0, LIST)                                 \
-    X(integer, back, OZ_GROUP > 1 ? z.free_slots * z.back_capacity : 0, LIST)                      \
+    X(integer, pair_hit, OZ_SCATTER ? 0 : z.regions * z.inner_capacity, SCRATCH)                 \
+    X(integer, pair_first, OZ_SCATTER ? 0 : z.free_slots, LIST)                                  \
+    X(integer, pair_number, OZ_SCATTER ? 0 : z.free_slots, LIST)                                 \
+    X(integer, back_number, OZ_SCATTER ? 0 : z.free_slots, LIST)                                 \
+    X(integer, back, OZ_SCATTER ? 0 : z.free_slots * z.back_capacity, LIST)                      \
     X(integer, beam_a, z.beam_blocks *OZ_LANES, STATE)                                             \
     X(integer, beam_b, z.beam_blocks *OZ_LANES, STATE)                                             \
     X(real, beam_rest, z.beam_blocks *OZ_BEAM_REST, STATE)                                         \
     X(scalar, beam_force, z.beam_blocks *OZ_LANES *OZ_ELEMENT_LOAD, SCRATCH)                       \
-    X(integer, beam_first, OZ_GROUP > 1 ? z.free_slots + 1 : 0, STATE)                             \
-    X(integer, beam_of, OZ_GROUP > 1 ? 2 * z.beam_blocks * OZ_LANES : 0, STATE)                    \
+    X(integer, beam_first, OZ_SCATTER ? 0 : z.free_slots + 1, STATE)                             \
+    X(integer, beam_of, OZ_SCATTER ? 0 : 2 * z.beam_blocks * OZ_LANES, STATE)                    \
     X(ledger, ledger, OZ_LEDGER ? z.regions *OZ_ELEMENT_LEDGER_WORDS : 0, STATE)
 
 /* A beam's words: length at rest, and at either end the angle at rest. */

@@ -20,11 +20,7 @@ typedef struct OzElementParameters {
     scalar deep_warn, deep_stop; /* shares of a triangle inside another, or of a disc's diameter */
     OzBeamConstants beam;
     OzDiscLaw law[OZ_ELEMENT_WALLS_MAX + 1]; /* of discs: with other grains, then with each wall  */
-    scalar outer_least, outer_most; /* m, of one element in the outer list: grows with its speed */
-    scalar outer_time; /* s: for which that shall last at its present speed                */
-    scalar skin_least, skin_most, skin_time; /* the same for the inner list                   */
-    scalar inverse_cell; /* 1/m, cells of the hashed grid                                    */
-    scalar reach_small;  /* m: elements that reach farther are not in the grid, all look at them */
+    OZ_PARAMETERS_LISTS /* elements that reach farther are not in the grid, all look at them */
 } OzElementParameters;
 
 /* Capacities and strides; the same for every member of one launch. */
@@ -33,7 +29,6 @@ typedef struct OzElementSizes {
         int free_slots,
         free_blocks;             /* of the free elements, padding included                        */
     int beam_blocks;             /* of the longest list of beams                                */
-    int cells_x, cells_y, cells; /* powers of two; cell coordinates wrap around                 */
     int walls;
 } OzElementSizes;
 
@@ -52,12 +47,11 @@ enum {
 typedef struct OzElementControl {
     OZ_CONTROL_HEAD
     int free_count, wall_count, beam_count; /* of this member: elements of grains and of walls */
-    int inner_holds, outer_holds;           /* the lists are good for where elements are now           */
 } OzElementControl;
 
 /* Words of a slot's record, what contacts and beams need of an element: corners in the world,
  * centre of mass, velocity, angle, spin; and what never changes: radius (0 for a triangle), inverse
- * mass. */
+ * mass; and the skin in the inner list. */
 enum {
     OZ_PR_CORNER = 0,
     OZ_PR_POSITION = 6,
@@ -66,6 +60,7 @@ enum {
     OZ_PR_ANGULAR_VELOCITY = 11,
     OZ_PR_RADIUS = 12,
     OZ_PR_INVERSE_MASS = 13,
+    OZ_PR_SKIN = 14,
     OZ_ELEMENT_RECORD = 16
 };
 

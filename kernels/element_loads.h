@@ -18,9 +18,9 @@ OZ_INLINE scalar4 oz_element_loads_first(scalar4 result)
     return (scalar4)(-result.x, -result.y, result.z, 0);
 }
 
-#if OZ_GROUP == 1
+#if OZ_SCATTER
 
-OZ_INLINE void oz_element_loads_contacts(OzElementWork *w, global scalar *load)
+OZ_INLINE void oz_element_loads_contacts(OzWork *w, global scalar *load)
 {
     global scalar4 *loads = (global scalar4 *)load;
     global const scalar4 *results = (global const scalar4 *)w->pair_force;
@@ -31,7 +31,7 @@ OZ_INLINE void oz_element_loads_contacts(OzElementWork *w, global scalar *load)
     }
 }
 
-OZ_INLINE void oz_element_loads_beams(OzElementWork *w, global scalar *load)
+OZ_INLINE void oz_element_loads_beams(OzWork *w, global scalar *load)
 {
     global scalar4 *loads = (global scalar4 *)load;
     global const scalar4 *results = (global const scalar4 *)w->beam_force;
@@ -45,43 +45,54 @@ OZ_INLINE void oz_element_loads_beams(OzElementWork *w, global scalar *load)
 #else
 
 /* Contacts in which an element is the second have partners before it, the others after it. */
-OZ_INLINE void oz_element_loads_contacts(OzElementWork *w, global scalar *load)
+OZ_INLINE void oz_element_loads_contacts_of(OzWork *w, global scalar4 *loads, int i)
 {
     global const scalar4 *results = (global const scalar4 *)w->pair_force;
-    OZ_EACH(w, i, w->control->free_count)
-    {
-        global const int *back = w->back + (size_t)i * w->z.back_capacity;
-        scalar4 sum = ((global scalar4 *)load)[i];
-        for (int k = 0; k < w->back_number[i]; k++) {
-            int t = w->pair_hit[back[k]];
-            if (t >= 0) {
-                sum += oz_element_loads_second(results[t]);
-            }
+    global const int *back = w->back + (size_t)i * w->z.back_capacity;
+    scalar4 sum = loads[i];
+    for (int k = 0; k < w->back_number[i]; k++) {
+        int t = w->pair_hit[back[k]];
+        if (t >= 0) {
+            sum += oz_element_loads_second(results[t]);
         }
-        for (int k = 0; k < w->pair_number[i]; k++) {
-            int t = w->pair_hit[w->pair_first[i] + k];
-            if (t >= 0) {
-                sum += oz_element_loads_first(results[t]);
-            }
-        }
-        ((global scalar4 *)load)[i] = sum;
     }
+    for (int k = 0; k < w->pair_number[i]; k++) {
+        int t = w->pair_hit[w->pair_first[i] + k];
+        if (t >= 0) {
+            sum += oz_element_loads_first(results[t]);
+        }
+    }
+    loads[i] = sum;
 }
 
-OZ_INLINE void oz_element_loads_beams(OzElementWork *w, global scalar *load)
+OZ_INLINE void oz_element_loads_beams_of(OzWork *w, global scalar4 *loads, int i)
 {
     global const scalar4 *results = (global const scalar4 *)w->beam_force;
-    OZ_EACH(w, i, w->control->free_count)
-    {
-        scalar4 sum = ((global scalar4 *)load)[i];
-        for (int k = w->beam_first[i]; k < w->beam_first[i + 1]; k++) {
-            int beam = w->beam_of[k];
-            sum += w->beam_a[beam] == i ? oz_element_loads_first(results[beam])
-                                        : oz_element_loads_second(results[beam]);
-        }
-        ((global scalar4 *)load)[i] = sum;
+    scalar4 sum = loads[i];
+    for (int k = w->beam_first[i]; k < w->beam_first[i + 1]; k++) {
+        int beam = w->beam_of[k];
+        sum += w->beam_a[beam] == i ? oz_element_loads_first(results[beam])
+                                    : oz_element_loads_second(results[beam]);
     }
+    loads[i] = sum;
 }
+
+/* A work-item's own elements are those of the blocks that it moves. */
+#define OZ_ELEMENT_LOADS(name)                                                                     \
+    OZ_INLINE void oz_element_loads_##name(OzWork *w, global scalar *load)                         \
+    {                                                                                              \
+        OZ_EACH(w, block, w->z.free_blocks)                                                        \
+        {                                                                                          \
+            for (int i = block * OZ_LANES; i < (block + 1) * OZ_LANES; i++) {                      \
+                if (i < w->control->free_count) {                                                  \
+                    oz_element_loads_##name##_of(w, (global scalar4 *)load, i);                    \
+                }                                                                                  \
+            }                                                                                      \
+        }                                                                                          \
+    }
+
+OZ_ELEMENT_LOADS(contacts)
+OZ_ELEMENT_LOADS(beams)
 
 #endif
 

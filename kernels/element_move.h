@@ -5,9 +5,11 @@
 #ifndef OZ_KERNELS_ELEMENT_MOVE_H
 #define OZ_KERNELS_ELEMENT_MOVE_H
 
-#include "kernels/element_lists.h"
+#include "kernels/element_near.h"
 #include "kernels/gear.h"
 #include "kernels/turn.h"
+
+#include "kernels/lists.h"
 
 OZ_INLINE void oz_element_move_predict_one(real *q)
 {
@@ -37,14 +39,8 @@ OZ_INLINE void oz_element_move_correct_one(real *q, real acceleration, real half
 #endif
 }
 
-/* Where a block's elements are and how they move, from the state's words. */
-typedef struct OzElementBody {
-    OzVec2 position, velocity;
-    real angle, angular_velocity;
-} OzElementBody;
-
 /* Writes a block's records, but for what never changes. */
-OZ_INLINE void oz_element_move_record(OzElementWork *w, int block, OzElementBody body)
+OZ_INLINE void oz_element_move_record(OzWork *w, int block, OzPose body)
 {
     global const real *shape = w->shape + (size_t)block * OZ_ELEMENT_SHAPE;
     global scalar *record = w->record + (size_t)block * OZ_LANES * OZ_ELEMENT_RECORD;
@@ -67,7 +63,7 @@ OZ_INLINE void oz_element_move_record(OzElementWork *w, int block, OzElementBody
 }
 
 /* What never changes: radius and mass. */
-OZ_INLINE void oz_element_move_label(OzElementWork *w, int block)
+OZ_INLINE void oz_element_move_label(OzWork *w, int block)
 {
     global const real *shape = w->shape + (size_t)block * OZ_ELEMENT_SHAPE;
     real words[4] = {shape[OZ_PS_RADIUS], shape[OZ_PS_INVERSE_MASS], REAL(0.0), REAL(0.0)};
@@ -75,74 +71,62 @@ OZ_INLINE void oz_element_move_label(OzElementWork *w, int block)
                     OZ_PR_RADIUS, words);
 }
 
-/* Whether a way and a turn (by its magnitude) at some reach are together more than most, or no
- * numbers. */
-OZ_INLINE mask oz_element_move_beyond(OzVec2 way, real turn, real reach, real most)
+/* Marks the inner list as used up where a block has moved too far for it, to where a step's forces
+ * are wanted. */
+OZ_INLINE void oz_element_move_watch(OzWork *w, int block, OzPose pose, int step)
 {
-    real left = most - reach * turn;
-    return !((left >= REAL(0.0)) & (oz_dot2(way, way) <= left * left));
-}
-
-/* Marks the inner list as used up where a block has moved too far for it. */
-OZ_INLINE void oz_element_move_watch(OzElementWork *w, int block, OzElementBody body)
-{
-    global const real *reference = w->reference_inner + (size_t)block * OZ_ELEMENT_REFERENCE;
-    real reach = w->shape[(size_t)block * OZ_ELEMENT_SHAPE + OZ_PS_REACH];
-    OzVec2 way =
-        oz_vec2(body.position.x - reference[OZ_PF_X], body.position.y - reference[OZ_PF_Y]);
-    real turn = oz_magnitude(body.angle - reference[OZ_PF_ANGLE]);
-    if (OZ_ANY(oz_element_move_beyond(way, turn, reach, reference[OZ_PF_SKIN]))) {
-        w->control->inner_holds = 0;
-    }
+    oz_lists_watch(w, block, pose,
+                   OZ_RESORT ? &w->control->stale_positions : &w->control->stale_step, step);
 }
 
 /* Stops where an element goes too far in one step. way, turn: in this step. */
-OZ_INLINE void oz_element_move_check_stride(OzElementWork *w, int block, OzVec2 way, real turn,
+OZ_INLINE void oz_element_move_check_stride(OzWork *w, int block, OzVec2 way, real turn,
                                             int step)
 {
     global const real *shape = w->shape + (size_t)block * OZ_ELEMENT_SHAPE;
-    mask fast = oz_element_move_beyond(way, oz_magnitude(turn), shape[OZ_PS_REACH],
-                                       shape[OZ_PS_STRIDE_MOST]);
+    mask fast = !oz_near_within(way, oz_magnitude(turn), shape[OZ_PS_REACH],
+                                shape[OZ_PS_STRIDE_MOST]);
     if (OZ_ANY(fast)) {
         int slots[OZ_LANES];
-        oz_element_work_slots(block, slots);
-        oz_element_work_stop_lanes(w, fast, OZ_ELEMENT_STOP_FAST, step, slots);
+        oz_work_slots(block, slots);
+        oz_work_stop_lanes(w, fast, OZ_ELEMENT_STOP_FAST, step, slots);
     }
 }
 
-OZ_INLINE OzElementBody oz_element_move_body(const real *q, real inverse_dt)
+OZ_INLINE OzPose oz_element_move_body(const OzWork *w, int block, const real *q, real inverse_dt)
 {
-    OzElementBody body;
+    OzPose body;
     body.position = oz_vec2(q[0], q[OZ_ORDER]);
     body.angle = q[2 * OZ_ORDER];
     body.velocity = oz_vec2(q[1] * inverse_dt, q[OZ_ORDER + 1] * inverse_dt);
     body.angular_velocity = q[2 * OZ_ORDER + 1] * inverse_dt;
+    body.reach = w->shape[(size_t)block * OZ_ELEMENT_SHAPE + OZ_PS_REACH];
     return body;
 }
 
 /* A block to the end of a step, as far as its derivatives tell: its state's words, and its records.
  */
-OZ_INLINE void oz_element_move_ahead(OzElementWork *w, int block, real *q, real inverse_dt,
+OZ_INLINE void oz_element_move_ahead(OzWork *w, int block, real *q, real inverse_dt,
                                      int step)
 {
     for (int c = 0; c < 3; c++) {
         oz_element_move_predict_one(q + c * OZ_ORDER);
     }
-    OzElementBody body = oz_element_move_body(q, inverse_dt);
+    OzPose body = oz_element_move_body(w, block, q, inverse_dt);
     oz_element_move_check_stride(w, block, oz_vec2(q[1], q[OZ_ORDER + 1]), q[2 * OZ_ORDER + 1],
                                  step);
     oz_element_move_record(w, block, body);
-    oz_element_move_watch(w, block, body);
+    oz_element_move_watch(w, block, body, step);
 }
 
-OZ_INLINE void oz_element_move_load(const OzElementWork *w, int block, real *q)
+OZ_INLINE void oz_element_move_load(const OzWork *w, int block, real *q)
 {
     for (int k = 0; k < OZ_ELEMENT_STATE; k++) {
         q[k] = w->state[(size_t)block * OZ_ELEMENT_STATE + k];
     }
 }
 
-OZ_INLINE void oz_element_move_store(OzElementWork *w, int block, const real *q)
+OZ_INLINE void oz_element_move_store(OzWork *w, int block, const real *q)
 {
     for (int k = 0; k < OZ_ELEMENT_STATE; k++) {
         w->state[(size_t)block * OZ_ELEMENT_STATE + k] = q[k];
@@ -150,7 +134,7 @@ OZ_INLINE void oz_element_move_store(OzElementWork *w, int block, const real *q)
 }
 
 /* Free elements to the end of a step; walls are moved apart. */
-OZ_INLINE void oz_element_move_predict(OzElementWork *w, int step)
+OZ_INLINE void oz_element_move_predict(OzWork *w, int step)
 {
     real inverse_dt = REAL(1.0) / REAL(w->parameters->dt);
     OZ_EACH(w, block, w->z.free_blocks)
@@ -163,7 +147,7 @@ OZ_INLINE void oz_element_move_predict(OzElementWork *w, int step)
 }
 
 /* One word of the walls' motion at a step, for each lane's wall. */
-OZ_INLINE real oz_element_move_wall_word(const OzElementWork *w, int block, int step, int word)
+OZ_INLINE real oz_element_move_wall_word(const OzWork *w, int block, int step, int word)
 {
     scalar value[OZ_LANES];
     for (int l = 0; l < OZ_LANES; l++) {
@@ -175,7 +159,7 @@ OZ_INLINE real oz_element_move_wall_word(const OzElementWork *w, int block, int 
 
 /* A wall's elements where its motion has them: turned about its point, then up. The state holds
  * them untouched. */
-OZ_INLINE OzElementBody oz_element_move_carried(const OzElementWork *w, int block, int step)
+OZ_INLINE OzPose oz_element_move_carried(const OzWork *w, int block, int step)
 {
     global const real *state = w->state + (size_t)block * OZ_ELEMENT_STATE;
     OzVec2 point = oz_vec2(oz_element_move_wall_word(w, block, step, OZ_PM_POINT),
@@ -183,7 +167,7 @@ OZ_INLINE OzElementBody oz_element_move_carried(const OzElementWork *w, int bloc
     OzVec2 turn = oz_vec2(oz_element_move_wall_word(w, block, step, OZ_PM_COS),
                           oz_element_move_wall_word(w, block, step, OZ_PM_SIN));
     OzVec2 arm = oz_minus2(oz_vec2(state[0], state[OZ_ORDER]), point);
-    OzElementBody body;
+    OzPose body;
     arm = oz_vec2(turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y);
     body.position = oz_add2(point, arm);
     body.position.y += oz_element_move_wall_word(w, block, step, OZ_PM_OFFSET);
@@ -191,18 +175,19 @@ OZ_INLINE OzElementBody oz_element_move_carried(const OzElementWork *w, int bloc
     body.velocity = oz_scale2(oz_left2(arm), body.angular_velocity);
     body.velocity.y += oz_element_move_wall_word(w, block, step, OZ_PM_VELOCITY);
     body.angle = state[2 * OZ_ORDER] + oz_element_move_wall_word(w, block, step, OZ_PM_ANGLE);
+    body.reach = w->shape[(size_t)block * OZ_ELEMENT_SHAPE + OZ_PS_REACH];
     return body;
 }
 
-/* Walls' elements to where they are at a step of the launch. */
-OZ_INLINE void oz_element_move_walls(OzElementWork *w, int step)
+/* Walls' elements to where they are at a step of the launch, the end of the one before. */
+OZ_INLINE void oz_element_move_walls(OzWork *w, int step)
 {
     OZ_EACH(w, k, w->z.blocks - w->z.free_blocks)
     {
         int block = w->z.free_blocks + k;
-        OzElementBody body = oz_element_move_carried(w, block, step);
+        OzPose body = oz_element_move_carried(w, block, step);
         oz_element_move_record(w, block, body);
-        oz_element_move_watch(w, block, body);
+        oz_element_move_watch(w, block, body, step - 1);
     }
 }
 
@@ -217,30 +202,30 @@ OZ_INLINE mask oz_element_move_is_number(const real *q)
 }
 
 /* Stops where a block's state is no number or far away. */
-OZ_INLINE void oz_element_move_check(OzElementWork *w, int block, const real *q, int step)
+OZ_INLINE void oz_element_move_check(OzWork *w, int block, const real *q, int step)
 {
-    global const OzElementParameters *p = w->parameters;
+    global const OzParameters *p = w->parameters;
     real x = oz_magnitude(q[0] - REAL(p->middle[0]));
     real y = oz_magnitude(q[OZ_ORDER] - REAL(p->middle[1]));
     mask number = oz_element_move_is_number(q);
     mask lost = !((x < REAL(p->domain)) & (y < REAL(p->domain)) & number);
     if (OZ_ANY(lost)) {
         int slots[OZ_LANES];
-        oz_element_work_slots(block, slots);
-        oz_element_work_stop_lanes(w, lost & number, OZ_ELEMENT_STOP_ESCAPED, step, slots);
-        oz_element_work_stop_lanes(w, !number, OZ_ELEMENT_STOP_NAN, step, slots);
+        oz_work_slots(block, slots);
+        oz_work_stop_lanes(w, lost & number, OZ_ELEMENT_STOP_ESCAPED, step, slots);
+        oz_work_stop_lanes(w, !number, OZ_ELEMENT_STOP_NAN, step, slots);
     }
 }
 
 /* Corrects a block's prediction by what its forces really are, which are used up. */
-OZ_INLINE void oz_element_move_back(OzElementWork *w, int block, real *q, int step)
+OZ_INLINE void oz_element_move_back(OzWork *w, int block, real *q, int step)
 {
-    global const OzElementParameters *p = w->parameters;
+    global const OzParameters *p = w->parameters;
     global const real *shape = w->shape + (size_t)block * OZ_ELEMENT_SHAPE;
     real half_step2 = REAL((scalar)0.5 * p->dt * p->dt), drag = REAL(p->drag / p->dt);
     int slots[OZ_LANES];
     real load[4];
-    oz_element_work_slots(block, slots);
+    oz_work_slots(block, slots);
     oz_lanes_load4(w->load, slots, OZ_ELEMENT_LOAD, 0, load);
     for (int k = 0; k < OZ_ELEMENT_LOAD; k++) {
         ((global real *)w->load)[(size_t)block * OZ_ELEMENT_LOAD + k] = REAL(0.0);
@@ -258,7 +243,7 @@ OZ_INLINE void oz_element_move_back(OzElementWork *w, int block, real *q, int st
 
 /* Ends a step and, where another follows, begins it, in one pass over the elements: state and
  * records are read once. */
-OZ_INLINE void oz_element_move_correct(OzElementWork *w, int step, int goes_on)
+OZ_INLINE void oz_element_move_correct(OzWork *w, int step, int goes_on)
 {
     real inverse_dt = REAL(1.0) / REAL(w->parameters->dt);
     OZ_EACH(w, block, w->z.free_blocks)

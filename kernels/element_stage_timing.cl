@@ -3,22 +3,22 @@
 #include "kernels/trigrains.cl"
 
 #define OZ_REPEAT(name, ...)                                                                       \
-    OZ_ELEMENT_KERNEL void oz_repeat_##name(OZ_ELEMENT_ARGUMENTS, int repeats)                     \
+    OZ_ADVANCE_KERNEL oz_repeat_##name(OZ_WORK_ARGUMENTS, int repeats)                     \
     {                                                                                              \
-        OZ_ELEMENT_OPEN(0)                                                                         \
+        OZ_WORK_OPEN(0)                                                                         \
         OzElementSums sums;                                                                        \
         oz_element_sums_clear(&sums);                                                              \
         for (int k = 0; k < repeats; k++) {                                                        \
             __VA_ARGS__;                                                                           \
-            OZ_ELEMENT_BARRIER();                                                                  \
+            OZ_WORK_BARRIER();                                                                  \
         }                                                                                          \
     }
 
 OZ_REPEAT(correct, oz_element_move_correct(&w, 0, 0))
 OZ_REPEAT(predict_correct, oz_element_move_correct(&w, 0, 1))
-OZ_REPEAT(classify, OZ_EACH(&w, region, w.z.regions) oz_element_contacts_classify(&w, region))
-OZ_REPEAT(contacts, OZ_EACH(&w, region, w.z.regions) oz_element_contacts_push(&w, region, 0, &sums))
+OZ_REPEAT(classify, OZ_EACH_REGION(&w) oz_element_contacts_classify(&w, region))
+OZ_REPEAT(contacts, OZ_EACH_REGION(&w) oz_element_contacts_push(&w, region, 0, &sums))
 OZ_REPEAT(beams, oz_element_beams_pull(&w, 0, &sums))
 OZ_REPEAT(loads, oz_element_loads_contacts(&w, w.load); oz_element_loads_beams(&w, w.load))
-OZ_REPEAT(refresh, oz_element_lists_measure(&w); OZ_ELEMENT_BARRIER(); refresh(&w))
-OZ_REPEAT(rebuild, oz_element_lists_measure(&w); OZ_ELEMENT_BARRIER(); rebuild(&w); refresh(&w))
+OZ_REPEAT(refresh, oz_lists_measure(&w); OZ_WORK_BARRIER(); refresh(&w))
+OZ_REPEAT(rebuild, oz_lists_measure(&w); OZ_WORK_BARRIER(); rebuild(&w); refresh(&w))

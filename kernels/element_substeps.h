@@ -16,14 +16,14 @@ typedef struct OzElementKick {
     real x, y, turn;
 } OzElementKick;
 
-OZ_INLINE OzElementKick oz_element_substeps_kick(const OzElementWork *w, global const scalar *loads,
+OZ_INLINE OzElementKick oz_element_substeps_kick(const OzWork *w, global const scalar *loads,
                                                  int block)
 {
     global const real *shape = w->shape + (size_t)block * OZ_ELEMENT_SHAPE;
     scalar dt = w->parameters->dt;
     real half_step2 = REAL((scalar)0.5 * dt * dt), load[4];
     int slots[OZ_LANES];
-    oz_element_work_slots(block, slots);
+    oz_work_slots(block, slots);
     oz_lanes_load4(loads, slots, OZ_ELEMENT_LOAD, 0, load);
     OzElementKick kick = {load[0] * shape[OZ_PS_INVERSE_MASS] * half_step2,
                           load[1] * shape[OZ_PS_INVERSE_MASS] * half_step2,
@@ -47,7 +47,7 @@ OZ_INLINE void oz_element_substeps_push(real *q, OzElementKick kick)
 
 /* A block to the end of a part, with the velocities that its acceleration predicts in its records.
  */
-OZ_INLINE void oz_element_substeps_drift(OzElementWork *w, int block, real *q, real inverse_dt)
+OZ_INLINE void oz_element_substeps_drift(OzWork *w, int block, real *q, real inverse_dt)
 {
     real ahead[OZ_ELEMENT_STATE];
     for (int c = 0; c < 3; c++) {
@@ -56,14 +56,14 @@ OZ_INLINE void oz_element_substeps_drift(OzElementWork *w, int block, real *q, r
         next[0] = own[0];
         next[1] = own[1] + own[2] * REAL(2 * OZ_PART);
     }
-    oz_element_move_record(w, block, oz_element_move_body(ahead, inverse_dt));
+    oz_element_move_record(w, block, oz_element_move_body(w, block, ahead, inverse_dt));
 }
 
 /* Takes what beams and gravity do now as the acceleration; velocities to the end of a part by the
  * mean of those at its ends, or (share 0) left alone. */
-OZ_INLINE void oz_element_substeps_turn(OzElementWork *w, int block, real *q, scalar share)
+OZ_INLINE void oz_element_substeps_turn(OzWork *w, int block, real *q, scalar share)
 {
-    global const OzElementParameters *p = w->parameters;
+    global const OzParameters *p = w->parameters;
     OzElementKick kick = oz_element_substeps_kick(w, w->load, block);
     real lightness = w->shape[(size_t)block * OZ_ELEMENT_SHAPE + OZ_PS_INVERSE_MASS];
     real weight = lightness > REAL(0.0) ? REAL((scalar)0.5 * p->dt * p->dt) : REAL(0.0);
@@ -81,7 +81,7 @@ OZ_INLINE void oz_element_substeps_turn(OzElementWork *w, int block, real *q, sc
 }
 
 /* What contacts shall see: the velocities that their old forces predict. */
-OZ_INLINE void oz_element_substeps_show(OzElementWork *w, int block, const real *q, real inverse_dt,
+OZ_INLINE void oz_element_substeps_show(OzWork *w, int block, const real *q, real inverse_dt,
                                         int step)
 {
     real ahead[OZ_ELEMENT_STATE];
@@ -90,38 +90,38 @@ OZ_INLINE void oz_element_substeps_show(OzElementWork *w, int block, const real 
     }
     oz_element_substeps_push(ahead, oz_element_substeps_kick(w, w->slow_load, block));
     oz_element_substeps_clear(w->slow_load, block);
-    OzElementBody body = oz_element_move_body(ahead, inverse_dt);
+    OzPose body = oz_element_move_body(w, block, ahead, inverse_dt);
     oz_element_move_check_stride(w, block, oz_vec2(q[1], q[OZ_ORDER + 1]), q[2 * OZ_ORDER + 1],
                                  step);
     oz_element_move_record(w, block, body);
-    oz_element_move_watch(w, block, body);
+    oz_element_move_watch(w, block, body, step);
 }
 
 /* Forces of beams, added up; their losses count for a share of the step. */
-OZ_INLINE void oz_element_substeps_hold(OzElementWork *w, int step, scalar share)
+OZ_INLINE void oz_element_substeps_hold(OzWork *w, int step, scalar share)
 {
     OzElementSums sums;
     oz_element_sums_clear(&sums);
-    OZ_ELEMENT_BARRIER();
+    OZ_WORK_BARRIER();
     oz_element_beams_pull(w, step, &sums);
 #if OZ_LEDGER
     oz_element_sums_add_part(w, &sums, share);
 #endif
-    OZ_ELEMENT_BARRIER();
+    OZ_WORK_BARRIER();
     oz_element_loads_beams(w, w->load);
-    OZ_ELEMENT_BARRIER();
+    OZ_WORK_BARRIER();
 }
 
 /* What becomes of a block at a stage: 0 the contacts' kick, seen by beams at once; then the parts'
  * drifts, each after the turn that ends the part before; last what contacts see. */
-OZ_INLINE void oz_element_substeps_stage(OzElementWork *w, int block, int stage, int step)
+OZ_INLINE void oz_element_substeps_stage(OzWork *w, int block, int stage, int step)
 {
     real inverse_dt = REAL(1.0) / REAL(w->parameters->dt);
     real q[OZ_ELEMENT_STATE];
     oz_element_move_load(w, block, q);
     if (stage == 0) {
         oz_element_substeps_push(q, oz_element_substeps_kick(w, w->slow_load, block));
-        oz_element_move_record(w, block, oz_element_move_body(q, inverse_dt));
+        oz_element_move_record(w, block, oz_element_move_body(w, block, q, inverse_dt));
     } else {
         oz_element_substeps_turn(w, block, q, stage == 1 ? 0 : OZ_PART);
     }
@@ -134,7 +134,7 @@ OZ_INLINE void oz_element_substeps_stage(OzElementWork *w, int block, int stage,
 }
 
 /* All of a step but contacts at its end. */
-OZ_INLINE void oz_element_substeps_run(OzElementWork *w, int step)
+OZ_INLINE void oz_element_substeps_run(OzWork *w, int step)
 {
     for (int stage = 0; stage <= OZ_SUBSTEPS + 1; stage++) {
         OZ_EACH(w, block, w->z.free_blocks)
@@ -148,7 +148,7 @@ OZ_INLINE void oz_element_substeps_run(OzElementWork *w, int step)
 }
 
 /* The second half of the contacts' kick. */
-OZ_INLINE void oz_element_substeps_end(OzElementWork *w, int step)
+OZ_INLINE void oz_element_substeps_end(OzWork *w, int step)
 {
     OZ_EACH(w, block, w->z.free_blocks)
     {

@@ -31,11 +31,11 @@ OZ_INLINE double oz_element_sums_of(const OzElementSums *sums, int word)
 }
 
 /* Adds a step's work to the work-item's own row: the mean of the powers at its ends. */
-OZ_INLINE void oz_element_sums_add(OzElementWork *w, const OzElementSums *sums)
+OZ_INLINE void oz_element_sums_add(OzWork *w, const OzElementSums *sums)
 {
     global double *row = w->ledger + w->item * OZ_ELEMENT_LEDGER_WORDS,
                   *last = row + OZ_ELEMENT_LEDGER;
-    for (int k = 0; k < OZ_ELEMENT_LEDGER; k++) {
+    for (int k = 0; w->item < w->z.regions && k < OZ_ELEMENT_LEDGER; k++) {
         double sum = oz_element_sums_of(sums, k);
         row[k] += 0.5 * w->parameters->dt * (last[k] + sum);
         last[k] = sum;
@@ -43,7 +43,7 @@ OZ_INLINE void oz_element_sums_add(OzElementWork *w, const OzElementSums *sums)
 }
 
 /* Adds the work of a part of a step, at the power of its end. */
-OZ_INLINE void oz_element_sums_add_part(OzElementWork *w, const OzElementSums *sums, scalar part)
+OZ_INLINE void oz_element_sums_add_part(OzWork *w, const OzElementSums *sums, scalar part)
 {
     global double *row = w->ledger + w->item * OZ_ELEMENT_LEDGER_WORDS;
     for (int k = 0; k < OZ_ELEMENT_LEDGER; k++) {

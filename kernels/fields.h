@@ -4,7 +4,7 @@
  * is the OzSizes. Kinds: parameters, control, scalar, real (one scalar per lane), spot (one
  * coordinate of a place), integer, ledger (double). Classes: STATE, what the next step depends on;
  * SPRING, the tangential memory of contacts; LIST, neighbour lists that are made again from these
- * two; SCRATCH, written before it is read by the host at each launch or by each step. Springs of
+ * two, ROWS those of each region's pairs, which outlive larger capacities; SCRATCH, written before it is read by the host at each launch or by each step. Springs of
  * pairs outlive the lists in the saved_ arrays alone, where oz_save_springs puts them (springs.h);
  * others are LIST. */
 #ifndef OZ_KERNELS_FIELDS_H
@@ -16,9 +16,6 @@
  * for them (see ledger.h). */
 enum { OZ_L_DISSIPATED, OZ_L_SPRING, OZ_L_WALLS, OZ_LEDGER_WORDS };
 enum { OZ_CONTACT_LEDGER = 15 };
-
-/* One work-item does a member: it adds a pair's force to both grains at once. */
-#define OZ_SCATTER ((OZ_GROUP) == 1 && !(OZ_RESORT))
 
 /* A slot's words in the spare array, where a re-sort puts grains in their new order. */
 #define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + 1)
@@ -44,13 +41,13 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(scalar, sorted_reach, OZ_EQUAL ? 0 : z.slots + OZ_LANES, LIST)                               \
     X(integer, sorted_slot, z.slots + OZ_LANES, LIST)                                              \
     X(integer, sorted_id, z.slots + OZ_LANES, LIST)                                                \
-    X(scalar, sorted_skin, z.slots + OZ_LANES, LIST)                                               \
-    X(integer, outer_a, z.regions *z.outer_capacity, LIST)                                         \
-    X(integer, outer_b, z.regions *z.outer_capacity, LIST)                                         \
-    X(scalar, outer_history, OZ_HISTORY ? z.regions *z.outer_capacity * 3 : 0, LIST)               \
+    X(scalar, sorted_far, z.slots + OZ_LANES, LIST)                                                \
+    X(integer, outer_a, z.regions *z.outer_capacity, ROWS)                                         \
+    X(integer, outer_b, z.regions *z.outer_capacity, ROWS)                                         \
+    X(scalar, outer_history, OZ_HISTORY ? z.regions *z.outer_capacity * 3 : 0, ROWS)               \
     X(integer, outer_count, z.regions, LIST)                                                       \
-    X(integer, outer_first, z.slots, LIST)                                                         \
-    X(integer, outer_number, z.slots, LIST)                                                        \
+    X(integer, outer_first, OZ_HISTORY ? z.slots : 0, LIST)                                        \
+    X(integer, outer_number, OZ_HISTORY ? z.slots : 0, LIST)                                       \
     X(integer, pair_a, z.regions *z.inner_capacity, LIST)                                          \
     X(integer, pair_b, z.regions *z.inner_capacity, LIST)                                          \
     X(integer, pair_outer, OZ_HISTORY ? z.regions *z.inner_capacity : 0, LIST)                     \

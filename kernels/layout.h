@@ -28,12 +28,7 @@ typedef struct OzParameters {
     scalar gravity[3];   /* m/s^2                                                            */
     scalar deep_look, deep_warn, deep_stop; /* depths (depth.h) looked at, counted, stopped at */
     OzLawConstants law; /* between grains                                                   */
-    scalar outer_least, outer_most; /* m, of one grain in the outer list: grows with its speed */
-    scalar outer_time; /* s: for which that shall last at its present speed                */
-    scalar skin_least, skin_most; /* m, of one grain: its skin grows with its speed           */
-    scalar skin_time;    /* s: for which a grain's skin shall last at its present speed      */
-    scalar inverse_cell; /* 1/m, cells of the hashed grid                                    */
-    scalar reach_max;    /* m, largest half-length + radius                                  */
+    OZ_PARAMETERS_LISTS
     scalar radius_count; /* units: the radius in a place's units                             */
     scalar radius, half_length, mass; /* of every grain of an equal population                */
     scalar inverse_mass, inverse_inertia, inverse_inertia_axis;
@@ -43,28 +38,15 @@ typedef struct OzParameters {
 /* Sizes and strides; the same for every member of one launch. */
 typedef struct OzSizes {
     OZ_SIZES_HEAD
-    int count;          /* grains                                                             */
-    int axis[3];        /* of space, in the grid's order: cells along the first follow each other */
-    int cells_along[3]; /* those axes; powers of two: cell coordinates wrap around            */
-    int cells;
+    int count; /* grains */
 } OzSizes;
 
 /* Reasons to stop, as bits. */
 enum { OZ_STOP_NAN = 1, OZ_STOP_ESCAPED = 2, OZ_STOP_DEEP = 4, OZ_STOP_FAST = 8, OZ_STOP_MET = 16 };
 
-/* Where the tangential springs of touching pairs are kept. A rebuild moves them inner -> outer ->
- * saved -> outer -> inner and can be stopped and repeated with larger lists after any of these. */
-enum { OZ_SPRINGS_AT_NONE, OZ_SPRINGS_AT_SAVED, OZ_SPRINGS_AT_OUTER, OZ_SPRINGS_AT_INNER };
-
 /* The device's own words, one set a member. */
 typedef struct OzControl {
     OZ_CONTROL_HEAD
-    int stale_step; /* the step after which lists no longer hold; OZ_NEVER                    */
-    int stale_positions; /* the step whose places, moved before its forces, the lists do not hold;
-                         OZ_NEVER. Large scenes with an integrator that moves first only: others
-                         renew them in time */
-    int truth;       /* where the tangential springs are now: OZ_TRUTH_...                      */
-    int outer_stale; /* the outer list no longer covers the inner skin                         */
 } OzControl;
 
 /* Words of a record: what a contact needs of a grain, one record a slot, OZ_RECORD scalars. */

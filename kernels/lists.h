@@ -1,39 +1,39 @@
-/* Neighbour lists. The outer list holds every pair whose gap was below the sum of both grains'
+/* Neighbour lists. The outer list holds every pair whose gap was below the sum of both bodies'
  * outer skins when it was made from the hashed grid. The inner list, which the forces walk, holds
- * those of them whose gap was below the sum of both grains' inner skins when it was made. A grain's
- * skins grow with its speed, so that slow and fast ones use theirs up at about the same time. The
- * inner list is made anew from the outer one as long as that covers every grain's motion and skin.
- * A list too small raises control->full with the sizes needed and leaves the springs where
- * control->truth says, so that the host can enlarge it and repeat: no pair is dropped. A pair's
- * first grain is the one with the longer reach (half-length + radius), then the lower id. OpenCL C
- * only. */
+ * those of them whose gap was below the sum of both inner skins when it was made. A body's skins
+ * grow with its speed, so that slow and fast ones use theirs up at about the same time. The inner
+ * list is made anew from the outer one as long as that covers every body's motion and skin. A list
+ * too small raises control->full with the sizes needed and leaves the springs where control->truth
+ * says, so that the host can enlarge it and repeat: no pair is dropped. Both lists are ordered by
+ * first slot, then by the second's id: whatever the skins, touching pairs come in the same order.
+ * OpenCL C only. */
 #ifndef OZ_KERNELS_LISTS_H
 #define OZ_KERNELS_LISTS_H
 
 #include "kernels/cells.h"
-#include "kernels/grains.h"
 #include "kernels/springs.h"
 
-OZ_INLINE void oz_lists_full(OzWork *w)
+OZ_INLINE void oz_lists_full(OzWork *w, volatile global int *needed, int count)
 {
     atomic_or(&w->control->full, 1);
+    atomic_max(needed, count);
 }
 
-/* The search of one grain's partners: candidates by centre distance are collected, then tested by
- * the gap of the capsules, a block of lanes at a time. */
+/* The search of one body's partners: candidates by centre distance are collected, then tested by
+ * the gap, a block of lanes at a time. */
 enum { OZ_CANDIDATES = 256 };
 
 typedef struct OzSearch {
-    int slot, id;                          /* of the grain                                  */
-    fixed_position_kind fixed_position[3]; /* its place                                     */
-    OzGrain grain;                         /* its geometry, the same in every lane          */
-    scalar reach;                          /* m, half-length + radius                       */
-    scalar skin;                           /* m, in the outer list                          */
-    scalar far;                            /* m, centre distance of the farthest partner    */
-    int out;                               /* where its next pair goes in the outer list    */
-    int limit;                             /* end of the region's outer list                */
-    int wanted;                            /* pairs found in this region, stored or not     */
-    int count;                             /* candidates                                    */
+    int slot;            /* of the body                                           */
+    place_kind place[3]; /* its place                                             */
+    OzNear body;         /* its geometry, the same in every lane                  */
+    scalar skin;         /* m, in the outer list                                  */
+    scalar reach;        /* m, its own and its skin                               */
+    scalar far;          /* m, centre distance of the farthest partner in a cell  */
+    int out;             /* where its next pair goes in the outer list            */
+    int limit;           /* end of the region's outer list                        */
+    int wanted;          /* pairs found in this region, stored or not             */
+    int count;           /* candidates                                            */
     int candidate[OZ_CANDIDATES + 2 * OZ_LANES];
 } OzSearch;
 
@@ -45,13 +45,13 @@ OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
     }
     for (int first = 0; first < s->count; first += OZ_LANES) {
         int active[OZ_LANES];
-        OzGrain other = oz_work_geometry(w, s->candidate + first);
-        real radii, distance2 = oz_pairs_distance2(w, s->grain, other, &radii);
-        real near = radii + REAL(s->skin) +
-                    oz_lanes_fetch(w->reference_outer, s->candidate + first, OZ_REFERENCE,
-                                   OZ_REFERENCE_SKIN);
-        mask hits = (distance2 < near * near) & oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
-        int count = oz_lanes_compact(active, OZ_LANES_LOAD(s->candidate + first), hits);
+        const int *slots = s->candidate + first;
+        OzNear other = oz_near_load(w, slots);
+        real margin = REAL(s->skin) +
+                      oz_lanes_fetch(w->reference_outer, slots, OZ_REFERENCE, OZ_REFERENCE_SKIN);
+        mask hits = oz_near_pairs(w, &s->body, &other, margin) &
+                    oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
+        int count = oz_lanes_compact(active, OZ_LANES_LOAD(slots), hits);
         s->wanted += count;
         for (int l = 0; l < count && s->out < s->limit; l++) {
             w->outer_a[s->out] = s->slot;
@@ -61,33 +61,25 @@ OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
     s->count = 0;
 }
 
-/* Candidates among the sorted grains first ... last. */
+/* Candidates among the sorted bodies first ... last. */
 OZ_INLINE void oz_lists_sweep(OzWork *w, OzSearch *s, int first, int last)
 {
-    scalar unit = w->parameters->length_unit;
+    scalar unit = OZ_NEAR_UNIT(w);
     for (int k = first; k < last; k += OZ_LANES) {
-        OzFixedPosition apart;
-        apart.x = OZ_LANES_LOAD(w->sorted_x + k) - s->fixed_position[0];
-        apart.y = OZ_LANES_LOAD(w->sorted_y + k) - s->fixed_position[1];
-        apart.z = OZ_LANES_LOAD(w->sorted_z + k) - s->fixed_position[2];
-        OzVec3 d = oz_vec3(oz_fixed_position_to_real(apart.x) * unit,
-                           oz_fixed_position_to_real(apart.y) * unit,
-                           oz_fixed_position_to_real(apart.z) * unit);
-        mask mine = oz_lanes_mask_of((OZ_LANES_LOAD(w->sorted_id + k) > s->id) &
-                                     (OZ_LANES_IOTA + k < last));
-        real skins = OZ_LANES_LOAD(w->sorted_skin + k) + REAL(s->skin);
-        real far = REAL(2 * s->reach) + skins;
-        if (!OZ_EQUAL) {
-            real reach = OZ_LANES_LOAD(w->sorted_reach + k), own = REAL(s->reach);
-            mask here = oz_lanes_mask_of(OZ_LANES_IOTA + k < last);
-            mine = ((reach < own) & here) | ((reach == own) & mine);
-            far = reach + REAL(s->reach) + skins;
-        }
+        real x = OZ_NEAR_REAL(OZ_LANES_LOAD(w->sorted_x + k) - s->place[0]) * unit;
+        real y = OZ_NEAR_REAL(OZ_LANES_LOAD(w->sorted_y + k) - s->place[1]) * unit;
+        real distance2 = x * x + y * y;
+#if OZ_DIMENSIONS == 3
+        real z = OZ_NEAR_REAL(OZ_LANES_LOAD(w->sorted_z + k) - s->place[2]) * unit;
+        distance2 += z * z;
+#endif
+        real far = OZ_LANES_LOAD(w->sorted_far + k) + REAL(s->reach);
+        mask seconds = oz_near_seconds(w, k, s->slot) & oz_lanes_mask_of(OZ_LANES_IOTA + k < last);
         if (s->count > OZ_CANDIDATES) {
             oz_lists_flush(w, s);
         }
         s->count += oz_lanes_compact(s->candidate + s->count, OZ_LANES_LOAD(w->sorted_slot + k),
-                                     (oz_dot(d, d) < far * far) & mine);
+                                     (distance2 < far * far) & seconds);
     }
 }
 
@@ -99,8 +91,8 @@ OZ_INLINE void oz_lists_sort(OzWork *w, int first, int last)
     for (int gap = count > 64 ? count / 3 + 1 : 1; gap > 0;
          gap = gap > 1 ? gap / 3 + (gap == 2) : 0) {
         for (int i = first + gap; i < last; i++) {
-            int kept = w->outer_b[i], key = w->id[kept], to = i;
-            while (to - gap >= first && w->id[w->outer_b[to - gap]] > key) {
+            int kept = w->outer_b[i], key = OZ_WORK_ID(w, kept), to = i;
+            while (to - gap >= first && OZ_WORK_ID(w, w->outer_b[to - gap]) > key) {
                 w->outer_b[to] = w->outer_b[to - gap];
                 to -= gap;
             }
@@ -132,19 +124,17 @@ OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar at, scalar o
     }
 }
 
-OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
+/* Candidates in the cells around. */
+OZ_INLINE void oz_lists_cells(OzWork *w, OzSearch *s)
 {
-#if OZ_ALL_PAIRS
-    oz_lists_sweep(w, s, 0, w->z.count);
-#else
     global const OzParameters *p = w->parameters;
     scalar cell = 1 / p->inverse_cell, position[3];
     for (int k = 0; k < 3; k++) {
-        position[k] = (scalar)s->fixed_position[w->z.axis[k]] * p->length_unit;
+        position[k] = (scalar)s->place[w->z.axis[k]] * OZ_NEAR_UNIT(w);
     }
     scalar second = position[1] * p->inverse_cell, third = position[2] * p->inverse_cell;
     int at_second = (int)floor(second), at_third = (int)floor(third);
-    for (int d3 = -1; d3 <= 1; d3++) {
+    for (int d3 = 2 - OZ_DIMENSIONS; d3 <= OZ_DIMENSIONS - 2; d3++) {
         scalar off3 = oz_lists_off(d3, third - at_third, cell);
         for (int d2 = -1; d2 <= 1; d2++) {
             scalar off = oz_lists_off(d2, second - at_second, cell), off2 = off3 * off3 + off * off;
@@ -154,36 +144,53 @@ OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
             }
         }
     }
+}
+
+/* Candidates of a body: of a small one those in the cells around and the large ones, of a large one
+ * all. */
+OZ_INLINE void oz_lists_around(OzWork *w, OzSearch *s)
+{
+    if (OZ_ALL_PAIRS || OZ_NEAR_IS_LARGE(w, s->slot)) {
+        oz_lists_sweep(w, s, 0, w->cell_first[w->z.cells + 1]);
+        return;
+    }
+    oz_lists_cells(w, s);
+    oz_lists_sweep(w, s, w->cell_first[w->z.cells], w->cell_first[w->z.cells + 1]);
+}
+
+/* The pairs of which the body in a slot is the first, sorted by the second's id. */
+OZ_INLINE void oz_lists_search_one(OzWork *w, OzSearch *s, int slot)
+{
+    int own[OZ_LANES], first = s->out;
+    for (int l = 0; l < OZ_LANES; l++) {
+        own[l] = slot;
+    }
+    s->slot = slot;
+    s->skin = oz_cells_skin(w, slot);
+    s->reach = oz_near_reach(w, slot) + s->skin;
+    s->far = s->reach + w->parameters->reach_max + w->parameters->outer_most;
+    s->count = 0;
+    s->body = oz_near_load(w, own);
+    oz_near_place(w, slot, s->place);
+    oz_lists_around(w, s);
+    oz_lists_flush(w, s);
+    oz_lists_sort(w, first, s->out);
+#if OZ_HISTORY
+    w->outer_first[slot] = first;
+    w->outer_number[slot] = s->out - first;
 #endif
 }
 
-/* The outer list of the region's grains, sorted by first slot, then by second id. */
+/* The outer list of a region's bodies. */
 OZ_INLINE void oz_lists_search(OzWork *w, int region)
 {
     OzSearch s;
-    s.out = region * w->z.outer_capacity;
-    s.limit = s.out + w->z.outer_capacity;
+    int begin = region * w->z.outer_capacity;
+    s.out = begin;
+    s.limit = begin + w->z.outer_capacity;
     s.wanted = 0;
-    int begin = s.out;
     for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
-        s.slot = i;
-        s.id = w->id[i];
-        s.reach = oz_cells_reach(w, i);
-        s.skin = ((global const scalar *)w->reference_outer)[oz_cells_skin_index(i)];
-        s.far = s.reach + w->parameters->reach_max + s.skin + w->parameters->outer_most;
-        s.count = 0;
-        int own[OZ_LANES];
-        for (int l = 0; l < OZ_LANES; l++) {
-            own[l] = i;
-        }
-        s.grain = oz_work_geometry(w, own);
-        oz_cells_fixed_position(w, i, s.fixed_position);
-        int first = s.out;
-        oz_lists_around(w, &s);
-        oz_lists_flush(w, &s);
-        oz_lists_sort(w, first, s.out);
-        w->outer_first[i] = first;
-        w->outer_number[i] = s.out - first;
+        oz_lists_search_one(w, &s, i);
     }
     w->outer_count[region] = s.out - begin;
     for (int o = s.out; o < s.limit && (o - begin) % OZ_LANES != 0; o++) {
@@ -191,68 +198,68 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
         w->outer_b[o] = 0;
     }
     if (s.wanted > w->z.outer_capacity) {
-        oz_lists_full(w);
-        atomic_max(&w->control->outer_needed, s.wanted);
+        oz_lists_full(w, &w->control->outer_needed, s.wanted);
     }
     oz_springs_forget(w, region);
 }
 
-/* Notes where a block of grains is. */
-OZ_INLINE void oz_lists_note(global real *reference, OzBody body, OzVec3 shaft)
+/* A body's skin: what it moves in `time` at its present speed, no less and no more than the bounds.
+ */
+OZ_INLINE real oz_lists_skin(OzPose pose, scalar time, scalar least, scalar most)
 {
-    reference[0] = oz_fixed_position_bits(body.position.x);
-    reference[1] = oz_fixed_position_bits(body.position.y);
-    reference[2] = oz_fixed_position_bits(body.position.z);
-    oz_work_store3(reference + 3, shaft);
+    return oz_smaller(REAL(most), REAL(least) + oz_near_speed(pose) * REAL(time));
 }
 
-/* Takes the present places as the outer list's reference. */
-OZ_INLINE void oz_lists_refer(OzWork *w, int region)
+/* Takes a block's present places as the outer list's reference, and gives each body its skin. */
+OZ_INLINE void oz_lists_refer_block(OzWork *w, int block)
 {
-    int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
-    for (int block = begin; block < end; block++) {
-        OzBody body = oz_grains_load(w, block);
-        OzShape shape = oz_grains_shape(w, block);
-        OzVec3 shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
-        oz_lists_note(w->reference_outer + (size_t)block * OZ_REFERENCE, body, shaft);
+    global const OzParameters *p = w->parameters;
+    global real *reference = w->reference_outer + (size_t)block * OZ_REFERENCE;
+    OzPose pose = oz_near_pose(w, block);
+    oz_near_note(reference, pose);
+    reference[OZ_REFERENCE_SKIN] = oz_lists_skin(pose, p->outer_time, p->outer_least, p->outer_most);
+}
+
+OZ_INLINE void oz_lists_refer(OzWork *w)
+{
+    OZ_EACH(w, block, w->z.blocks)
+    {
+        oz_lists_refer_block(w, block);
     }
 }
 
-/* A grain's skin: what it moves in skin_time at its present speed, no less and no more than the
- * bounds. */
-OZ_INLINE real oz_lists_skin(const OzWork *w, OzBody body, OzShape shape, OzVec3 axis)
+/* Takes the present places as the inner list's reference, gives each body its skin, and marks the
+ * outer list stale where it does not cover a body's motion since it was made and its skin. */
+OZ_INLINE void oz_lists_measure(OzWork *w)
 {
     global const OzParameters *p = w->parameters;
-    OzVec3 rate = oz_body_rate(body.spin, axis, shape);
-    real speed =
-        sqrt(oz_dot(body.velocity, body.velocity)) + shape.half_length * sqrt(oz_dot(rate, rate));
-    return oz_smaller(REAL(p->skin_most), REAL(p->skin_least) + speed * REAL(p->skin_time));
-}
-
-/* Takes the present places as the inner list's reference, gives each grain its skin, and marks the
- * outer list stale where it does not cover a grain's motion since it was made and its skin. */
-OZ_INLINE void oz_lists_measure(OzWork *w, int region)
-{
-    int begin = oz_work_block_begin(w, region), end = oz_work_block_end(w, region);
-    for (int block = begin; block < end; block++) {
-        OzBody body = oz_grains_load(w, block);
-        OzShape shape = oz_grains_shape(w, block);
-        OzVec3 axis = oz_quaternion_axis(body.turn), shaft = oz_scale(axis, shape.half_length);
-        real skin = oz_lists_skin(w, body, shape, axis);
+    OZ_EACH(w, block, w->z.blocks)
+    {
+        OzPose pose = oz_near_pose(w, block);
+        real skin = oz_lists_skin(pose, p->skin_time, p->skin_least, p->skin_most);
         global const real *outer = w->reference_outer + (size_t)block * OZ_REFERENCE;
+        global real *inner = w->reference_inner + (size_t)block * OZ_REFERENCE;
         real left =
             outer[OZ_REFERENCE_SKIN] - skin; /* outer_least is above skin_most: never negative */
-        mask holds = oz_grains_moved2(w, outer, body, shaft) <= left * left;
-        if (OZ_ANY(!holds)) {
+        if (OZ_ANY(!oz_near_stays(w, outer, pose, left))) {
             w->control->outer_stale = 1;
         }
-        oz_lists_note(w->reference_inner + (size_t)block * OZ_REFERENCE, body, shaft);
-        w->reference_inner[(size_t)block * OZ_REFERENCE + OZ_REFERENCE_SKIN] = skin;
+        oz_near_note(inner, pose);
+        inner[OZ_REFERENCE_SKIN] = skin;
         scalar lane[OZ_LANES];
         OZ_LANES_STORE(skin, lane);
         for (int l = 0; l < OZ_LANES; l++) {
             w->record[(size_t)(block * OZ_LANES + l) * OZ_RECORD + OZ_R_SKIN] = lane[l];
         }
+    }
+}
+
+/* Marks lists that do not hold a block's bodies any more with a step. */
+OZ_INLINE void oz_lists_watch(OzWork *w, int block, OzPose pose, global int *mark, int step)
+{
+    global const real *reference = w->reference_inner + (size_t)block * OZ_REFERENCE;
+    if (OZ_ANY(!oz_near_stays(w, reference, pose, reference[OZ_REFERENCE_SKIN]))) {
+        OZ_WORK_MARK(mark, step);
     }
 }
 
@@ -263,7 +270,8 @@ OZ_INLINE void oz_lists_count(OzWork *w, const int *outer, int count, int *back)
 {
 #if !OZ_SCATTER
     for (int l = 0; l < count; l++) {
-        back[l] = OZ_WORK_COUNT(&w->back_number[w->outer_b[outer[l]]]);
+        int b = w->outer_b[outer[l]];
+        back[l] = OZ_NEAR_MOVES(w, b) ? OZ_WORK_COUNT(&w->back_number[b]) : w->z.back_capacity;
     }
 #endif
 }
@@ -297,15 +305,15 @@ OZ_INLINE void oz_lists_pad(OzWork *w, int begin, int count)
 {
     for (int p = begin + count; (p - begin) % OZ_LANES != 0; p++) {
         w->pair_a[p] = 0;
-        w->pair_b[p] = w->z.slots;
+        w->pair_b[p] = OZ_NEAR_NONE(w);
     }
 }
 
-OZ_INLINE void oz_lists_reset(OzWork *w, int region)
+OZ_INLINE void oz_lists_reset(OzWork *w)
 {
 #if !OZ_SCATTER
-    int end = min((region + 1) * w->z.region_slots, w->z.slots);
-    for (int i = oz_work_region_begin(w, region); i < end; i++) {
+    OZ_EACH(w, i, OZ_WORK_SLOTS(w))
+    {
         w->pair_number[i] = 0;
         w->pair_first[i] = 0;
         w->back_number[i] = 0;
@@ -313,12 +321,12 @@ OZ_INLINE void oz_lists_reset(OzWork *w, int region)
 #endif
 }
 
-/* Skins of the grains in slots. */
+/* Skins, in the inner list, of the bodies in slots. */
 OZ_INLINE real oz_lists_skins(const OzWork *w, const int *slots)
 {
     real words[4];
-    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_VELOCITY, words);
-    return words[OZ_R_SKIN - OZ_R_VELOCITY];
+    oz_lanes_load4(w->record, slots, OZ_RECORD, OZ_R_SKIN / 4 * 4, words);
+    return words[OZ_R_SKIN % 4];
 }
 
 /* The region's inner list. */
@@ -332,10 +340,10 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
             a[l] = w->outer_a[first + l];
             b[l] = w->outer_b[first + l];
         }
-        real radii, distance2 = oz_pairs_distance2(w, oz_work_geometry(w, a),
-                                                   oz_work_geometry(w, b), &radii);
-        real near = radii + oz_lists_skins(w, a) + oz_lists_skins(w, b);
-        mask hits = (distance2 < near * near) & oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
+        OzNear one = oz_near_load(w, a), other = oz_near_load(w, b);
+        real margin = oz_lists_skins(w, a) + oz_lists_skins(w, b);
+        mask hits = oz_near_pairs(w, &one, &other, margin) &
+                    oz_lanes_mask_of(OZ_LANES_IOTA + first < outer_end);
         int hit_count = oz_lanes_compact(active, OZ_LANES_IOTA + first, hits);
         int taken = min(hit_count, max(w->z.inner_capacity - count, 0)), back[OZ_LANES];
         oz_lists_count(w, active, taken, back);
@@ -345,44 +353,41 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
         count += hit_count;
     }
     if (count > w->z.inner_capacity) {
-        oz_lists_full(w);
-        atomic_max(&w->control->inner_needed, count);
+        oz_lists_full(w, &w->control->inner_needed, count);
         return;
     }
     oz_lists_pad(w, begin, count);
     w->pair_count[region] = count;
-    for (int p = begin; p < begin + count; p += OZ_LANES) {
-        w->pair_active[p / OZ_LANES] = -1; /* any may have a spring */
-    }
+    oz_near_fresh(w, begin, count);
 }
 
-/* Sorts each grain's pairs in which it is the second by the first one's id. */
-OZ_INLINE void oz_lists_order(OzWork *w, int region)
+/* Sorts each body's pairs in which it is the second by the first one's id. */
+OZ_INLINE void oz_lists_order(OzWork *w)
 {
 #if !OZ_SCATTER
-    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
+    OZ_EACH(w, i, OZ_WORK_BODIES(w))
+    {
         int count = w->back_number[i];
         if (count > w->z.back_capacity) {
-            oz_lists_full(w);
-            atomic_max(&w->control->back_needed, count);
+            oz_lists_full(w, &w->control->back_needed, count);
             continue;
         }
         global int *back = w->back + (size_t)i * w->z.back_capacity;
         for (int k = 1; k < count; k++) {
-            int kept = back[k], key = w->id[w->pair_a[kept]], to = k;
-            while (to > 0 && w->id[w->pair_a[back[to - 1]]] > key) {
+            int kept = back[k], key = OZ_WORK_ID(w, w->pair_a[kept]), to = k;
+            while (to > 0 && OZ_WORK_ID(w, w->pair_a[back[to - 1]]) > key) {
                 back[to] = back[to - 1];
                 to--;
             }
             back[to] = kept;
         }
-        if (!OZ_EQUAL) {
-            int before = 0;
-            while (before < count && w->id[w->pair_a[back[before]]] < w->id[i]) {
-                before++;
-            }
-            w->back_before[i] = before;
+#if OZ_NEAR_MIXED
+        int before = 0;
+        while (before < count && w->id[w->pair_a[back[before]]] < w->id[i]) {
+            before++;
         }
+        w->back_before[i] = before;
+#endif
     }
 #endif
 }

@@ -4,6 +4,56 @@
 #define OZ_KERNELS_MOTION_H
 
 #include "kernels/enclosure.h"
+#include "kernels/near.h"
+#include "kernels/lists.h"
+
+#if OZ_MOVES_BEFORE
+/* The part of a step before the forces. */
+OZ_INLINE void oz_motion_before_block(OzWork *w, int block, int step)
+{
+    real dt = REAL(w->parameters->dt);
+    OzBody body = oz_grains_load(w, block);
+    OzShape shape = oz_grains_shape(w, block);
+    oz_integrate_before(&body, shape, dt, w->parameters->inverse_unit);
+    oz_grains_store(w, block, body);
+    oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
+                     oz_integrate_seen_spin(body, shape, dt));
+    oz_lists_watch(w, block, oz_near_pose_of(body, shape),
+                   OZ_RESORT ? &w->control->stale_positions : &w->control->stale_step, step);
+}
+#endif
+
+/* The part of a step after the forces. */
+OZ_INLINE void oz_motion_block(OzWork *w, int block, int step)
+{
+    global const OzParameters *p = w->parameters;
+    OzBody body = oz_grains_load(w, block);
+    OzShape shape = oz_grains_shape(w, block);
+    OzLoad load = oz_loads_of(w, block);
+    OzVec3 gravity = oz_vec3(REAL(p->gravity[0]), REAL(p->gravity[1]), REAL(p->gravity[2]));
+    load.force = oz_along(load.force, shape.mass, gravity);
+    oz_integrate_after(&body, shape, load, REAL(p->dt), p->inverse_unit);
+    real keep = REAL(1 - p->drag * p->dt);
+    body.velocity = oz_scale(body.velocity, keep);
+    body.spin = oz_scale(body.spin, keep);
+    if ((block + 1) * OZ_LANES > w->z.count) { /* padding is pinned */
+        mask present = oz_grains_present(w, block);
+        body.velocity = oz_where(present, body.velocity);
+        body.spin = oz_where(present, body.spin);
+#if OZ_MOVES_BEFORE
+        body.acceleration = oz_where(present, body.acceleration);
+        body.torque = oz_where(present, body.torque);
+#endif
+    }
+    oz_grains_guard(w, block, body, shape, step);
+    oz_grains_store(w, block, body);
+#if !OZ_MOVES_BEFORE || OZ_LEDGER
+    oz_grains_record(w, block, body, shape, body.velocity, body.spin);
+#endif
+#if !OZ_MOVES_BEFORE
+    oz_lists_watch(w, block, oz_near_pose_of(body, shape), &w->control->stale_step, step);
+#endif
+}
 
 OZ_INLINE void oz_motion_region(OzWork *w, int region, int step)
 {
@@ -14,7 +64,7 @@ OZ_INLINE void oz_motion_region(OzWork *w, int region, int step)
     oz_enclosure_region(w, region, step);
 #endif
     for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
-        oz_grains_block(w, block, step);
+        oz_motion_block(w, block, step);
     }
 }
 
@@ -23,7 +73,7 @@ OZ_INLINE void oz_motion_region(OzWork *w, int region, int step)
 OZ_INLINE void oz_motion_before_region(OzWork *w, int region, int step)
 {
     for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
-        oz_grains_before(w, block, step);
+        oz_motion_before_block(w, block, step);
     }
 }
 #endif

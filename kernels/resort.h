@@ -4,6 +4,7 @@
 #ifndef OZ_KERNELS_RESORT_H
 #define OZ_KERNELS_RESORT_H
 
+#include "kernels/near.h"
 #include "kernels/lists.h"
 
 /* Words of a slot's springs at walls. */
@@ -40,7 +41,7 @@ OZ_INLINE void oz_resort_out(OzWork *w, int region)
     }
 }
 
-/* The region's records, from its grains. */
+/* The region's records and references, from its grains. */
 OZ_INLINE void oz_resort_records(OzWork *w, int region)
 {
     real dt = REAL(w->parameters->dt);
@@ -50,6 +51,7 @@ OZ_INLINE void oz_resort_records(OzWork *w, int region)
         OzShape shape = oz_grains_shape(w, block);
         oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
                          oz_integrate_seen_spin(body, shape, dt));
+        oz_lists_refer_block(w, block);
     }
 }
 
@@ -62,7 +64,6 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
         w->id[slot] = id;
         w->slot_of[id] = slot;
         w->sorted_slot[slot] = slot;
-        ((global scalar *)w->reference_outer)[oz_cells_skin_index(slot)] = w->sorted_skin[slot];
         oz_resort_in_words((global scalar *)w->state, from + 1, slot, OZ_STATE);
         if (!OZ_EQUAL) {
             oz_resort_in_words((global scalar *)w->shape, from + 1 + OZ_STATE, slot, OZ_SHAPE);

@@ -3,7 +3,7 @@
 #ifndef OZ_KERNELS_SPRINGS_H
 #define OZ_KERNELS_SPRINGS_H
 
-#include "kernels/work.h"
+#include "kernels/member.h"
 
 /* Inner springs back to the outer list. */
 OZ_INLINE void oz_springs_harvest(OzWork *w, int region)

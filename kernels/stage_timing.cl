@@ -3,62 +3,23 @@
  * work-group. */
 #include "kernels/rods.cl"
 
-/* The work-items of a large scene are spread over many work-groups. */
-#if OZ_RESORT
-#define FIRST ((int)get_global_id(0))
-#define EVERY ((int)get_global_size(0))
-#else
-#define FIRST OZ_WORK_ITEM
-#define EVERY OZ_WORK_STRIDE
-#endif
-
-kernel void oz_repeat_pairs(OZ_WORK_ARGUMENTS, int repeats)
-{
-    OZ_WORK_OPEN(0)
-    for (int k = 0; k < repeats; k++) {
-        for (int region = FIRST; region < z.regions; region += EVERY) {
-            oz_pairs_region(&w, region, 0);
-        }
-        OZ_WORK_BARRIER();
+#define OZ_REPEAT(name, ...)                                                                       \
+    kernel void oz_repeat_##name(OZ_WORK_ARGUMENTS, int repeats)                                   \
+    {                                                                                              \
+        OZ_WORK_OPEN(0)                                                                            \
+        for (int k = 0; k < repeats; k++) {                                                        \
+            __VA_ARGS__;                                                                           \
+            OZ_WORK_BARRIER();                                                                     \
+        }                                                                                          \
     }
-}
 
-kernel void oz_repeat_grains(OZ_WORK_ARGUMENTS, int repeats)
-{
-    OZ_WORK_OPEN(0)
-    for (int k = 0; k < repeats; k++) {
-        for (int region = FIRST; region < z.regions; region += EVERY) {
+OZ_REPEAT(pairs, oz_step_forces(&w, 0))
 #if OZ_MOVES_BEFORE
-            oz_motion_before_region(&w, region, 0);
+OZ_REPEAT(grains, oz_step_before(&w, 0, 0); oz_step_finish(&w, 0, 0))
+#else
+OZ_REPEAT(grains, oz_step_finish(&w, 0, 0))
 #endif
-            oz_motion_region(&w, region, 0);
-        }
-        OZ_WORK_BARRIER();
-    }
-}
-
 #if !OZ_RESORT
-
-kernel void oz_repeat_refresh(OZ_WORK_ARGUMENTS, int repeats)
-{
-    OZ_WORK_OPEN(0)
-    for (int k = 0; k < repeats; k++) {
-        renew(&w, OZ_WORK_ITEM, OZ_WORK_STRIDE);
-        OZ_WORK_BARRIER();
-    }
-}
-
-kernel void oz_repeat_rebuild(OZ_WORK_ARGUMENTS, int repeats)
-{
-    OZ_WORK_OPEN(0)
-    for (int k = 0; k < repeats; k++) {
-        if (OZ_WORK_ITEM == 0) {
-            w.control->outer_stale = 1;
-        }
-        OZ_WORK_BARRIER();
-        renew(&w, OZ_WORK_ITEM, OZ_WORK_STRIDE);
-        OZ_WORK_BARRIER();
-    }
-}
-
+OZ_REPEAT(refresh, renew(&w))
+OZ_REPEAT(rebuild, if (w.item == 0) w.control->outer_stale = 1; OZ_WORK_BARRIER(); renew(&w))
 #endif

@@ -1,107 +1,18 @@
-/* A kernel's view of memory: every array of one member, and how work is shared out. OpenCL C only.
- * OZ_GROUP 1: one work-item does a member's whole launch and needs neither barriers nor atomics;
- * otherwise the work-group's size. OZ_RESORT 1: a large scene, phase by phase over many
- * work-groups. Work-items look after regions: runs of slots with their own pair lists. */
+/* Grains in the kernels' memory. OpenCL C only. */
 #ifndef OZ_KERNELS_WORK_H
 #define OZ_KERNELS_WORK_H
 
 #include "kernels/fields.h"
 #include "kernels/integrate.h"
-#include "kernels/lanes.h"
 #include "kernels/layout.h"
 #include "kernels/rods.h"
 
-typedef OzParameters parameters_kind;
-typedef OzControl control_kind;
-typedef scalar scalar_kind;
-typedef real real_kind;
-typedef int integer_kind;
-#if defined(OZ_DOUBLE)
-typedef double fixed_position_kind;
-#else
-typedef int fixed_position_kind;
-#endif
-#if OZ_LEDGER
-#pragma OPENCL EXTENSION cl_khr_fp64 : enable
-typedef double ledger_kind;
-#else
-typedef int ledger_kind;
-#endif
+#define OZ_WORK_BODIES(w)      ((w)->z.count)
+#define OZ_WORK_SLOTS(w)       ((w)->z.slots)
+#define OZ_WORK_HOLDS(w, slot) ((slot) < (w)->z.count)
+#define OZ_WORK_ID(w, slot)    ((w)->id[slot])
 
-#define OZ_WORK_MEMBER(kind, name, count, class)   global kind##_kind *name;
-#define OZ_WORK_ARGUMENT(kind, name, count, class) global kind##_kind *name,
-#define OZ_WORK_TAKE(kind, name, count, class)     w.name = name + (size_t)member * (size_t)(count);
-
-typedef struct OzWork {
-    OZ_FIELDS(OZ_WORK_MEMBER)
-    OzSizes z;
-} OzWork;
-
-/* The arguments that every kernel begins with, and the view of one member made of them. */
-#define OZ_WORK_ARGUMENTS OZ_FIELDS(OZ_WORK_ARGUMENT) OzSizes z
-#define OZ_WORK_OPEN(member_index)                                                                 \
-    OzWork w;                                                                                      \
-    {                                                                                              \
-        int member = (member_index);                                                               \
-        OZ_FIELDS(OZ_WORK_TAKE)                                                                    \
-        w.z = z;                                                                                   \
-    }
-
-#if OZ_GROUP == 1 && !OZ_RESORT
-#define OZ_WORK_BARRIER()
-#define OZ_WORK_COUNT(counter)   ((*(counter))++)
-#define OZ_WORK_MARK(word, step) (*(word) = (step))
-#define OZ_WORK_ITEM             0
-#define OZ_WORK_STRIDE           1
-#else
-#define OZ_WORK_BARRIER()        barrier(CLK_GLOBAL_MEM_FENCE)
-#define OZ_WORK_COUNT(counter)   atomic_inc(counter)
-#define OZ_WORK_MARK(word, step) atomic_min(word, step) /* of a word that is OZ_NEVER unmarked */
-#define OZ_WORK_ITEM             ((int)get_local_id(0))
-#define OZ_WORK_STRIDE           ((int)get_local_size(0))
-#endif
-
-/* Asks for an end: reason bits, step and the lowest id of the first step that had any. */
-OZ_INLINE void oz_work_stop(OzWork *w, int bits, int step, int grain)
-{
-    atomic_or(&w->control->stop_bits, bits);
-    atomic_min(&w->control->stop_step, step);
-    atomic_min(&w->control->stop_index, grain);
-}
-
-/* The same for every lane of hits, whose grains are in slots. */
-OZ_INLINE void oz_work_stop_lanes(OzWork *w, mask hits, int bits, int step, const int *slots)
-{
-    int hit[OZ_LANES];
-    oz_lanes_store_mask(hits, hit);
-    for (int l = 0; l < OZ_LANES; l++) {
-        if (hit[l] && slots[l] < w->z.count) {
-            oz_work_stop(w, bits, step, w->id[slots[l]]);
-        }
-    }
-}
-
-/* The region's blocks of grains, padding included: first and one past the last. */
-OZ_INLINE int oz_work_block_begin(const OzWork *w, int region)
-{
-    return min(region * w->z.region_slots, w->z.slots) / OZ_LANES;
-}
-
-OZ_INLINE int oz_work_block_end(const OzWork *w, int region)
-{
-    return min((region + 1) * w->z.region_slots, w->z.slots) / OZ_LANES;
-}
-
-OZ_INLINE int oz_work_region_begin(const OzWork *w, int region)
-{
-    return min(region * w->z.region_slots, w->z.slots);
-}
-
-/* One past the region's last grain, padding not included. */
-OZ_INLINE int oz_work_region_end(const OzWork *w, int region)
-{
-    return min((region + 1) * w->z.region_slots, w->z.count);
-}
+#include "kernels/member.h"
 
 /* Places, shafts, radii and masses of the grains in slots. */
 OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)

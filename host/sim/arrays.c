@@ -82,6 +82,7 @@ static OzStatus resize_field(OzArrays *arrays, int field, const void *sizes)
 {
     OzStatus status = OZ_OK;
     const OzModel *model = arrays->model;
+    OzFieldClass class = model->fields[field].class;
     cl_mem grown = NULL;
     size_t old_bytes = all_bytes(arrays, field, arrays->sizes);
     size_t new_bytes = all_bytes(arrays, field, sizes);
@@ -89,7 +90,7 @@ static OzStatus resize_field(OzArrays *arrays, int field, const void *sizes)
         return OZ_OK;
     }
     OZ_TRY(oz_buffers_make(&grown, arrays->device, model->fields[field].name, new_bytes));
-    if (model->keeps_rows && model->keeps_rows(field)) {
+    if (class == OZ_FIELD_ROWS || class == OZ_FIELD_SPRING) {
         OZ_TRY(copy_rows(arrays, arrays->buffer[field], old_bytes, grown, new_bytes));
     }
     CL_TRY(clReleaseMemObject(arrays->buffer[field]));

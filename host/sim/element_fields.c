@@ -9,6 +9,7 @@
 #undef OZ_LEDGER
 #define OZ_LANES    (s->lanes)
 #define OZ_GROUP    (s->group)
+#define OZ_RESORT   (s->resort)
 #define OZ_ORDER    (s->order)
 #define OZ_MOVING   (s->moving)
 #define OZ_DISCS    (s->discs)

@@ -91,7 +91,7 @@ OzStatus oz_element_motion_prepare(OzSim *sim, int member, int steps)
     if (present != oz_element_own(sim)->present[member]) {
         OZ_TRY(oz_element_pack_bodies(&sim->arrays, member, sim->batch.members[member].grains,
                                       present));
-        control->outer_holds = control->inner_holds = 0;
+        control->truth = OZ_SPRINGS_AT_NONE; /* all lists anew */
         oz_element_own(sim)->present[member] = present;
     }
     OZ_TRY(oz_element_motion_write_motion(sim, member, steps));

@@ -2,6 +2,7 @@
 #include "sim/element_sizes.h"
 
 #include "sim/element_laws.h"
+#include "sim/sizes.h"
 #include "sim/units.h"
 
 #include <math.h>
@@ -16,27 +17,6 @@ static const double least_skin = 0.01, most_skin = 0.1, skin_steps = 30;
 
 /* An element that reaches farther than so many mean ones would make everybody's cells too large. */
 static const double small_most = 3;
-
-enum {
-    OUTER_PAIRS = 8, /* an element, at first; lists grow when that is too few */
-    INNER_PAIRS = 4,
-    BACK_PAIRS = 12,
-    MOTION_STEPS = 8192 /* of one launch */
-};
-
-static int round_up(double count, int to)
-{
-    return (int)(ceil(count / to) * to);
-}
-
-static int power_of_two(double least)
-{
-    int power = 1;
-    while (power < least && power < 1 << 20) {
-        power *= 2;
-    }
-    return power;
-}
 
 static double mean_reach(const OzElements *elements)
 {
@@ -105,26 +85,12 @@ OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, con
     p->skin_most = fmin(most_skin * reach, p->outer_least / 2);
     p->skin_least = fmin(least_skin * reach, p->skin_most);
     p->skin_time = skin_steps * scene->step;
-    p->reach_small = small_reach(elements, reach);
-    double cell = 2 * (p->reach_small + p->outer_most);
-    p->inverse_cell = 1 / cell;
+    p->reach_max = small_reach(elements, reach);
+    double cell = 2 * (p->reach_max + p->outer_most);
     extents(elements, p->middle, size);
     /* Far enough for any flight, near enough for cells counted in 32 bits. */
     p->domain = fmin(1e6 * fmax(size[0], size[1]), 1e9 * cell);
     return OZ_OK;
-}
-
-static void choose_cells(OzElementSizes *z, const OzElementParameters *p,
-                         const OzElements *elements)
-{
-    double middle[2], size[2], budget = fmax(64, 4.0 * (double)elements->count);
-    extents(elements, middle, size);
-    z->cells_x = power_of_two(fmin(fmax(4, size[0] * p->inverse_cell + 1), budget));
-    z->cells_y = power_of_two(fmin(fmax(4, size[1] * p->inverse_cell + 1), budget));
-    while ((double)z->cells_x * z->cells_y > budget && (z->cells_x > 4 || z->cells_y > 4)) {
-        *(z->cells_x > z->cells_y ? &z->cells_x : &z->cells_y) /= 2;
-    }
-    z->cells = z->cells_x * z->cells_y;
 }
 
 void oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
@@ -133,21 +99,20 @@ void oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *scene
     OzElementSizes *z = sizes;
     const OzElementSwitches *s = switches;
     const OzElements *elements = grains->elements;
+    double middle[2], size[2];
+    OzElementParameters *p = parameters;
     *z = (OzElementSizes){0};
-    z->free_slots = round_up((double)elements->free_count, s->lanes);
-    z->slots = z->free_slots + round_up((double)(elements->count - elements->free_count), s->lanes);
+    z->free_slots = oz_sizes_up((double)elements->free_count, s->lanes);
+    z->slots = z->free_slots +
+               oz_sizes_up((double)(elements->count - elements->free_count), s->lanes);
     z->free_blocks = z->free_slots / s->lanes;
     z->blocks = z->slots / s->lanes;
-    z->beam_blocks = round_up((double)elements->beam_count, s->lanes) / s->lanes;
-    z->regions = s->group;
-    z->region_slots = round_up(fmax(1, ceil((double)z->free_slots / s->group)), s->lanes);
-    z->outer_capacity = round_up(OUTER_PAIRS * (double)z->region_slots + 16, s->lanes);
-    z->inner_capacity = round_up(INNER_PAIRS * (double)z->region_slots + 16, s->lanes);
-    z->back_capacity = BACK_PAIRS;
+    z->beam_blocks = oz_sizes_up((double)elements->beam_count, s->lanes) / s->lanes;
     z->walls = scene->wall_count;
-    z->motion_steps = MOTION_STEPS;
-    z->members = 1;
-    choose_cells(z, parameters, elements);
+    oz_sizes_regions((OzSizesHead *)(void *)z, switches, z->free_slots);
+    extents(elements, middle, size);
+    oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size, 2,
+                   elements->count);
 }
 
 static int larger(int a, int b)
@@ -170,7 +135,9 @@ void oz_element_sizes_join(void *sizes, const void *another)
     z->outer_capacity = larger(z->outer_capacity, other->outer_capacity);
     z->inner_capacity = larger(z->inner_capacity, other->inner_capacity);
     z->back_capacity = larger(z->back_capacity, other->back_capacity);
-    z->cells_x = larger(z->cells_x, other->cells_x);
-    z->cells_y = larger(z->cells_y, other->cells_y);
-    z->cells = z->cells_x * z->cells_y;
+    z->cells = 1;
+    for (int k = 0; k < 3; k++) {
+        z->cells_along[k] = larger(z->cells_along[k], other->cells_along[k]);
+        z->cells *= z->cells_along[k];
+    }
 }

@@ -13,6 +13,8 @@
     X(LANES, lanes, NULL)                                                                          \
     X(GROUP, group, NULL)                                                                          \
     X(LEDGER, ledger, "energy ledger")                                                             \
+    X(RESORT, resort, NULL)                                                                        \
+    X(HOST_LISTS, host_lists, NULL)                                                                \
     X(ORDER, order, NULL)                                                                          \
     X(MOVING, moving, "moving walls")                                                              \
     X(DISCS, discs, "discs")                                                                       \
@@ -28,7 +30,9 @@ typedef struct OzElementSwitches {
 } OzElementSwitches;
 
 /* The switches of a scene on a device. order is the number of words that a coordinate takes: 5 for
- * gear4, 3 for velocity-verlet. Work-groups of several work-items compute with one lane. */
+ * gear4, 3 for velocity-verlet. Work-groups of several work-items compute with one lane. resort: a
+ * large scene, each phase of a step spread over all work-items (elements stay where they are);
+ * substeps have too many phases for that. */
 OzElementSwitches oz_element_switches_derive(const OzScene *scene, const OzGrains *grains,
                                              const OzDevice *device);
 

@@ -89,6 +89,8 @@ OzStatus oz_element_upload_member(OzSim *sim, int m)
         (OzElementControl){.free_count = (int)elements->free_count,
                            .wall_count = (int)(elements->count - elements->free_count),
                            .beam_count = (int)elements->beam_count,
+                           .stale_step = OZ_NEVER,
+                           .stale_positions = OZ_NEVER,
                            .stop_step = OZ_NEVER,
                            .stop_index = OZ_NEVER,
                            .deep_step = OZ_NEVER,

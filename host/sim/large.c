@@ -12,7 +12,7 @@
     X(before, false)                                                                               \
     X(pairs, false)                                                                                \
     X(grains, false)                                                                               \
-    X(ledger, false)                                                                               \
+    X(after, false)                                                                                \
     X(measure, false)                                                                              \
     X(mark, true)                                                                                  \
     X(save, false)                                                                                 \
@@ -39,7 +39,7 @@ typedef enum Phase {
 
 struct OzLarge {
     const OzDevice *device;
-    cl_kernel kernel[PHASE_COUNT]; /* NULL: the scene does not need it                   */
+    cl_kernel kernel[PHASE_COUNT]; /* NULL: the program has none                         */
     double interval;               /* steps that the inner lists lasted lately           */
 };
 
@@ -55,8 +55,14 @@ static const bool single[] = {
 #undef ALONE
 };
 
-OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *device,
-                         const OzSwitches *switches)
+/* Phases that not every program has. */
+static bool may_be_absent(Phase phase)
+{
+    return phase == PHASE_before || phase == PHASE_after || phase == PHASE_move_out ||
+           phase == PHASE_move_in;
+}
+
+OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *device)
 {
     OzStatus status = OZ_OK;
     OzLarge *large = NULL;
@@ -65,10 +71,8 @@ OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *devi
     large->device = device;
     large->interval = 8;
     for (int p = 0; p < PHASE_COUNT; p++) {
-        bool absent = (p == PHASE_before && !switches->moves_before) ||
-                      (p == PHASE_ledger && !switches->ledger);
-        if (!absent) {
-            large->kernel[p] = clCreateKernel(program, kernel_names[p], &code);
+        large->kernel[p] = clCreateKernel(program, kernel_names[p], &code);
+        if (code != CL_INVALID_KERNEL_NAME || !may_be_absent((Phase)p)) {
             CL_TRY(code);
         }
     }
@@ -94,14 +98,14 @@ static OzStatus queue_phase(OzLarge *large, OzArrays *arrays, Phase phase, int n
 {
     OzStatus status = OZ_OK;
     cl_kernel kernel = large->kernel[phase];
-    size_t group = (size_t)oz_rods_fields_switches(arrays)->group, items = group;
+    size_t group = (size_t)oz_arrays_switches(arrays)->group, items = group;
     if (!kernel) {
         return OZ_OK;
     }
     if (!single[phase]) {
-        items = ((size_t)oz_rods_fields_sizes(arrays)->regions + group - 1) / group * group;
+        items = ((size_t)oz_arrays_sizes(arrays)->regions + group - 1) / group * group;
     }
-    CL_TRY(clSetKernelArg(kernel, OZ_FIELD_COUNT + 1, sizeof number, &number));
+    CL_TRY(clSetKernelArg(kernel, (cl_uint)arrays->model->field_count + 1, sizeof number, &number));
     CL_TRY(clEnqueueNDRangeKernel(large->device->queue, kernel, 1, NULL, &items, &group, 0, NULL,
                                   NULL));
 done:
@@ -118,7 +122,7 @@ done:
     return status;
 }
 
-static OzStatus queue_save(OzLarge *large, OzArrays *arrays, const OzControl *control)
+static OzStatus queue_save(OzLarge *large, OzArrays *arrays, const OzControlHead *control)
 {
     OzStatus status = OZ_OK;
     if (control->truth == OZ_SPRINGS_AT_OUTER) {
@@ -130,7 +134,7 @@ done:
 }
 
 /* The outer lists anew, with the grains put in the order of cells on the way. */
-static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControl *control)
+static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControlHead *control)
 {
     static const Phase sort[] = {PHASE_clear,   PHASE_bin,     PHASE_scan,
                                  PHASE_fill,    PHASE_arrange, PHASE_move_out,
@@ -150,40 +154,47 @@ static OzStatus queue_refresh(OzLarge *large, OzArrays *arrays)
     return status == OZ_OK ? queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_INNER) : status;
 }
 
-static OzStatus read_control(const OzArrays *arrays, OzControl *control)
+static OzStatus read_control(const OzArrays *arrays, OzControlHead *control)
 {
-    return oz_arrays_read(arrays, OZ_FIELD_control, 0, control, sizeof *control);
+    return oz_arrays_read(arrays, arrays->model->control_field, 0, control,
+                          arrays->model->control_bytes);
+}
+
+static OzStatus write_control(OzArrays *arrays, const OzControlHead *control)
+{
+    return oz_arrays_write(arrays, arrays->model->control_field, 0, control,
+                           arrays->model->control_bytes);
 }
 
 /* Whether the lists hold, for the next step and for places that it has moved already. */
-static bool hold(const OzControl *control)
+static bool hold(const OzControlHead *control)
 {
     return control->truth == OZ_SPRINGS_AT_INNER && control->stale_step == OZ_NEVER &&
            control->stale_positions == OZ_NEVER;
 }
 
 /* Skins as they are used up now, and springs back to the outer lists. */
-static OzStatus harvest(OzLarge *large, OzArrays *arrays, OzControl *control)
+static OzStatus harvest(OzLarge *large, OzArrays *arrays, OzControlHead *control)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(queue_phase(large, arrays, PHASE_measure, 0));
     OZ_TRY(read_control(arrays, control));
     if (control->truth == OZ_SPRINGS_AT_INNER) {
         control->truth = OZ_SPRINGS_AT_OUTER; /* measuring has harvested the springs */
-        OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+        OZ_TRY(write_control(arrays, control));
     }
 done:
     return status;
 }
 
 /* Lists that hold, from whatever there is. *waits: the host has to make one. */
-static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool *waits)
+static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControlHead *control, bool *waits)
 {
     OzStatus status = OZ_OK;
     *waits = false;
     OZ_TRY(harvest(large, arrays, control));
     bool holds = control->truth == OZ_SPRINGS_AT_OUTER && !control->outer_stale;
-    if (!holds && oz_rods_fields_switches(arrays)->host_lists) {
+    if (!holds && oz_arrays_switches(arrays)->host_lists) {
         *waits = true;
         goto done;
     }
@@ -195,14 +206,14 @@ static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool
     OZ_TRY(read_control(arrays, control));
     control->refreshes = refreshes;
     control->rebuilds = rebuilds;
-    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+    OZ_TRY(write_control(arrays, control));
 done:
     return status;
 }
 
 static OzStatus queue_step(OzLarge *large, OzArrays *arrays, int step)
 {
-    static const Phase phases[] = {PHASE_before, PHASE_pairs, PHASE_grains, PHASE_ledger};
+    static const Phase phases[] = {PHASE_before, PHASE_pairs, PHASE_grains, PHASE_after};
     OzStatus status = OZ_OK;
     for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++) {
         OZ_TRY(queue_phase(large, arrays, phases[i], step));
@@ -212,7 +223,7 @@ done:
 }
 
 /* Queues about as many steps as the lists will last, and waits. */
-static OzStatus run_batch(OzLarge *large, OzArrays *arrays, OzControl *control, int steps)
+static OzStatus run_batch(OzLarge *large, OzArrays *arrays, OzControlHead *control, int steps)
 {
     OzStatus status = OZ_OK;
     int first = control->step, count = (int)large->interval + 2;
@@ -223,7 +234,7 @@ static OzStatus run_batch(OzLarge *large, OzArrays *arrays, OzControl *control, 
     OZ_TRY(read_control(arrays, control));
     if (control->stale_positions != OZ_NEVER) {
         control->moved = 1; /* the step goes on with its forces once lists hold */
-        OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+        OZ_TRY(write_control(arrays, control));
     }
     bool used_up = !hold(control);
     double lasted = control->step - first;
@@ -245,7 +256,7 @@ done:
     return status;
 }
 
-OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControl *control, int steps)
+OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControlHead *control, int steps)
 {
     OzStatus status = OZ_OK;
     bool waits = false;
@@ -265,20 +276,20 @@ done:
     return status;
 }
 
-OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControl *control, bool outer)
+OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControlHead *control, bool outer)
 {
     OzStatus status = OZ_OK;
     bool waits = false;
     OZ_TRY(bind_all(large, arrays));
     OZ_TRY(read_control(arrays, control));
     control->outer_stale = outer;
-    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_control, 0, control, sizeof *control));
+    OZ_TRY(write_control(arrays, control));
     OZ_TRY(renew(large, arrays, control, &waits));
 done:
     return status;
 }
 
-OzStatus oz_large_save_springs(OzLarge *large, OzArrays *arrays, OzControl *control)
+OzStatus oz_large_save_springs(OzLarge *large, OzArrays *arrays, OzControlHead *control)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(bind_all(large, arrays));

@@ -39,7 +39,9 @@ OzStatus oz_launch_enqueue(OzSim *sim, cl_kernel kernel, int last)
     OzStatus status = OZ_OK;
     cl_uint next = 0;
     size_t group = (size_t)oz_arrays_switches(&sim->arrays)->group;
-    size_t all = group * (size_t)sim->batch.member_count;
+    size_t regions = (size_t)oz_arrays_sizes(&sim->arrays)->regions;
+    size_t all = sim->large ? (regions + group - 1) / group * group
+                            : group * (size_t)sim->batch.member_count;
     OZ_TRY(oz_arrays_bind(&sim->arrays, kernel, &next));
     if (last >= 0) {
         CL_TRY(clSetKernelArg(kernel, next, sizeof last, &last));
@@ -51,6 +53,38 @@ done:
     return status;
 }
 
+OzStatus oz_launch_open(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    if (oz_arrays_switches(&sim->arrays)->resort) {
+        return oz_large_create(&sim->large, sim->program, sim->device);
+    }
+    sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
+    CL_TRY(code);
+done:
+    return status;
+}
+
+OzStatus oz_launch_save_springs(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    cl_int code = CL_SUCCESS;
+    cl_kernel kernel = NULL;
+    if (sim->large) {
+        return oz_large_save_springs(sim->large, &sim->arrays, oz_sim_control(sim, 0));
+    }
+    kernel = clCreateKernel(sim->program, "oz_save_springs", &code);
+    CL_TRY(code);
+    OZ_TRY(oz_launch_enqueue(sim, kernel, -1));
+    OZ_TRY(oz_launch_read_control(sim));
+done:
+    if (kernel) {
+        clReleaseKernel(kernel);
+    }
+    return status;
+}
+
 /* Larger lists, after which the kernels take up where they stopped. */
 static OzStatus grow_lists(OzSim *sim)
 {
@@ -59,7 +93,11 @@ static OzStatus grow_lists(OzSim *sim)
     int lanes = oz_arrays_switches(&sim->arrays)->lanes;
     OZ_TRY(oz_memory_new((void **)&sizes, sim->model->sizes_bytes, 1, "sizes"));
     memcpy(sizes, sim->arrays.sizes, sim->model->sizes_bytes);
-    OZ_TRY(sim->model->let_go(sim));
+    if (sim->batch.member_count > 1) {
+        /* A member that is through holds its lists, which do not outlive new sizes. It makes them
+         * again, with the same contacts, when it goes on. */
+        OZ_TRY(oz_launch_save_springs(sim));
+    }
     for (int m = 0; m < sim->batch.member_count; m++) {
         oz_arrays_grow(sizes, oz_sim_control(sim, m), lanes);
         oz_sim_control(sim, m)->full = 0;
@@ -77,13 +115,20 @@ done:
 static OzStatus run(OzSim *sim, int steps)
 {
     OzStatus status = OZ_OK;
-    if (sim->model->run) {
-        return sim->model->run(sim, steps);
+    if (sim->large) {
+        return oz_large_steps(sim->large, &sim->arrays, oz_sim_control(sim, 0), steps);
     }
     OZ_TRY(oz_launch_enqueue(sim, sim->advance, steps));
     OZ_TRY(oz_launch_read_control(sim));
 done:
     return status;
+}
+
+/* Whether a member has made its steps, with lists that hold: snapshots read them. */
+static bool is_through(const OzControlHead *control, int steps)
+{
+    return control->step >= steps && control->truth == OZ_SPRINGS_AT_INNER &&
+           control->stale_step == OZ_NEVER && control->stale_positions == OZ_NEVER;
 }
 
 /* Repeats the launch until every member is through. */
@@ -99,7 +144,7 @@ static OzStatus finish_launch(OzSim *sim, int steps)
         for (int m = 0; m < sim->batch.member_count; m++) {
             const OzControlHead *control = oz_sim_control(sim, m);
             full |= control->full != 0;
-            more |= !control->stop_bits && !sim->model->is_through(control, steps);
+            more |= !control->stop_bits && !is_through(control, steps);
         }
         if (full) {
             OZ_TRY(grow_lists(sim));

@@ -8,8 +8,15 @@
  * have stopped all members. */
 OzStatus oz_launch_steps(OzSim *sim, int64_t steps, int *made);
 
-/* A kernel over all members, one work-group each, and waits; last is its one argument of its own,
- * unless negative. */
+/* Makes what kernels of sim->program do the steps: sim->advance, or sim->large. */
+OzStatus oz_launch_open(OzSim *sim);
+
+/* Puts contacts' memory where it outlives the lists, which are then made anew; control words are as
+ * the device has them before and after. */
+OzStatus oz_launch_save_springs(OzSim *sim);
+
+/* A kernel over all members, one work-group each (over all regions of a large scene), and waits;
+ * last is its one argument of its own, unless negative. */
 OzStatus oz_launch_enqueue(OzSim *sim, cl_kernel kernel, int last);
 
 /* Control words of all members to the device, and back. */

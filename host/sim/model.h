@@ -27,17 +27,19 @@ typedef struct OzSwitch {
  * first rows of its list. */
 typedef struct __attribute__((may_alias)) OzSwitchesHead {
     int is_double;
-    int lanes, group, ledger;
+    int lanes, group, ledger, resort, host_lists;
 } OzSwitchesHead;
 
 /* What a field's words are to the next step. STATE: it depends on them; SPRING: it does too, they
  * are the tangential memory of contacts, where it outlives the neighbour lists; LIST: part of the
- * lists, or springs on their way in them, made anew from the others; SCRATCH: written before they
+ * lists, or springs on their way in them, made anew from the others; ROWS: the same, a row of each
+ * region, which outlives larger capacities (those of SPRING do too); SCRATCH: written before they
  * are read, by the host for each launch or by the kernels in each step. */
 typedef enum OzFieldClass {
     OZ_FIELD_STATE,
     OZ_FIELD_SPRING,
     OZ_FIELD_LIST,
+    OZ_FIELD_ROWS,
     OZ_FIELD_SCRATCH
 } OzFieldClass;
 
@@ -68,11 +70,10 @@ typedef struct OzModel {
     const char *name;
 
     /* The device's arrays in the order of the kernels' arguments; bytes of one member's stretch, 0
-     * where the scene does not need it; whether the rows of a list outlive a growth. */
+     * where the scene does not need it. */
     int field_count, control_field;
     const OzField *fields;
     size_t (*field_bytes)(int field, const void *switches, const void *sizes);
-    bool (*keeps_rows)(int field); /* NULL: none does */
 
     /* What memory is told for each of (`orzo check`): "grain", and how many there are. */
     const char *body;
@@ -103,32 +104,24 @@ typedef struct OzModel {
     bool (*fits)(const OzMember *a, const OzMember *b, const void *switches);
     const char *alike;
 
-    /* The model's own part of a simulation, sim->own: makes it, with the kernels of sim->program
-     * and sim->advance where there is one that does it all; uploads every member's start and makes
-     * the kernels' first records; frees it, half-made too. */
+    /* The model's own part of a simulation, sim->own: makes it, with what kernels of sim->program
+     * the driver has not; uploads every member's start and makes the kernels' first records; frees
+     * it, half-made too. */
     OzStatus (*open)(OzSim *sim);
     OzStatus (*start)(OzSim *sim);
     void (*close)(OzSim *sim);
 
     /* A launch. prime (may be NULL): what must come before the first. steps_alike (may be NULL):
      * how many of these steps a member can make before what is written for a launch changes.
-     * prepare: writes walls' motion and what else a member's next steps need. run (NULL:
-     * sim->advance): the kernels once, control words read back. is_through: the member has made its
-     * steps and needs no more runs of this launch. supply (may be NULL): what members that are not
-     * through wait for. let_go: before lists get new sizes. */
+     * prepare: writes walls' motion and what else a member's next steps need. supply (may be NULL):
+     * what members that are not through wait for. */
     OzStatus (*write_parameters)(OzSim *sim, int member);
     OzStatus (*prime)(OzSim *sim);
     int64_t (*steps_alike)(const OzSim *sim, int member, int64_t steps);
     OzStatus (*prepare)(OzSim *sim, int member, int steps);
-    OzStatus (*run)(OzSim *sim, int steps);
-    bool (*is_through)(const void *control, int steps);
     OzStatus (*supply)(OzSim *sim);
-    OzStatus (*let_go)(OzSim *sim);
 
-    /* Puts contacts' memory where it outlives the lists, which are then made anew; control words
-     * are as the device has them before and after. state (may be NULL): what the model's own part
-     * holds of the state, saved or loaded. */
-    OzStatus (*save_springs)(OzSim *sim);
+    /* What the model's own part holds of the state, saved or loaded (may be NULL). */
     OzStatus (*state)(OzSim *sim, OzStateVisit *visit);
 
     /* For a simulation that goes on from another one, or from itself, with other parameters: puts

@@ -2,7 +2,6 @@
 #include "sim/rods.h"
 
 #include "base/memory.h"
-#include "compute/cl_try.h"
 #include "model/motion.h"
 #include "sim/host_lists.h"
 #include "sim/launch.h"
@@ -49,7 +48,8 @@ static void print_more_left_out(const void *switches, const char *separator, FIL
 
 static const char *program(const void *switches)
 {
-    return ((const OzSwitches *)switches)->resort ? "kernels/rods_large.cl" : "kernels/rods.cl";
+    (void)switches;
+    return "kernels/rods.cl";
 }
 
 static int64_t count_grains(const OzGrains *grains)
@@ -86,21 +86,13 @@ static bool fits(const OzMember *a, const OzMember *b, const void *switches)
 static OzStatus open(OzSim *sim)
 {
     OzStatus status = OZ_OK;
-    cl_int code = CL_SUCCESS;
     OzRods *own = NULL;
     OzParameters parameters;
     const OzMember *first = &sim->batch.members[0];
-    const OzSwitches *switches = oz_rods_switches(sim);
     OZ_TRY(OZ_NEW(&own, 1));
     sim->own = own;
     OZ_TRY(OZ_NEW(&own->spring_start, sim->batch.member_count));
     OZ_TRY(oz_constants_fill(&parameters, own->wall_order, first->scene, first->grains));
-    if (switches->resort) {
-        OZ_TRY(oz_large_create(&own->large, sim->program, sim->device, switches));
-    } else {
-        sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
-        CL_TRY(code);
-    }
 done:
     return status;
 }
@@ -109,7 +101,6 @@ static void close(OzSim *sim)
 {
     OzRods *own = sim->own;
     if (own) {
-        oz_large_free(own->large);
         free(own->spring_start);
         free(own);
     }
@@ -199,55 +190,6 @@ done:
     return status;
 }
 
-static OzStatus run(OzSim *sim, int steps)
-{
-    OzStatus status = OZ_OK;
-    OzLarge *large = oz_rods_own(sim)->large;
-    if (large) {
-        return oz_large_steps(large, &sim->arrays, oz_rods_control(sim, 0), steps);
-    }
-    OZ_TRY(oz_launch_enqueue(sim, sim->advance, steps));
-    OZ_TRY(oz_launch_read_control(sim));
-done:
-    return status;
-}
-
-/* Lists must hold too: snapshots read them. */
-static bool is_through(const void *words, int steps)
-{
-    const OzControl *control = words;
-    return control->step >= steps && control->truth == OZ_SPRINGS_AT_INNER &&
-           control->stale_step == OZ_NEVER && control->stale_positions == OZ_NEVER;
-}
-
-/* Springs of every member to the saved lists. */
-static OzStatus save_springs(OzSim *sim)
-{
-    OzStatus status = OZ_OK;
-    cl_int code = CL_SUCCESS;
-    cl_kernel kernel = NULL;
-    OzLarge *large = oz_rods_own(sim)->large;
-    if (large) {
-        return oz_large_save_springs(large, &sim->arrays, oz_rods_control(sim, 0));
-    }
-    kernel = clCreateKernel(sim->program, "oz_save_springs", &code);
-    CL_TRY(code);
-    OZ_TRY(oz_launch_enqueue(sim, kernel, -1));
-    OZ_TRY(oz_launch_read_control(sim));
-done:
-    if (kernel) {
-        clReleaseKernel(kernel);
-    }
-    return status;
-}
-
-/* A member that is through holds its lists, which do not outlive new sizes. It makes them again,
- * with the same contacts, when it goes on. */
-static OzStatus let_go(OzSim *sim)
-{
-    return sim->batch.member_count == 1 ? OZ_OK : save_springs(sim);
-}
-
 static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
@@ -273,7 +215,6 @@ const OzModel oz_rods_model = {
     .control_field = OZ_FIELD_control,
     .fields = oz_rods_fields_rows,
     .field_bytes = oz_rods_fields_bytes,
-    .keeps_rows = oz_rods_fields_keeps,
     .body = "grain",
     .body_count = count_grains,
     .switches_bytes = sizeof(OzSwitches),
@@ -296,11 +237,7 @@ const OzModel oz_rods_model = {
     .write_parameters = write_parameters,
     .prime = prime,
     .prepare = oz_rods_move_walls,
-    .run = run,
-    .is_through = is_through,
     .supply = oz_host_lists_make,
-    .let_go = let_go,
-    .save_springs = save_springs,
     .state = own_state,
     .adopt = adopt,
     .unpack = oz_rods_read_snapshot_state,

@@ -43,19 +43,3 @@ const OzField oz_rods_fields_rows[] = {
     OZ_FIELDS(ROW)
 #undef ROW
 };
-
-/* Lists whose contents outlive a growth: where tangential springs are kept during a rebuild. */
-bool oz_rods_fields_keeps(int field)
-{
-    switch (field) {
-    case OZ_FIELD_outer_a:
-    case OZ_FIELD_outer_b:
-    case OZ_FIELD_outer_history:
-    case OZ_FIELD_saved_a:
-    case OZ_FIELD_saved_b:
-    case OZ_FIELD_saved_history:
-        return true;
-    default:
-        return false;
-    }
-}

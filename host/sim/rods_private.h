@@ -3,7 +3,6 @@
 #ifndef OZ_SIM_RODS_PRIVATE_H
 #define OZ_SIM_RODS_PRIVATE_H
 
-#include "sim/large.h"
 #include "sim/rods_fields.h"
 #include "sim/sim_private.h"
 
@@ -11,7 +10,6 @@
 typedef struct OzRods {
     double *spring_start;         /* one a member: J in tangential springs at time 0  */
     int wall_order[OZ_WALLS_MAX]; /* scene's wall of each kernel wall                 */
-    OzLarge *large;               /* large scenes                                     */
     bool primed;                  /* velocity-verlet knows its first acceleration     */
 } OzRods;
 

@@ -91,6 +91,7 @@ static OzStatus build(OzSim *sim, const char *source_dir)
     oz_model_options(model, switches, options, sizeof options);
     OZ_TRY(oz_program_build(&sim->program, sim->device, source_dir, model->program(switches),
                             options));
+    OZ_TRY(oz_launch_open(sim));
     OZ_TRY(model->open(sim));
     OZ_TRY(oz_program_check(sim->program, sim->device, &layout));
 done:
@@ -144,6 +145,7 @@ void oz_sim_free(OzSim *sim)
     }
     oz_arrays_free(&sim->arrays);
     sim->model->close(sim);
+    oz_large_free(sim->large);
     if (sim->advance) {
         clReleaseKernel(sim->advance);
     }

@@ -4,6 +4,7 @@
 
 #include "sim/arrays.h"
 #include "sim/batch.h"
+#include "sim/large.h"
 #include "sim/model.h"
 
 struct OzSim {
@@ -13,7 +14,8 @@ struct OzSim {
     void *parameters; /* one a member, the model's struct, in double                          */
     void *control;    /* one a member, the model's struct, as last read or to be written next */
     cl_program program;
-    cl_kernel advance; /* many steps, one work-group a member; NULL where the model has others */
+    cl_kernel advance; /* many steps, one work-group a member; NULL: a large scene */
+    OzLarge *large;    /* of a large scene                                         */
     OzArrays arrays;
     bool is_empty; /* there is nothing that moves */
     void *own;     /* the model's own part        */

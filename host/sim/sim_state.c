@@ -156,7 +156,7 @@ done:
 OzStatus oz_sim_state_save_springs(OzSim *sim)
 {
     OZ_PASS(oz_launch_write_control(sim));
-    OZ_PASS(sim->model->save_springs(sim));
+    OZ_PASS(oz_launch_save_springs(sim));
     return oz_launch_write_control(sim);
 }
 

@@ -20,10 +20,10 @@ enum {
     BACK_PAIRS = 16,
     MOTION_STEPS = 8192, /* of one launch */
     LARGE_REGION = 256,  /* slots: enough for any number of threads, each long enough to pay */
-    LARGE_REGIONS = 16   /* at least, should a large scene have less than 4096 grains */
+    LARGE_REGIONS = 16   /* at least, should a large scene have less than 4096 bodies */
 };
 
-static int round_up(double count, int to)
+int oz_sizes_up(double count, int to)
 {
     return (int)(ceil(count / to) * to);
 }
@@ -35,6 +35,21 @@ static int power_of_two(double least)
         power *= 2;
     }
     return power;
+}
+
+void oz_sizes_regions(OzSizesHead *z, const OzSwitchesHead *s, int slots)
+{
+    double share_slots = s->resort ? fmin(LARGE_REGION, (double)slots / LARGE_REGIONS)
+                                   : ceil((double)slots / s->group);
+    z->members = 1;
+    z->region_slots = oz_sizes_up(fmax(1, share_slots), s->lanes);
+    int filled = (int)fmax(1, ceil((double)slots / z->region_slots));
+    z->regions = s->resort ? filled : s->group; /* one for each work-item, some may be empty */
+    double share = fmax(1, (double)slots / z->regions);
+    z->outer_capacity = oz_sizes_up(OUTER_PAIRS * share + 16, s->lanes);
+    z->inner_capacity = oz_sizes_up(INNER_PAIRS * share + 16, s->lanes);
+    z->back_capacity = BACK_PAIRS;
+    z->motion_steps = MOTION_STEPS;
 }
 
 static double mean_diameter(const OzGrains *grains)
@@ -61,9 +76,10 @@ static void extents(double size[3], const OzGrains *grains)
 
 /* The axes from the shortest extent to the longest: slots follow the first, so that grains which
  * meet across the others stand no farther apart in memory than need be. */
-static void order_axes(int axis[3], const double size[3])
+static void order_axes(int axis[3], const double *size, int axes)
 {
-    for (int k = 0; k < 3; k++) {
+    axis[2] = 2;
+    for (int k = 0; k < axes; k++) {
         int to = k;
         for (; to > 0 && size[axis[to - 1]] > size[k]; to--) {
             axis[to] = axis[to - 1];
@@ -72,26 +88,21 @@ static void order_axes(int axis[3], const double size[3])
     }
 }
 
-/* Cells of the hashed grid, as wide as the longest reach: the neighbouring ones hold all partners
- * (half as wide and two away measured slower, more rows of cells costing more than fewer candidates
- * save). The grid wraps around, so its size is a matter of speed only, as long as no cell is met
- * twice. */
-static void choose_cells(OzSizes *z, OzParameters *p, const OzGrains *grains)
+void oz_sizes_cells(OzSizesHead *z, double *inverse_cell, double reach, const double *size,
+                    int axes, int64_t bodies)
 {
-    double reach = 2 * (p->reach_max + p->outer_most), size[3];
-    double cell = fmax(reach, 1e-300);
-    p->inverse_cell = 1 / cell;
-    extents(size, grains);
-    order_axes(z->axis, size);
+    double cell = fmax(2 * reach, 1e-300), budget = fmax(64, 4.0 * (double)bodies);
     int least = 4, *cells = z->cells_along;
-    double budget = fmax(64, 4.0 * (double)grains->count);
-    for (int k = 0; k < 3; k++) {
+    *inverse_cell = 1 / cell;
+    order_axes(z->axis, size, axes);
+    cells[2] = 1;
+    for (int k = 0; k < axes; k++) {
         double wanted = fmin(size[z->axis[k]] / cell + 1, fmax(budget, least));
         cells[k] = power_of_two(fmax(wanted, least));
     }
     while ((double)cells[0] * cells[1] * cells[2] > budget) {
         int *largest = cells;
-        for (int k = 1; k < 3; k++) {
+        for (int k = 1; k < axes; k++) {
             largest = cells[k] > *largest ? &cells[k] : largest;
         }
         if (*largest / 2 < least) {
@@ -117,21 +128,14 @@ void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const 
     p->skin_most = fmin(skins->most * diameter, p->outer_least / 2);
     p->skin_least = fmin(skins->least * diameter, p->skin_most);
     p->skin_time = skins->steps * scene->step;
-    z->members = 1;
     z->count = (int)grains->count;
-    z->slots = round_up((double)z->count, s->lanes);
+    z->slots = oz_sizes_up((double)z->count, s->lanes);
     z->blocks = z->slots / s->lanes;
-    double share_slots = s->resort ? fmin(LARGE_REGION, (double)z->slots / LARGE_REGIONS)
-                                   : ceil((double)z->slots / s->group);
-    z->region_slots = round_up(fmax(1, share_slots), s->lanes);
-    int filled = (int)fmax(1, ceil((double)z->slots / z->region_slots));
-    z->regions = s->resort ? filled : s->group; /* one for each work-item, some may be empty */
-    double share = fmax(1, (double)z->slots / z->regions);
-    z->outer_capacity = round_up(OUTER_PAIRS * share + 16, s->lanes);
-    z->inner_capacity = round_up(INNER_PAIRS * share + 16, s->lanes);
-    z->back_capacity = BACK_PAIRS;
-    z->motion_steps = MOTION_STEPS;
-    choose_cells(z, p, grains);
+    oz_sizes_regions((OzSizesHead *)(void *)z, switches, z->slots);
+    double size[3];
+    extents(size, grains);
+    oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size, 3,
+                   grains->count);
 }
 
 void oz_sizes_join(void *sizes, const void *other)

@@ -35,7 +35,7 @@ static OzStatus time_renewal(OzSim *sim, bool outer, double *seconds)
     for (int k = 0; k < OZ_TIMING_LAUNCHES; k++) {
         double start = oz_timing_clock(sim->device);
         OZ_TRY(
-            oz_large_renew(oz_rods_own(sim)->large, &sim->arrays, oz_rods_control(sim, 0), outer));
+            oz_large_renew(sim->large, &sim->arrays, oz_sim_control(sim, 0), outer));
         times[k] = oz_timing_clock(sim->device) - start;
     }
     *seconds = oz_timing_median(times);
@@ -47,7 +47,7 @@ static OzStatus time_lists(OzStageTiming *phases, OzSim *sim, cl_program program
 {
     OzStatus status = OZ_OK;
     double rebuilt = NAN;
-    if (oz_rods_own(sim)->large) {
+    if (sim->large) {
         OZ_TRY(time_renewal(sim, false, &phases->refresh));
         OZ_TRY(time_renewal(sim, true, &rebuilt));
     } else {

@@ -13,6 +13,8 @@
     X(LANES, lanes, NULL)                                                                          \
     X(GROUP, group, NULL)                                                                          \
     X(LEDGER, ledger, "energy ledger")                                                             \
+    X(RESORT, resort, "spatial re-sort of grains")                                                 \
+    X(HOST_LISTS, host_lists, NULL)                                                                \
     X(INTEGRATOR_ID, integrator, NULL)                                                             \
     X(MOVES_BEFORE, moves_before, NULL)                                                            \
     X(ROUND, round, NULL)                                                                          \
@@ -31,9 +33,7 @@
     X(WALL_COUNT, walls, "walls")                                                                  \
     X(WALL_KINDS, wall_kinds, NULL)                                                                \
     X(MOVING, moving, "moving walls")                                                              \
-    X(ALL_PAIRS, all_pairs, NULL)                                                                  \
-    X(HOST_LISTS, host_lists, NULL)                                                                \
-    X(RESORT, resort, "spatial re-sort of grains")
+    X(ALL_PAIRS, all_pairs, NULL)
 
 typedef struct OzSwitches {
     int is_double; /* -D OZ_DOUBLE when set */

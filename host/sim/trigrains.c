@@ -45,11 +45,10 @@ static int64_t count_elements(const OzGrains *grains)
     return grains->elements->count;
 }
 
-/* Numbers of elements may differ. */
+/* Numbers of elements may differ, if one work-group a scene can do them. */
 static bool fits(const OzMember *a, const OzMember *b, const void *switches)
 {
-    (void)switches;
-    return a->scene->wall_count == b->scene->wall_count;
+    return !((const OzElementSwitches *)switches)->resort && a->scene->wall_count == b->scene->wall_count;
 }
 
 static OzStatus open(OzSim *sim)
@@ -60,8 +59,6 @@ static OzStatus open(OzSim *sim)
     OZ_TRY(OZ_NEW(&own, 1));
     sim->own = own;
     OZ_TRY(OZ_NEW(&own->present, sim->batch.member_count));
-    sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
-    CL_TRY(code);
     own->begin = clCreateKernel(sim->program, "oz_begin", &code);
     CL_TRY(code);
 done:
@@ -101,20 +98,6 @@ done:
 static OzStatus write_parameters(OzSim *sim, int member)
 {
     return oz_element_pack_parameters(&sim->arrays, member, oz_element_parameters(sim, member));
-}
-
-static bool is_through(const void *control, int steps)
-{
-    return ((const OzElementControl *)control)->step >= steps;
-}
-
-/* All members then make their lists anew. */
-static OzStatus let_go(OzSim *sim)
-{
-    for (int m = 0; m < sim->batch.member_count; m++) {
-        oz_element_control(sim, m)->outer_holds = oz_element_control(sim, m)->inner_holds = 0;
-    }
-    return OZ_OK;
 }
 
 static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
@@ -157,9 +140,6 @@ const OzModel oz_trigrains_model = {
     .write_parameters = write_parameters,
     .steps_alike = oz_element_motion_steps_alike,
     .prepare = oz_element_motion_prepare,
-    .is_through = is_through,
-    .let_go = let_go,
-    .save_springs = let_go,
     .state = own_state,
     .adopt = adopt,
     .unpack = oz_element_read_snapshot_state,

@@ -107,7 +107,6 @@ static void count_wall(OzWallParameters *wall, const OzUnits *u, int law)
 
 static void count_grain(OzParameters *p, const OzUnits *u)
 {
-    p->reach_max /= u->length;
     p->radius /= u->length;
     p->half_length /= u->length;
     p->mass /= u->mass;
@@ -116,16 +115,18 @@ static void count_grain(OzParameters *p, const OzUnits *u)
     p->inverse_inertia_axis *= oz_units_inertia(u);
 }
 
-static void count_lists(OzParameters *p, const OzUnits *u)
-{
-    p->outer_least /= u->length;
-    p->outer_most /= u->length;
-    p->outer_time /= u->time;
-    p->skin_least /= u->length;
-    p->skin_most /= u->length;
-    p->skin_time /= u->time;
-    p->inverse_cell *= u->length;
-}
+/* What both models' parameters have for the lists: OZ_PARAMETERS_LISTS. */
+#define COUNT_LISTS(p, u)                                                                          \
+    do {                                                                                           \
+        (p)->outer_least /= (u)->length;                                                           \
+        (p)->outer_most /= (u)->length;                                                            \
+        (p)->outer_time /= (u)->time;                                                              \
+        (p)->skin_least /= (u)->length;                                                            \
+        (p)->skin_most /= (u)->length;                                                             \
+        (p)->skin_time /= (u)->time;                                                               \
+        (p)->inverse_cell *= (u)->length;                                                          \
+        (p)->reach_max /= (u)->length;                                                             \
+    } while (0)
 
 OzParameters oz_units_parameters(const OzParameters *si, int law)
 {
@@ -142,7 +143,7 @@ OzParameters oz_units_parameters(const OzParameters *si, int law)
     for (int w = 0; w < OZ_WALLS_MAX; w++) {
         count_wall(&p.wall[w], u, law);
     }
-    count_lists(&p, u);
+    COUNT_LISTS(&p, u);
     count_grain(&p, u);
     p.units = (OzUnits){1, 1, 1};
     return p;
@@ -166,18 +167,6 @@ static void count_disc(OzDiscLaw *law, const OzUnits *u)
     law->tangential_damping *= u->time;
 }
 
-static void count_element_lists(OzElementParameters *p, const OzUnits *u)
-{
-    p->outer_least /= u->length;
-    p->outer_most /= u->length;
-    p->outer_time /= u->time;
-    p->skin_least /= u->length;
-    p->skin_most /= u->length;
-    p->skin_time /= u->time;
-    p->inverse_cell *= u->length;
-    p->reach_small /= u->length;
-}
-
 OzElementParameters oz_units_elements(const OzElementParameters *si)
 {
     OzElementParameters p = *si;
@@ -194,7 +183,7 @@ OzElementParameters oz_units_elements(const OzElementParameters *si)
     for (int w = 0; w <= OZ_ELEMENT_WALLS_MAX; w++) {
         count_disc(&p.law[w], u);
     }
-    count_element_lists(&p, u);
+    COUNT_LISTS(&p, u);
     p.units = (OzUnits){1, 1, 1};
     return p;
 }

@@ -1,0 +1,139 @@
+/* What the grid and the lists want to know of grains: where one is and how far it reaches, which
+ * pairs are near, what has moved. OpenCL C only. */
+#ifndef OZ_KERNELS_NEAR_H
+#define OZ_KERNELS_NEAR_H
+
+#include "kernels/grains.h"
+
+#define OZ_DIMENSIONS             3
+#define OZ_NEAR_UNIT(w)           ((w)->parameters->length_unit)
+#define OZ_NEAR_REAL(counts)      oz_fixed_position_to_real(counts)
+#define OZ_NEAR_SLOTS(w)          ((w)->z.count)
+#define OZ_NEAR_IS_LARGE(w, slot) 0
+#define OZ_NEAR_MOVES(w, slot)    1 /* its forces are wanted                      */
+#define OZ_NEAR_NONE(w)           ((w)->z.slots) /* second of a pair that never touches */
+#define OZ_NEAR_MIXED             (!OZ_EQUAL)    /* a pair's first may have the higher id */
+
+typedef fixed_position_kind place_kind;
+typedef OzGrain OzNear;
+
+OZ_INLINE int oz_near_listed(const OzWork *w, int slot)
+{
+    return 1;
+}
+
+OZ_INLINE void oz_near_place(const OzWork *w, int slot, place_kind place[3])
+{
+    global const place_kind *record =
+        (global const place_kind *)(w->record + (size_t)slot * OZ_RECORD + OZ_R_POSITION);
+    place[0] = record[0];
+    place[1] = record[1];
+    place[2] = record[2];
+}
+
+/* Half-length + radius of a grain, m, from its shape. The length of the shaft's vector would not
+ * do: its rounding changes as the grain turns, so that two grains of equal reach would change their
+ * order in a pair. */
+OZ_INLINE scalar oz_near_reach(const OzWork *w, int slot)
+{
+    if (OZ_EQUAL) {
+        return w->parameters->reach_max;
+    }
+    global const scalar *words = (global const scalar *)w->shape;
+    return words[oz_lanes_at(slot, OZ_SHAPE, OZ_B_RADIUS)] +
+           words[oz_lanes_at(slot, OZ_SHAPE, OZ_B_HALF_LENGTH)];
+}
+
+OZ_INLINE void oz_near_lay(OzWork *w, int to, int slot)
+{
+    w->sorted_id[to] = w->id[slot];
+    if (!OZ_EQUAL) {
+        w->sorted_reach[to] = oz_near_reach(w, slot);
+    }
+}
+
+OZ_INLINE OzNear oz_near_load(const OzWork *w, const int *slots)
+{
+    return oz_work_geometry(w, slots);
+}
+
+/* A pair's first grain is the one with the longer reach (half-length + radius), then the lower id:
+ * the sorted grains from k on of which the one in `slot` is the first. */
+OZ_INLINE mask oz_near_seconds(const OzWork *w, int k, int slot)
+{
+    mask later = oz_lanes_mask_of(OZ_LANES_LOAD(w->sorted_id + k) > w->id[slot]);
+    if (!OZ_EQUAL) {
+        real reach = OZ_LANES_LOAD(w->sorted_reach + k), own = REAL(oz_near_reach(w, slot));
+        later = (reach < own) | ((reach == own) & later);
+    }
+    return later;
+}
+
+/* Pairs whose gap is below `margin`. */
+OZ_INLINE mask oz_near_pairs(const OzWork *w, const OzNear *a, const OzNear *b, real margin)
+{
+    real radii, distance2 = oz_pairs_distance2(w, *a, *b, &radii), near = radii + margin;
+    return distance2 < near * near;
+}
+
+/* A block of grains as its motion is measured. */
+typedef struct OzPose {
+    OzBody body;
+    OzShape shape;
+    OzVec3 axis, shaft;
+} OzPose;
+
+OZ_INLINE OzPose oz_near_pose_of(OzBody body, OzShape shape)
+{
+    OzPose pose = {body, shape, oz_quaternion_axis(body.turn)};
+    pose.shaft = oz_scale(pose.axis, shape.half_length);
+    return pose;
+}
+
+OZ_INLINE OzPose oz_near_pose(const OzWork *w, int block)
+{
+    return oz_near_pose_of(oz_grains_load(w, block), oz_grains_shape(w, block));
+}
+
+/* How fast any point of a grain moves at most. */
+OZ_INLINE real oz_near_speed(OzPose pose)
+{
+    OzVec3 rate = oz_body_rate(pose.body.spin, pose.axis, pose.shape);
+    return sqrt(oz_dot(pose.body.velocity, pose.body.velocity)) +
+           pose.shape.half_length * sqrt(oz_dot(rate, rate));
+}
+
+OZ_INLINE void oz_near_note(global real *reference, OzPose pose)
+{
+    reference[0] = oz_fixed_position_bits(pose.body.position.x);
+    reference[1] = oz_fixed_position_bits(pose.body.position.y);
+    reference[2] = oz_fixed_position_bits(pose.body.position.z);
+    oz_work_store3(reference + 3, pose.shaft);
+}
+
+/* Whether no point of the shaft can have moved farther than `most` since the reference was taken:
+ * the larger of |dx + da| and |dx - da|. */
+OZ_INLINE mask oz_near_stays(const OzWork *w, global const real *reference, OzPose pose, real most)
+{
+    OzFixedPosition from;
+    from.x = oz_fixed_position_of_bits(reference[0]);
+    from.y = oz_fixed_position_of_bits(reference[1]);
+    from.z = oz_fixed_position_of_bits(reference[2]);
+    OzVec3 dx = oz_fixed_position_minus(pose.body.position, from, w->parameters->length_unit);
+    real moved2 = oz_dot(dx, dx);
+    if (!OZ_ROUND) {
+        OzVec3 da = oz_minus(pose.shaft, oz_work_load3(reference + 3));
+        moved2 = moved2 + oz_dot(da, da) + REAL(2.0) * oz_magnitude(oz_dot(dx, da));
+    }
+    return moved2 <= most * most;
+}
+
+/* Any pair of a new list may have a spring. */
+OZ_INLINE void oz_near_fresh(OzWork *w, int begin, int count)
+{
+    for (int p = begin; p < begin + count; p += OZ_LANES) {
+        w->pair_active[p / OZ_LANES] = -1;
+    }
+}
+
+#endif
