@@ -13,10 +13,10 @@ static const struct {
     int least_paths, most_paths;
     const char *example;
 } command_rows[] = {
-    {"run", "SCENE", "oOserdtpgunmlfSwRP",
+    {"run", "SCENE", "oOserdtpgunmlVfSwRP",
      "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1,
      "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
-    {"resume", "DIR", "sdtgumlS",
+    {"resume", "DIR", "sdtgumlVS",
      "goes on with a run that was interrupted or killed, or to a later end, from its last state", 1,
      1, "orzo resume runs/an6 --set time.taps=600"},
     {"check", "SCENE", "vsdtpgfS",
@@ -60,6 +60,8 @@ static const struct {
     {'m', "--stream", "FILE|-",
      "the movie's frames as they are drawn, as Matroska: into a new file, a named pipe or a pipe"},
     {'l', "--latest", NULL, "keep latest.png, the newest frame, in the folder"},
+    {'V', "--serve", "[PORT]",
+     "show the run on a page of this machine alone, whose address is printed (default: a free port)"},
     {'f', "--force", NULL, "only warn of a step at which a contact is unstable"},
     {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder"},
     {'Q', "--quick", NULL, "a short ladder, in about a minute"},
@@ -262,12 +264,26 @@ static OzStatus parse_precision(OzOptions *options, const char *value)
     return wrong(value, "--precision float or --precision double");
 }
 
+static OzStatus take_name(const char **name, const char *value, const char *expected)
+{
+    *name = value;
+    return value[0] ? OZ_OK : wrong(value, expected);
+}
+
+static OzStatus parse_serve(OzOptions *options, const char *value)
+{
+    options->serve = true;
+    options->serve_port = value ? (int)strtol(value, NULL, 10) : 0;
+    return value && (strlen(value) > 5 || options->serve_port > 65535)
+               ? wrong(value, "--serve with a port from 1 to 65535, or none")
+               : OZ_OK;
+}
+
 static OzStatus take_option(OzOptions *options, char letter, const char *value)
 {
     switch (letter) {
     case 'o':
-        options->out = value;
-        return value[0] ? OZ_OK : wrong(value, "-o with the name of a folder");
+        return take_name(&options->out, value, "-o with the name of a folder");
     case 's':
         return add_setting(options, value);
     case 'd':
@@ -290,8 +306,9 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         *(letter == 'S' ? &options->source_dir : &options->from) = value;
         return OZ_OK;
     case 'm':
-        options->stream = value;
-        return value[0] ? OZ_OK : wrong(value, "--stream with the name of a file, or -");
+        return take_name(&options->stream, value, "--stream with the name of a file, or -");
+    case 'V':
+        return parse_serve(options, value);
     case 'b':
         return parse_budget(options, value);
     case 'T':
@@ -345,11 +362,15 @@ static OzStatus take_argument(OzOptions *options, int command, int argc, char **
                  options->command, options->command);
         return wrong(argument, expected);
     }
-    if (option_rows[o].value && *i + 1 >= argc) {
-        return oz_status_fail(OZ_ERR_INPUT, "orzo: %s is missing; expected %s %s",
-                              option_rows[o].value, argument, option_rows[o].value);
+    const char *wanted = option_rows[o].value, *next = *i + 1 < argc ? argv[*i + 1] : NULL;
+    if (wanted && wanted[0] == '[' && (!next || !*next || next[strspn(next, "0123456789")])) {
+        return take_option(options, option_rows[o].letter, NULL); /* its value may be left out */
     }
-    return take_option(options, option_rows[o].letter, option_rows[o].value ? argv[++*i] : NULL);
+    if (wanted && !next) {
+        return oz_status_fail(OZ_ERR_INPUT, "orzo: %s is missing; expected %s %s",
+                              wanted, argument, wanted);
+    }
+    return take_option(options, option_rows[o].letter, wanted ? argv[++*i] : NULL);
 }
 
 static OzStatus check_count(const OzOptions *options, int command)

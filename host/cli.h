@@ -27,6 +27,8 @@ typedef struct OzOptions {
     int own_settings; /* which began with so many settings */
     const char *stream;                   /* --stream: a path, "-", or NULL    */
     bool latest;                          /* --latest                         */
+    bool serve;                           /* --serve                          */
+    int serve_port;                       /* of it; 0: a free one             */
     bool overwrite, no_video, force, columns, help, verbose;
     const char *source_dir;                       /* --source-dir                     */
     bool features, quick;                         /* bench                            */

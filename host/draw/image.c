@@ -88,3 +88,27 @@ done:
     free(rgb);
     return status;
 }
+
+OzStatus oz_image_png(const OzImage *image, char **bytes, size_t *length)
+{
+    OzStatus status = OZ_OK;
+    uint8_t *rgb = NULL;
+    png_image png = {.version = PNG_IMAGE_VERSION,
+                     .width = (png_uint_32)image->width,
+                     .height = (png_uint_32)image->height,
+                     .format = PNG_FORMAT_RGB,
+                     .flags = PNG_IMAGE_FLAG_FAST};
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+    *bytes = NULL;
+    OZ_TRY(without_alpha(&rgb, image));
+    OZ_TRY(OZ_NEW(bytes, size));
+    if (!png_image_write_to_memory(&png, *bytes, &size, 0, rgb, 0, NULL)) {
+        status = oz_status_fail(OZ_ERR_FILE, "a picture in memory: libpng: %s", png.message);
+        free(*bytes);
+        *bytes = NULL;
+    }
+    *length = size;
+done:
+    free(rgb);
+    return status;
+}

@@ -42,6 +42,9 @@ void oz_live_show(OzLive *live, const OzImage *image, double fps, const char *fo
     if (live->stream) {
         oz_movie_stream_show(live->stream, image, fps);
     }
+    if (live->watcher.wants && live->watcher.wants(live->watcher.context)) {
+        live->watcher.show(live->watcher.context, image);
+    }
     live->is_stale = true;
     if (atomic_load(&live->wants_latest) && oz_clock_now() - live->written >= PAUSE) {
         keep_latest(live, image, folder);

@@ -10,6 +10,13 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
+/* Another one who looks on: is shown a picture if it wants one, both in the thread that draws. */
+typedef struct OzLiveWatcher {
+    bool (*wants)(void *context); /* NULL: there is none */
+    void (*show)(void *context, const OzImage *image);
+    void *context;
+} OzLiveWatcher;
+
 /* Zeroed is valid: nobody looks, and showing costs nothing. */
 typedef struct OzLive {
     OzMovieStream *stream;    /* owned; NULL: none                          */
@@ -17,6 +24,7 @@ typedef struct OzLive {
     bool is_noted;            /* latest.png, in the folder's marker         */
     bool is_stale;            /* a newer picture than latest.png was shown  */
     double written;           /* wall clock at which latest.png was, or 0   */
+    OzLiveWatcher watcher;    /* set before the first picture               */
 } OzLive;
 
 /* Shows a picture: hands it to the stream, and writes folder/latest.png if it is wanted and none

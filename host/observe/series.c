@@ -27,6 +27,8 @@ struct OzSeries {
     OzMeasure measure;
     Ring mean[OZ_TAP_MEANS];
     double (*wall_force)[3]; /* of the row in hand; NULL: nobody asked */
+    double *row;             /* the last one; NAN: an empty cell */
+    int cell_count;
     bool has_start;
     double energy_start; /* J, of the first row */
     OzSurplus surplus;
@@ -82,6 +84,14 @@ static OzStatus write_header(OzSeries *series)
     return end_row(series);
 }
 
+static OzStatus make_row(OzSeries *series)
+{
+    for (const OzColumn *column = oz_series_columns(); column->name; column++) {
+        series->cell_count += oz_observables_cells(column, series->scene);
+    }
+    return OZ_NEW(&series->row, series->cell_count);
+}
+
 /* mode: of fopen; a header is written into an empty file. */
 static OzStatus open_series(OzSeries **series, const char *path, const OzScene *scene,
                             const OzGrains *grains, const char *mode)
@@ -97,6 +107,7 @@ static OzStatus open_series(OzSeries **series, const char *path, const OzScene *
     if (scene->observe.walls) {
         OZ_TRY(OZ_NEW(&(*series)->wall_force, scene->wall_count));
     }
+    OZ_TRY(make_row(*series));
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         OZ_TRY(ring_create(&(*series)->mean[k], 2 * samples));
     }
@@ -197,17 +208,19 @@ static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
     return observation;
 }
 
-static void write_cell(FILE *file, const OzColumn *column, const OzObservation *observation)
+/* Returns the value, NAN for an empty cell. */
+static double write_cell(FILE *file, const OzColumn *column, const OzObservation *observation)
 {
     double value = 0;
     if (!column->value(observation, &value)) {
-        return;
+        return NAN;
     }
     if (isnan(value)) { /* printf would let a sign slip in */
         fputs("nan", file);
     } else {
         fprintf(file, column->whole ? "%.0f" : "%.9g", value);
     }
+    return value;
 }
 
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
@@ -218,12 +231,13 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
     }
     OzObservation observation = observe(series, snapshot);
     const char *comma = "";
+    double *value = series->row;
     for (const OzColumn *column = oz_series_columns(); column->name; column++) {
         int cells = oz_observables_cells(column, series->scene);
         for (int cell = 0; cell < cells; cell++, comma = ",") {
             fputs(comma, series->file);
             observation.index = column->index + cell;
-            write_cell(series->file, column, &observation);
+            *value++ = write_cell(series->file, column, &observation);
         }
     }
     if (!series->has_start) {
@@ -232,6 +246,23 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
     }
     status = end_row(series);
     return status == OZ_OK ? oz_surplus_check(&series->surplus, snapshot) : status;
+}
+
+int oz_series_row(const OzSeries *series, const double **cells)
+{
+    *cells = series->row;
+    return series->cell_count;
+}
+
+void oz_series_name(const OzSeries *series, int cell, char name[OZ_COLUMN_NAME])
+{
+    const OzColumn *column = oz_series_columns();
+    int cells;
+    while ((cells = oz_observables_cells(column, series->scene)) <= cell) {
+        cell -= cells;
+        column++;
+    }
+    oz_observables_name(column, series->scene, cell, name);
 }
 
 bool oz_series_has_spectrum(const OzSeries *series)
@@ -255,6 +286,7 @@ OzStatus oz_series_free(OzSeries *series)
     }
     oz_measure_free(&series->measure);
     free(series->wall_force);
+    free(series->row);
     oz_flow_free(&series->flow);
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         free(series->mean[k].value);

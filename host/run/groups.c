@@ -5,9 +5,16 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "run/capacity.h"
+#include "run/ensemble_tables.h"
 #include "sim/batch_fit.h"
 
 #include <stdlib.h>
+
+static const char *const outcome_names[] = {[OZ_OUTCOME_NOT_STARTED] = "not started",
+                                            [OZ_OUTCOME_DONE] = "done",
+                                            [OZ_OUTCOME_STOPPED] = "stopped",
+                                            [OZ_OUTCOME_INTERRUPTED] = "interrupted",
+                                            [OZ_OUTCOME_FAILED] = "failed"};
 
 /* A member of an ensemble that cannot be run: said by name, remembered, and the others go on. */
 static void lose(OzGroups *groups, int64_t number, OzStatus why, const char *text)
@@ -181,6 +188,31 @@ void oz_groups_free(OzGroups *groups)
 bool oz_groups_is_begun(const OzGroups *groups)
 {
     return groups->member_count > 0 && groups->members[0]->goes_on;
+}
+
+OzStatus oz_groups_write_tables(const OzGroups *groups, const char *folder)
+{
+    OzStatus status = OZ_OK;
+    OzEnsemble *ensemble = NULL;
+    char *name = NULL;
+    bool begun = folder && (groups->most > 0 || groups->resume);
+    if (!groups->plan.is_ensemble || !begun) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_ensemble_tables_create(&ensemble, folder, groups->plan.scene.sweep.key));
+    for (int64_t i = 0; i < groups->plan.count; i++) {
+        free(name);
+        OZ_TRY(oz_members_name(&groups->plan, i, &name));
+        OzEnsembleRow row = {name, oz_members_seed(&groups->plan, i),
+                             oz_members_value(&groups->plan, i),
+                             outcome_names[groups->outcomes[i]],
+                             groups->outcomes[i] != OZ_OUTCOME_NOT_STARTED};
+        OZ_TRY(oz_ensemble_tables_add(ensemble, &row));
+    }
+done:
+    free(name);
+    OZ_AFTER(status, oz_ensemble_tables_finish(ensemble));
+    return status;
 }
 
 OzStatus oz_groups_tell_losses(const OzGroups *groups)

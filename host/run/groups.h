@@ -41,6 +41,10 @@ bool oz_groups_is_begun(const OzGroups *groups);
 /* Workers at a time: one a thread of a CPU; a GPU takes all members at once. */
 int64_t oz_groups_most_workers(const OzGroups *groups);
 
+/* members.csv and ensemble.csv of an ensemble into the folder (NULL: none was taken), once a member
+ * has been opened. */
+OzStatus oz_groups_write_tables(const OzGroups *groups, const char *folder);
+
 /* Fails as the first member that did not reach its end did, saying how many there are; OZ_OK
  * without any. */
 OzStatus oz_groups_tell_losses(const OzGroups *groups);

@@ -160,6 +160,7 @@ OzStatus oz_outputs_look(OzOutputs *outputs, int due)
     }
     if (due & OZ_DUE_ROW) {
         OZ_PASS(oz_series_write(outputs->series, &outputs->now));
+        OZ_PASS(oz_serve_row(outputs->serve, outputs->series));
     }
     if (due & OZ_DUE_CONTACTS) {
         OZ_PASS(oz_contact_rows_write(outputs->contact_rows, &outputs->now));

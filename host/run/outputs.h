@@ -9,6 +9,7 @@
 #include "observe/frames.h"
 #include "observe/series.h"
 #include "run/reload_log.h"
+#include "run/serve.h"
 
 #include <stdbool.h>
 
@@ -48,6 +49,7 @@ typedef struct OzOutputs {
     OZ_OUTPUTS_OWNERS(OZ_OUTPUTS_MEMBER)
 #undef OZ_OUTPUTS_MEMBER
     OzPicturesSettings picture_settings;
+    OzServe *serve;              /* borrowed: is shown the rows; NULL: none          */
     OzRenderQueue *render_queue; /* borrowed: draws the pictures' pictures */
     int64_t number;              /* of the member in its plan */
     bool goes_on; /* set by who opens it: its files are there, oz_outputs_state will load */

@@ -8,7 +8,6 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "run/costs.h"
-#include "run/ensemble_tables.h"
 #include "run/groups.h"
 #include "run/pace.h"
 #include "run/replay.h"
@@ -21,12 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const outcome_names[] = {[OZ_OUTCOME_NOT_STARTED] = "not started",
-                                            [OZ_OUTCOME_DONE] = "done",
-                                            [OZ_OUTCOME_STOPPED] = "stopped",
-                                            [OZ_OUTCOME_INTERRUPTED] = "interrupted",
-                                            [OZ_OUTCOME_FAILED] = "failed"};
-
 /* Everything one run owns. Zeroed is valid: what was not opened is not closed. */
 typedef struct Run {
     const OzOptions *options;
@@ -34,6 +27,7 @@ typedef struct Run {
     OzGroups groups;
     OzDevice device;
     OzRenderQueue *render_queue; /* of all members */
+    OzServe *serve;              /* NULL: it is not served */
     char *folder;
     OzFolder owned; /* the folder, in use                                */
     OzWorker *workers;
@@ -165,7 +159,10 @@ static OzStatus open_run(Run *run)
         oz_log_line("--stream and --latest show the first member");
     }
     run->groups.device = &run->device;
-    return open_reload(run);
+    OZ_PASS(open_reload(run));
+    return options->serve ? oz_serve_open(&run->serve, options, &run->groups.plan.scene, run->reload,
+                                          run->render_queue)
+                          : OZ_OK;
 }
 
 static int choose_worker_count(const Run *run)
@@ -215,6 +212,7 @@ static OzStatus open_workers(Run *run)
                              .schedule = run->groups.schedule,
                              .is_ensemble = run->groups.plan.is_ensemble,
                              .leads = k == 0,
+                             .serve = k == 0 ? run->serve : NULL,
                              .started = run->started,
                              .reload = run->reload,
                              .replay = run->options->replay ? &run->replay : NULL,
@@ -256,6 +254,7 @@ static OzStatus open_group(Run *run)
         OZ_PASS(check_interrupt());
         OZ_PASS(oz_members_name(&run->groups.plan, member->number, &member->name));
         OZ_PASS(choose_member_folder(run, member));
+        member->serve = member->number == 0 ? run->serve : NULL;
         OZ_PASS(oz_outputs_open(member, run->options, run->device.name, run->render_queue));
     }
     if (oz_schedule_missed(&run->groups.schedule, missed, sizeof missed)) {
@@ -346,32 +345,6 @@ done:
     return end_group(run, status, ran);
 }
 
-/* Once a member has been opened there is something to tell. */
-static OzStatus write_tables(const Run *run)
-{
-    OzStatus status = OZ_OK;
-    OzEnsemble *ensemble = NULL;
-    char *name = NULL;
-    bool begun = run->owned.path && (run->groups.most > 0 || run->groups.resume);
-    if (!run->groups.plan.is_ensemble || !begun) {
-        return OZ_OK;
-    }
-    OZ_TRY(oz_ensemble_tables_create(&ensemble, run->folder, run->groups.plan.scene.sweep.key));
-    for (int64_t i = 0; i < run->groups.plan.count; i++) {
-        free(name);
-        OZ_TRY(oz_members_name(&run->groups.plan, i, &name));
-        OzEnsembleRow row = {name, oz_members_seed(&run->groups.plan, i),
-                             oz_members_value(&run->groups.plan, i),
-                             outcome_names[run->groups.outcomes[i]],
-                             run->groups.outcomes[i] != OZ_OUTCOME_NOT_STARTED};
-        OZ_TRY(oz_ensemble_tables_add(ensemble, &row));
-    }
-done:
-    free(name);
-    OZ_AFTER(status, oz_ensemble_tables_finish(ensemble));
-    return status;
-}
-
 static void close_run(Run *run)
 {
     oz_watch_end(run->watch);
@@ -400,7 +373,7 @@ static OzStatus run_all(const OzOptions *options, OzResume *resume)
         OZ_TRY(oz_groups_find(&run.groups, &more));
     }
 done:
-    OZ_AFTER(status, write_tables(&run));
+    OZ_AFTER(status, oz_groups_write_tables(&run.groups, run.owned.path));
     if (status == OZ_OK) {
         status = oz_groups_tell_losses(&run.groups);
     }
@@ -410,6 +383,7 @@ done:
     if (status != OZ_OK && run.owned.path && oz_resume_has_state(run.owned.path)) {
         oz_log_line("to go on from the last state: orzo resume %s", run.owned.path);
     }
+    oz_serve_close(run.serve, status);
     close_run(&run);
     oz_log_use(before);
     oz_log_free(run.log);

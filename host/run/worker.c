@@ -226,6 +226,8 @@ static OzStatus launch(OzWorker *worker, int64_t step, double *shown)
 {
     OzStatus status = oz_sim_launch(worker->sim, step);
     OZ_AFTER(status, drop_stopped(worker));
+    oz_serve_show(worker->serve, &worker->members[0]->scene, oz_sim_step(worker->sim),
+                  oz_sim_time(worker->sim), worker->schedule.last_step);
     if (status == OZ_OK && worker->leads && oz_clock_now() - *shown > 0.2) {
         show_progress(worker);
         *shown = oz_clock_now();

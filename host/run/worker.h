@@ -27,6 +27,7 @@ typedef struct OzWorker {
     bool is_due;              /* it has not been looked at yet                              */
     bool goes_on;             /* it has loaded a state: there is nothing to settle          */
     OzCheckpoint *checkpoint; /* borrowed: where its states go; NULL: it leaves none   */
+    OzServe *serve;           /* borrowed: is shown where the run is; NULL: none       */
     bool is_ensemble;         /* a member that fails leaves the others alone           */
     bool leads;               /* shows progress                                        */
     double started;           /* wall clock, of the program                            */

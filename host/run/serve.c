@@ -1,0 +1,182 @@
+/* Between a run and its page. */
+#include "run/serve.h"
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "model/motion.h"
+#include "run/page.h"
+#include "run/reload.h"
+#include "run/serve_keys.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PICTURE_PAUSE = 0.2; /* s: five a second look smooth, and cost little */
+static const double RATE_SPAN = 1;       /* s over which steps are counted                */
+
+struct OzServe {
+    OzPage *page;
+    OzReload *reload;
+    OzLive *live;
+    double pictured; /* when the last picture was copied, of the render queue's thread */
+    bool has_columns;
+    OzPageStatus status;
+    int64_t rate_step; /* where counting began, and when */
+    double rate_start;
+};
+
+static bool wants_picture(void *context)
+{
+    OzServe *serve = context;
+    return oz_clock_now() - serve->pictured >= PICTURE_PAUSE && oz_page_wants_picture(serve->page);
+}
+
+static void show_picture(void *context, const OzImage *image)
+{
+    OzServe *serve = context;
+    char *png = NULL;
+    size_t length = 0;
+    serve->pictured = oz_clock_now();
+    if (oz_image_png(image, &png, &length) == OZ_OK) { /* else the one before stays */
+        oz_page_show_picture(serve->page, png, length);
+    }
+}
+
+/* The same transaction as an edit of the scene file. */
+static bool set_key(void *context, const char *key, const char *value, char *message, size_t size)
+{
+    OzServe *serve = context;
+    char *setting = NULL;
+    if (asprintf(&setting, "%s=%s", key, value) < 0) {
+        snprintf(message, size, "out of memory");
+        return false;
+    }
+    bool applied = oz_reload_set(serve->reload, &setting, 1, message, size);
+    free(setting);
+    if (applied && !message[0]) {
+        snprintf(message, size, "%s is %s already", key, value);
+    }
+    if (applied) {
+        oz_log_line("page: %s", message);
+        oz_serve_renew(serve); /* else the table stays as it was */
+    }
+    return applied;
+}
+
+OzStatus oz_serve_renew(OzServe *serve)
+{
+    OzScene scene = {0};
+    if (!serve || !serve->reload) {
+        return OZ_OK;
+    }
+    OzStatus status = oz_reload_scene(serve->reload, &scene);
+    status = status == OZ_OK ? oz_serve_keys_show(serve->page, &scene) : status;
+    oz_scene_free(&scene);
+    return status;
+}
+
+OzStatus oz_serve_open(OzServe **serve, const OzOptions *options, const OzScene *scene,
+                       OzReload *reload, OzRenderQueue *render_queue)
+{
+    OzStatus status = OZ_OK;
+    OzPageSettings settings = {
+        .port = options->serve_port, .title = scene->name, .source_dir = options->source_dir};
+    OZ_TRY(OZ_NEW(serve, 1));
+    (*serve)->rate_start = oz_clock_now();
+    (*serve)->status = (OzPageStatus){.tap = NAN, .steps_per_second = NAN};
+    (*serve)->reload = reload;
+    settings.set = reload ? set_key : NULL;
+    settings.context = *serve;
+    OZ_TRY(oz_page_open(&(*serve)->page, &settings));
+    OZ_TRY(oz_serve_renew(*serve));
+    oz_page_show((*serve)->page, &(*serve)->status);
+    if (scene->movie.present && !options->no_video) {
+        (*serve)->live = oz_render_queue_live(render_queue);
+        (*serve)->live->watcher = (OzLiveWatcher){wants_picture, show_picture, *serve};
+    } else {
+        oz_log_line("--serve shows the movie's frames, and there is none: no picture on the page");
+    }
+    fprintf(oz_log_stream(), "page: %s\n", oz_page_address((*serve)->page));
+    fflush(oz_log_stream());
+done:
+    if (status != OZ_OK && *serve) {
+        oz_page_close((*serve)->page);
+        free(*serve);
+        *serve = NULL;
+    }
+    return status;
+}
+
+void oz_serve_close(OzServe *serve, OzStatus status)
+{
+    if (!serve) {
+        return;
+    }
+    serve->status.done = status == OZ_OK;
+    serve->status.stopped = status != OZ_OK;
+    if (status != OZ_OK) {
+        oz_page_say(serve->page, false, oz_status_text());
+    }
+    oz_page_show(serve->page, &serve->status);
+    oz_page_close(serve->page);
+    if (serve->live) {
+        serve->live->watcher = (OzLiveWatcher){0};
+    }
+    free(serve);
+}
+
+void oz_serve_show(OzServe *serve, const OzScene *scene, int64_t step, double time,
+                   int64_t last_step)
+{
+    if (!serve) {
+        return;
+    }
+    double now = oz_clock_now();
+    OzPageStatus *s = &serve->status;
+    s->step = step;
+    s->time = time;
+    s->tap = scene->period > 0 ? oz_motion_tap(scene, time) : NAN;
+    s->progress = last_step > 0 ? (double)step / (double)last_step : NAN;
+    if (now - serve->rate_start >= RATE_SPAN) {
+        s->steps_per_second = (double)(step - serve->rate_step) / (now - serve->rate_start);
+        serve->rate_step = step;
+        serve->rate_start = now;
+    }
+    oz_page_show(serve->page, s);
+}
+
+static OzStatus show_columns(OzServe *serve, const OzSeries *series, int count)
+{
+    OzStatus status = OZ_OK;
+    char(*names)[OZ_COLUMN_NAME] = NULL;
+    const char **list = NULL;
+    OZ_TRY(OZ_NEW(&names, count));
+    OZ_TRY(OZ_NEW(&list, count));
+    for (int i = 0; i < count; i++) {
+        oz_series_name(series, i, names[i]);
+        list[i] = names[i];
+    }
+    OZ_TRY(oz_page_show_columns(serve->page, list, count));
+done:
+    free(list);
+    free(names);
+    return status;
+}
+
+OzStatus oz_serve_row(OzServe *serve, const OzSeries *series)
+{
+    const double *values = NULL;
+    if (!serve) {
+        return OZ_OK;
+    }
+    int count = oz_series_row(series, &values);
+    if (!serve->has_columns) {
+        OZ_PASS(show_columns(serve, series, count));
+        serve->has_columns = true;
+    }
+    oz_page_show_row(serve->page, values);
+    return OZ_OK;
+}
