@@ -110,8 +110,21 @@ FAULT("memory", void *, realloc, (void *old, size_t size), (old, size), NULL, EN
 FAULT("memory", FILE *, open_memstream, (char **text, size_t *size), (text, size), NULL, ENOMEM)
 FAULT("open", FILE *, fopen, (const char *path, const char *mode), (path, mode), NULL, EMFILE)
 FAULT("open", int, mkdir, (const char *path, mode_t mode), (path, mode), -1, EACCES)
-FAULT("write", size_t, fwrite, (const void *items, size_t size, size_t count, FILE *file),
-      (items, size, count, file), 0, ENOSPC)
+/* A failure leaves its mark on the stream, as glibc's own does. */
+size_t fwrite(const void *items, size_t size, size_t count, FILE *file)
+{
+    enum { ERROR_SEEN = 0x20 };
+    static size_t (*real)(const void *, size_t, size_t, FILE *);
+    if (!real) {
+        *(void **)&real = next("fwrite");
+    }
+    if (fails("write", __builtin_return_address(0))) {
+        errno = ENOSPC;
+        file->_flags |= ERROR_SEEN;
+        return 0;
+    }
+    return real(items, size, count, file);
+}
 FAULT("write", int, fflush, (FILE * file), (file), EOF, ENOSPC)
 FAULT("write", int, fclose, (FILE * file), (file), EOF, ENOSPC)
 FAULT("write", ssize_t, write, (int file, const void *bytes, size_t size), (file, bytes, size), -1,
@@ -194,16 +207,17 @@ FAULT_MADE(cl_command_queue, clCreateCommandQueue,
     X(avcodec_open2)                                                                               \
     X(avcodec_send_frame)                                                                          \
     X(avcodec_receive_packet)                                                                      \
-    X(avformat_write_header) X(av_interleaved_write_frame) X(av_write_frame) X(av_write_trailer)   \
-        X(avio_open) X(avio_open2) X(av_frame_get_buffer) X(avformat_alloc_output_context2)        \
-            X(av_packet_rescale_ts)
+    X(avformat_write_header)                                                                       \
+    X(av_interleaved_write_frame) X(av_write_frame) X(av_write_trailer) X(avio_open) X(avio_open2) \
+        X(av_frame_get_buffer) X(avformat_alloc_output_context2) X(av_packet_rescale_ts)
 
 /* Of EGL and OSMesa; a GL function comes by the two last ones, and is then missing. */
 #define GL_BY_DLSYM(X)                                                                             \
     X(eglGetPlatformDisplay)                                                                       \
-    X(eglGetPlatformDisplayEXT) X(eglInitialize) X(eglBindAPI) X(eglChooseConfig)                  \
-        X(eglCreateContext) X(eglMakeCurrent) X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent)   \
-            X(eglGetProcAddress) X(OSMesaGetProcAddress)
+    X(eglGetPlatformDisplayEXT)                                                                    \
+    X(eglInitialize) X(eglBindAPI) X(eglChooseConfig) X(eglCreateContext) X(eglMakeCurrent)        \
+        X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent) X(eglGetProcAddress)                    \
+            X(OSMesaGetProcAddress)
 
 typedef long Any(long, long, long, long, long, long);
 #define STAND_IN_FOR(name, kind, failure)                                                          \
