@@ -125,10 +125,11 @@ done:
 }
 
 /* Whether a member has made its steps, with lists that hold: snapshots read them. */
-static bool is_through(const OzControlHead *control, int steps)
+static bool is_through(const OzSim *sim, const OzControlHead *control, int steps)
 {
     return control->step >= steps && control->truth == OZ_SPRINGS_AT_INNER &&
-           control->stale_step == OZ_NEVER && control->stale_positions == OZ_NEVER;
+           control->stale_step == OZ_NEVER &&
+           (!sim->large || control->stale_positions == OZ_NEVER); /* small scenes never ask */
 }
 
 /* Repeats the launch until every member is through. */
@@ -144,7 +145,7 @@ static OzStatus finish_launch(OzSim *sim, int steps)
         for (int m = 0; m < sim->batch.member_count; m++) {
             const OzControlHead *control = oz_sim_control(sim, m);
             full |= control->full != 0;
-            more |= !control->stop_bits && !is_through(control, steps);
+            more |= !control->stop_bits && !is_through(sim, control, steps);
         }
         if (full) {
             OZ_TRY(grow_lists(sim));
