@@ -108,6 +108,9 @@ static void test_what_is_refused(void **state)
     expect(2, "rest/state.h5 is read here, and the run would write or remove it",
            "run bed.yaml -o rest --overwrite --from rest");
     assert_true(is_there("rest/state.h5"));
+    expect(0, "", "run bed.yaml -o begun --from rest --until 0.001 --set settle=false --no-video");
+    assert_true(contains("begun/from.txt", "rest"));
+    expect(2, "began with the state of another one", "run begun --replay -o again");
 }
 
 int main(void)

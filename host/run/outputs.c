@@ -18,6 +18,7 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "contacts.csv",
                                          "frames.bin",
                                          "scene_final.yaml",
+                                         "from.txt",
                                          "reloads.csv",
                                          "final.csv",
                                          "final.csv.part",
@@ -86,6 +87,17 @@ OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder)
     return write_scene(scene, folder, "scene.yaml");
 }
 
+/* from.txt: what --from named, without which the run cannot be made again. */
+static OzStatus write_from(const char *folder, const char *from)
+{
+    FILE *file = NULL;
+    OZ_PASS(oz_folder_create_file(&file, folder, "from.txt"));
+    bool good = fprintf(file, "%s\n", from) > 0;
+    return fclose(file) == 0 && good ? OZ_OK
+                                     : oz_status_fail(OZ_ERR_FILE, "cannot write %s/from.txt: %s",
+                                                      folder, strerror(errno));
+}
+
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
                          OzRenderQueue *render_queue)
 {
@@ -105,6 +117,9 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     OZ_TRY(oz_snapshot_create(&outputs->now, scene, grains));
     if (!outputs->goes_on) {
         OZ_TRY(oz_outputs_write_scene(scene, outputs->folder));
+    }
+    if (!outputs->goes_on && options->from) {
+        OZ_TRY(write_from(outputs->folder, options->from));
     }
     OZ_TRY(claim(&outputs->final, outputs->folder, "final.csv", "final.csv.part"));
     OZ_TRY(oz_final_reserve(grains, outputs->final));
@@ -126,14 +141,13 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
                                                                        scene, grains));
     }
     if (pictures && !options->no_video) {
-        outputs->picture_settings =
-            (OzPicturesSettings){.folder = outputs->folder,
-                                 .source_dir = options->source_dir,
-                                 .backend = options->gl,
-                                 .device = device,
-                                 .renderer = oz_render_queue_renderer(render_queue),
-                                 .live = outputs->number == 0 ? oz_render_queue_live(render_queue)
-                                                              : NULL};
+        outputs->picture_settings = (OzPicturesSettings){
+            .folder = outputs->folder,
+            .source_dir = options->source_dir,
+            .backend = options->gl,
+            .device = device,
+            .renderer = oz_render_queue_renderer(render_queue),
+            .live = outputs->number == 0 ? oz_render_queue_live(render_queue) : NULL};
         outputs->render_queue = render_queue;
         OZ_TRY(oz_pictures_create(&outputs->pictures, &outputs->picture_settings, scene));
     }

@@ -160,8 +160,8 @@ static OzStatus open_run(Run *run)
     }
     run->groups.device = &run->device;
     OZ_PASS(open_reload(run));
-    return options->serve ? oz_serve_open(&run->serve, options, &run->groups.plan.scene, run->reload,
-                                          run->render_queue)
+    return options->serve ? oz_serve_open(&run->serve, options, &run->groups.plan.scene,
+                                          run->reload, run->render_queue)
                           : OZ_OK;
 }
 
@@ -395,12 +395,22 @@ static OzStatus repeat_run(const OzOptions *asked)
 {
     OzStatus status = OZ_OK;
     OzOptions options = *asked;
-    char *scene = NULL;
+    char *scene = NULL, *from = NULL;
+    OZ_TRY(oz_file_join(&from, asked->paths[0], "from.txt"));
+    if (oz_file_exists(from)) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "%s: that run began with the state of another one, which --replay "
+                                "does not take up; expected one without --from",
+                                from);
+        oz_log_line("%s", oz_status_text());
+        goto done;
+    }
     OZ_TRY(oz_file_join(&scene, asked->paths[0], "scene.yaml"));
     options.replay_folder = asked->paths[0];
     options.paths[0] = scene;
     status = run_all(&options, NULL);
 done:
+    free(from);
     free(scene);
     return status;
 }
