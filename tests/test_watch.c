@@ -171,8 +171,7 @@ static void test_base_and_motion(void **state)
     char *text = read_file("base.yaml", NULL), *ratio = strstr(text, "acceleration_ratio: 2");
     ratio[strlen("acceleration_ratio: ")] = '4';
     write_file("base.yaml", "%s", text);
-    await("said", "walls.0.motion.acceleration_ratio 2 -> 4");
-    await("said", "walls.0 moves so from its next zero crossing on");
+    await("said", "walls.0.motion.acceleration_ratio 2 -> 4"); /* at a crossing, or from the next */
     memcpy(strstr(text, "frequency: 50"), "frequency: 40", 13);
     write_file("base.yaml", "%s", text);
     await("said", "walls.0.motion.frequency 50 -> 40");
