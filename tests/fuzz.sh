@@ -1,6 +1,6 @@
 #!/bin/sh
 # Fuzzes what orzo reads from people and disks (tests/fuzz/fuzz_<what>.c), under the address and undefined-behaviour
-# sanitizers, from the scenes of scenes/ and tests/bad/ and from the files of small runs.
+# sanitizers, from the scenes of scenes/ and tests/bad/, from the files of small runs and from tests/fuzz/<what>/.
 #   tests/fuzz.sh [SECONDS]        each target for so long, 20 without
 #   tests/fuzz.sh runs N [TARGET]  each target, or one, N times
 cd "$(dirname "$0")/.." || exit 1
@@ -15,6 +15,7 @@ export ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
 make_corpus() {
     mkdir -p "$work/scene" "$work/bed" "$work/frames" "$work/state"
     cp scenes/*.yaml tests/bad/*.yaml "$work/scene/"
+    cp -r tests/fuzz/reloads tests/fuzz/page "$work/"
     printf 'model: rods\ntime: {step: 1e-5, duration: 2e-3}\ncontact: {contact_time: 6e-4, restitution: 0.4}\n%s' \
         'grains: [{kind: random, count: 3, diameter: 1e-3, aspect: 2}]
 movie: {speed: 0.05, size: [64, 64]}

@@ -81,8 +81,9 @@ static OzStatus add_row(OzReplay *replay, int64_t step, char *const cells[CELLS]
     return add_setting(last, cells[KEY], cells[NOW]);
 }
 
-static OzStatus read_rows(OzReplay *replay, const char *path, char *text)
+OzStatus oz_replay_parse(OzReplay *replay, const char *path, char *text)
 {
+    *replay = (OzReplay){0};
     char *row = text, *cells[CELLS], *end = NULL;
     int64_t before = 0;
     for (int line = 1; *row; line++) {
@@ -110,7 +111,7 @@ OzStatus oz_replay_read(OzReplay *replay, const char *folder)
     OZ_TRY(oz_file_join(&path, folder, "reloads.csv"));
     if (oz_file_exists(path)) {
         OZ_TRY(oz_file_read(&text, NULL, path));
-        OZ_TRY(read_rows(replay, path, text));
+        OZ_TRY(oz_replay_parse(replay, path, text));
     }
 done:
     free(path);

@@ -24,4 +24,8 @@ typedef struct OzReplay {
 /* Of the run in this folder; without a reloads.csv nothing was changed. Refuses with OZ_ERR_INPUT,
  * at file and line, what no run has written. The caller frees, also on failure. */
 OzStatus oz_replay_read(OzReplay *replay, const char *folder);
+
+/* The same of a text in memory, which is cut up; path serves for messages. */
+OzStatus oz_replay_parse(OzReplay *replay, const char *path, char *text);
+
 void oz_replay_free(OzReplay *replay);
