@@ -2,6 +2,11 @@
 #include "program.h"
 #include "run_bed.h"
 
+#include "base/folder.h"
+#include "base/marker.h"
+
+#include <fcntl.h>
+
 /* A user's file: written once, compared after each command. */
 static const char precious[] = "do not lose me\n";
 
@@ -50,18 +55,10 @@ static void test_no_name(void **state)
 static void test_what_no_run_wrote(void **state)
 {
     (void)state;
-    static const char *const names[] = {"log.txt",
-                                        "scene.yaml",
-                                        "series.csv",
-                                        "frames.bin",
-                                        "final.csv",
-                                        "movie.mp4",
-                                        "movie.mp4.part",
-                                        "movie.mp4.new",
-                                        "final.csv.part",
-                                        "members.csv",
-                                        "ensemble.csv",
-                                        "snapshots/tap_00000.png"};
+    static const char *const names[] = {
+        "log.txt",        "scene.yaml",  "series.csv",     "frames.bin",
+        "final.csv",      "movie.mp4",   "movie.mp4.part", "movie.mp4.new",
+        "final.csv.part", "members.csv", "ensemble.csv",   "snapshots/tap_00000.png"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[64], said[160];
         shell("rm -rf mine && mkdir -p mine/snapshots");
@@ -204,6 +201,9 @@ static void test_one_owner(void **state)
     expect(2, said, "run bed.yaml -o owned");
     expect(2, said, "run bed.yaml -o owned --overwrite");
     expect(2, said, "run bed.yaml -o owned --overwrite --seeds 1..2");
+    expect(2, said, "draw owned");
+    expect(2, said, "draw owned -o owned_drawn");
+    assert_false(is_there("owned_drawn"));
     snprintf(said, sizeof said, "owned/.. is in use by process %d", (int)child);
     shell("mkdir owned/below");
     expect(2, "is in use by process", "run bed.yaml -o owned/below");
@@ -212,6 +212,37 @@ static void test_one_owner(void **state)
     assert_int_equal(count_lines("owned/final.csv"), 31);
     assert_true(contains("owned/log.txt", "interrupted at step"));
     expect(0, "30 grains", "run bed.yaml -o owned --overwrite --until 0");
+}
+
+static long holder_of(const char *marker)
+{
+    int descriptor = open(marker, O_RDONLY);
+    long pid = oz_marker_holder(descriptor);
+    close(descriptor);
+    return pid;
+}
+
+/* Who draws reads: others may read too, and nobody may run there. It waits here for who writes its
+ * frames. */
+static void test_a_reader(void **state)
+{
+    (void)state;
+    OzFolder too;
+    char said[64];
+    shell("cp -r shown held && rm held/frames.bin && mkfifo held/frames.bin");
+    pid_t child = start_orzo("draw held -o held_drawn");
+    for (int i = 0; i < 1500 && holder_of("held/.orzo") != child; i++) {
+        sleep_a_little();
+    }
+    snprintf(said, sizeof said, "held is in use by process %d", (int)child);
+    expect(2, said, "run bed.yaml -o held --overwrite");
+    expect(2, said, "resume held");
+    assert_int_equal(oz_folder_read(&too, "held"), OZ_OK);
+    assert_true(too.lock > 0);
+    oz_folder_close(&too);
+    shell("cp shown/frames.bin held/frames.bin || true"); /* closed before its end */
+    assert_int_equal(wait_for(child, 20), 2);             /* it is no file */
+    expect(0, "30 grains", "run bed.yaml -o held --overwrite --until 0");
 }
 
 static void test_draw(void **state)
@@ -321,6 +352,7 @@ int main(void)
         cmocka_unit_test(test_inputs_of_members),
         cmocka_unit_test(test_killed),
         cmocka_unit_test(test_one_owner),
+        cmocka_unit_test(test_a_reader),
         cmocka_unit_test(test_draw),
         cmocka_unit_test(test_studies),
         cmocka_unit_test(test_no_room),

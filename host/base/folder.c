@@ -142,15 +142,17 @@ static OzStatus refuse_used(const char *folder, long pid)
     if (pid > 0) {
         snprintf(who, sizeof who, "process %ld", pid);
     }
-    return oz_status_fail(
-        OZ_ERR_INPUT, "%s is in use by %s; expected another folder (-o), or to wait for its end",
-        folder, who);
+    return oz_status_fail(OZ_ERR_INPUT,
+                          "%s is in use by %s; expected another folder, or to wait "
+                          "for its end",
+                          folder, who);
 }
 
-/* Whether the lock can be had; what file systems without locks say counts as yes. */
-static bool try_lock(int descriptor, const char *path)
+/* Whether the lock (LOCK_EX, LOCK_SH) can be had; what file systems without locks say counts as
+ * yes. */
+static bool try_lock(int descriptor, int lock, const char *path)
 {
-    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+    if (flock(descriptor, lock | LOCK_NB) == 0) {
         return true;
     }
     if (errno != EWOULDBLOCK) {
@@ -159,23 +161,57 @@ static bool try_lock(int descriptor, const char *path)
     return errno != EWOULDBLOCK;
 }
 
-/* Refuses another process's lock; this one's own does not count. */
-static OzStatus check_lock(const char *folder)
+/* The folder's marker as it is; -1 where there is none. */
+static OzStatus open_marker(const char *folder, int *descriptor)
 {
     OzStatus status = OZ_OK;
     char *path = NULL;
+    *descriptor = -1;
     OZ_TRY(oz_file_join(&path, folder, OZ_MARKER));
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    *descriptor = open(path, O_RDONLY | O_CLOEXEC);
+done:
+    free(path);
+    return status;
+}
+
+/* Refuses a folder in which this lock cannot be had for another process's; this one's own does not
+ * count. */
+static OzStatus check_lock(const char *folder, int lock)
+{
+    OzStatus status = OZ_OK;
+    int descriptor = -1;
+    OZ_PASS(open_marker(folder, &descriptor));
     if (descriptor < 0) {
-        goto done;
+        return OZ_OK;
     }
-    if (flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        long pid = oz_marker_pid(descriptor);
+    if (flock(descriptor, lock | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        long pid = oz_marker_holder(descriptor);
         status = pid == (long)getpid() ? OZ_OK : refuse_used(folder, pid);
     }
     close(descriptor);
+    return status;
+}
+
+OzStatus oz_folder_read(OzFolder *folder, const char *path)
+{
+    OzStatus status = OZ_OK;
+    int descriptor = -1;
+    *folder = (OzFolder){0};
+    OZ_TRY(open_marker(path, &descriptor));
+    if (descriptor < 0) {
+        return OZ_OK;
+    }
+    if (!try_lock(descriptor, LOCK_SH, path)) {
+        status = refuse_used(path, oz_marker_holder(descriptor));
+        goto done;
+    }
+    OZ_TRY(oz_memory_text(&folder->path, path));
+    folder->lock = descriptor;
+    descriptor = -1;
 done:
-    free(path);
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
     return status;
 }
 
@@ -206,7 +242,7 @@ static OzStatus check_parent(const char *folder)
     OzStatus status = OZ_OK;
     char *parent = NULL;
     OZ_TRY(parent_of(&parent, folder));
-    OZ_TRY(check_lock(parent));
+    OZ_TRY(check_lock(parent, LOCK_SH));
 done:
     free(parent);
     return status;
@@ -227,7 +263,7 @@ OzStatus oz_folder_check(const char *path, const OzFolderUse *use)
     if (path[0] == '\0') {
         return oz_status_fail(OZ_ERR_INPUT, "the folder's name is empty; expected -o DIR");
     }
-    OZ_TRY(check_lock(path));
+    OZ_TRY(check_lock(path, LOCK_EX));
     OZ_TRY(oz_marker_read(&marker, path));
     OZ_TRY(check_contents(path, use, &marker));
 done:
@@ -250,8 +286,8 @@ static OzStatus lock_marker(OzFolder *folder, bool *made)
             status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
             goto done;
         }
-        if (!try_lock(descriptor, path)) {
-            status = refuse_used(folder->path, oz_marker_pid(descriptor));
+        if (!try_lock(descriptor, LOCK_EX, path)) {
+            status = refuse_used(folder->path, oz_marker_holder(descriptor));
             close(descriptor);
             goto done;
         }

@@ -2,8 +2,8 @@
  * (base/marker.h) does not name: a name is noted there before its file is made, so that a crash
  * leaves none out.
  *
- * While a command works in a folder it holds an exclusive lock (flock) on the marker, which the
- * system frees when the process dies. On a file system without locks that is said in the log, and
+ * While a command works in a folder it holds an exclusive lock (flock) on the marker, a reader a
+ * shared one; the system frees it when the process dies. On a file system without locks that is said in the log, and
  * there is none. */
 #pragma once
 
@@ -36,6 +36,11 @@ OzStatus oz_folder_check(const char *path, const OzFolderUse *use);
 /* Checks, makes the folder and its parents, locks it, and removes what the marker names (unless
  * use->keep). The caller closes. */
 OzStatus oz_folder_open(OzFolder *folder, const char *path, const OzFolderUse *use);
+
+/* For who only reads what a run has left there: a lock that readers share, and that keeps runs out.
+ * Refuses a folder in which another process works. One without a marker is read without a lock, and
+ * an OzFolder that stays closed. The caller closes. */
+OzStatus oz_folder_read(OzFolder *folder, const char *path);
 
 /* Gives the lock back; zeroed is fine. */
 void oz_folder_close(OzFolder *folder);

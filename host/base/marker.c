@@ -1,14 +1,16 @@
-/* Reading markers, and removing what they name. Knows no lock. */
+/* Reading markers, and removing what they name. Takes no lock. */
 #include "base/marker.h"
 
 #include "base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 OzStatus oz_marker_read(OzMarker *marker, const char *folder)
@@ -39,13 +41,37 @@ done:
     return status;
 }
 
-long oz_marker_pid(int descriptor)
+/* As /proc/locks has it: "3: FLOCK  ADVISORY  WRITE 5693 fe:00:1095 0 EOF". */
+static long find_locker(int descriptor)
+{
+    struct stat own;
+    char line[256];
+    unsigned high = 0, low = 0;
+    unsigned long inode = 0;
+    long pid = 0, found = 0;
+    FILE *locks = fopen("/proc/locks", "r");
+    bool known = fstat(descriptor, &own) == 0;
+    while (locks && known && !found && fgets(line, sizeof line, locks)) {
+        bool read = sscanf(line, "%*s FLOCK %*s %*s %ld %x:%x:%lu", &pid, &high, &low, &inode) == 4;
+        bool same = read && inode == own.st_ino && makedev(high, low) == own.st_dev;
+        found = same && pid > 0 ? pid : 0;
+    }
+    if (locks) {
+        fclose(locks);
+    }
+    return found;
+}
+
+long oz_marker_holder(int descriptor)
 {
     static const char head[] = OZ_MARKER_HEAD "\npid %ld";
     char text[256] = "";
-    long pid = 0;
+    long pid = find_locker(descriptor);
+    if (pid > 0) {
+        return pid;
+    }
     bool read = pread(descriptor, text, sizeof text - 1, 0) > 0 && sscanf(text, head, &pid) == 1;
-    return read ? pid : 0;
+    return read && pid > 0 && kill((pid_t)pid, 0) == 0 ? pid : 0;
 }
 
 /* What is longer than a name of ours is passed over. */

@@ -22,8 +22,9 @@ typedef struct OzMarker {
 /* A folder without a marker gives a zeroed one. Refuses a file .orzo that is no marker. */
 OzStatus oz_marker_read(OzMarker *marker, const char *folder);
 
-/* The process that wrote the marker of this descriptor last; 0 when it does not say. */
-long oz_marker_pid(int descriptor);
+/* A process that holds a lock on the marker of this descriptor: as the system tells, or the one
+ * that wrote it last, if it lives; 0 when neither is known. */
+long oz_marker_holder(int descriptor);
 
 /* Copies the next name from *at, which starts as marker->names; false at the end. */
 bool oz_marker_next(const char **at, char name[OZ_MARKER_NAME]);

@@ -24,7 +24,8 @@ typedef struct Redraw {
     OzPictures *pictures;
     OzPicturesSettings settings;
     OzInputs inputs;
-    OzFolder owned; /* out, in use */
+    OzFolder read;  /* the run's, which nobody may change meanwhile */
+    OzFolder owned; /* out, in use                                  */
     char *scene_path, *frames_path, *out;
     double started; /* wall clock */
 } Redraw;
@@ -136,6 +137,7 @@ static OzStatus make_plan(Redraw *r)
 static OzStatus open_all(Redraw *r, const OzOptions *options)
 {
     const char *folder = options->paths[0];
+    OZ_PASS(oz_folder_read(&r->read, folder));
     OZ_PASS(oz_file_join(&r->scene_path, folder, "scene.yaml"));
     OZ_PASS(oz_file_join(&r->frames_path, folder, "frames.bin"));
     OZ_PASS(options->out ? oz_file_join(&r->out, NULL, options->out)
@@ -204,6 +206,7 @@ done:;
     oz_frames_finish(r.frames);
     oz_inputs_free(&r.inputs);
     oz_folder_close(&r.owned);
+    oz_folder_close(&r.read);
     oz_redraw_plan_free(&r.plan);
     oz_snapshot_free(&r.snapshot);
     oz_grains_free(&r.grains);
