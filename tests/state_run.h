@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "run/worker.h"
+#include "run/worker_state.h"
 #include "sim/sim_state.h"
 
 enum { MEMBERS_MOST = 2 };
@@ -106,13 +106,13 @@ static inline void end_run(Run *run)
 static inline void save_run(Run *run, OzState *state)
 {
     OzStateVisit visit = oz_state_save(state);
-    must(oz_worker_state(&run->worker, &visit));
+    must(oz_worker_state_visit(&run->worker, &visit));
 }
 
 static inline void load_run(Run *run, OzState *state)
 {
     OzStateVisit visit = oz_state_load(state);
-    must(oz_worker_state(&run->worker, &visit));
+    must(oz_worker_state_visit(&run->worker, &visit));
     must(oz_state_finish(&visit));
 }
 

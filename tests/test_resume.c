@@ -71,6 +71,40 @@ static void test_trigrains(void **state)
     assert_same_run("dice_left", "dice", false);
 }
 
+/* 0 without the file; another one each time that it is replaced. */
+static ino_t inode_of(const char *name)
+{
+    struct stat found;
+    return stat(name, &found) == 0 ? found.st_ino : 0;
+}
+
+/* Settling of half a second and more: a run that is left in it, by kill -9 and then by Ctrl-C, goes
+ * on in it. */
+static void test_left_while_settling(void **state)
+{
+    (void)state;
+    static const char more[] =
+        "--seeds 1..2 --no-video --set time.taps=0.55 --set checkpoint.every=0.02 --set "
+        "settle.threshold=0 --set settle.time_max=0.5";
+    static const int signals[] = {SIGKILL, SIGINT};
+    char arguments[300];
+    snprintf(arguments, sizeof arguments, "run bed.yaml -o straight %s", more);
+    expect(0, "", arguments);
+    snprintf(arguments, sizeof arguments, "run bed.yaml -o settles %s", more);
+    for (int i = 0; i < 2; i++) {
+        ino_t before = inode_of("settles/state_00000.h5");
+        pid_t child = start_orzo(i ? "resume settles" : arguments);
+        for (int k = 0; k < 10000 && inode_of("settles/state_00000.h5") == before; k++) {
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+        }
+        kill(child, signals[i]);
+        assert_int_equal(wait_for(child, 20), i ? 130 : -1);
+    }
+    expect(0, "of settling", "resume settles");
+    assert_same_run("straight/seed_00001", "settles/seed_00001", true);
+    assert_same_run("straight/seed_00002", "settles/seed_00002", true);
+}
+
 /* A later end is the longer run's, whose last row the shorter one had not. */
 static void test_a_later_end(void **state)
 {
@@ -166,6 +200,7 @@ int main(void)
         cmocka_unit_test(test_a_run_that_was_left),
         cmocka_unit_test(test_double_and_another_integrator),
         cmocka_unit_test(test_trigrains),
+        cmocka_unit_test(test_left_while_settling),
         cmocka_unit_test(test_a_later_end),
         cmocka_unit_test(test_an_ensemble),
         cmocka_unit_test(test_what_is_refused),

@@ -89,7 +89,7 @@ typedef struct Watched {
     double time, ratio; /* when the energy was last looked at, and what it was */
 } Watched;
 
-static bool watch(void *context, double time, double ratio)
+static OzStatus watch(void *context, double time, double ratio)
 {
     Watched *w = context;
     if (ratio > 0) {
@@ -97,7 +97,7 @@ static bool watch(void *context, double time, double ratio)
         w->time = time;
         w->ratio = ratio;
     }
-    return w->judged != w->patience || w->patience == 0;
+    return w->judged == w->patience && w->patience > 0 ? OZ_ERR_INTERRUPTED : OZ_OK;
 }
 
 static void assert_close(const char *what, double gap, double tolerance)

@@ -159,7 +159,7 @@ static bool go_on(Probe *probe, OzSnapshot *now)
 {
     OzSim *sim = probe->run.worker.sim;
     OzStateVisit visit = oz_state_load(&probe->state);
-    OzStatus status = oz_worker_state(&probe->run.worker, &visit);
+    OzStatus status = oz_worker_state_visit(&probe->run.worker, &visit);
     if (status == OZ_OK) {
         status = oz_sim_advance(sim, oz_sim_step(sim) + STEPS_LEFT);
     }
@@ -249,16 +249,16 @@ typedef struct Settling {
     int looks_left; /* before it is saved and given up; negative: never */
 } Settling;
 
-static bool watch_settling(void *context, double time, double ratio)
+static OzStatus watch_settling(void *context, double time, double ratio)
 {
     Settling *settling = context;
     (void)time, (void)ratio;
     if (settling->looks_left-- != 0) {
-        return true;
+        return OZ_OK;
     }
     OzStateVisit visit = oz_state_save(settling->state);
     must(oz_sim_state_visit(settling->sim, &visit));
-    return false;
+    return OZ_ERR_INTERRUPTED;
 }
 
 /* Settles and goes on a little. */
@@ -315,7 +315,7 @@ static void test_other_runs_are_refused(void **state)
         save_run(&from, &saved);
         open_case(&into, &cases[pairs[k].into], "into", false);
         OzStateVisit visit = oz_state_load(&saved);
-        assert_int_equal(oz_worker_state(&into.worker, &visit), OZ_ERR_INPUT);
+        assert_int_equal(oz_worker_state_visit(&into.worker, &visit), OZ_ERR_INPUT);
         if (!strstr(oz_status_text(), pairs[k].words)) {
             fail_msg("\"%s\" does not tell \"%s\"", oz_status_text(), pairs[k].words);
         }

@@ -189,7 +189,7 @@ static void test_a_shorter_file_is_refused(void **state)
 }
 
 /* The one function that visits and that no source calls: where a pass begins. */
-static const char root[] = "oz_worker_state";
+static const char root[] = "oz_worker_state_visit";
 
 enum { FILES_MOST = 1024 };
 static char *sources[FILES_MOST], *paths[FILES_MOST];

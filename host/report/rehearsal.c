@@ -15,12 +15,14 @@ typedef struct Patience {
     double start, deadline, time;
 } Patience;
 
-static bool is_patient(void *context, double time, double ratio)
+static OzStatus wait_for(void *context, double time, double ratio)
 {
     Patience *patience = context;
     patience->time = time;
     oz_stage_say(&patience->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
-    return oz_clock_now() < patience->deadline;
+    return oz_clock_now() < patience->deadline
+               ? OZ_OK
+               : oz_status_fail(OZ_ERR_INTERRUPTED, "settling takes too long");
 }
 
 static OzStatus settle(OzRehearsal *r, OzSim *sim, const OzScene *scene, double seconds)
@@ -28,7 +30,7 @@ static OzStatus settle(OzRehearsal *r, OzSim *sim, const OzScene *scene, double 
     double now = oz_clock_now();
     Patience patience = {.start = now, .deadline = now + seconds};
     oz_stage_begin(&patience.stage, "settling");
-    OzStatus status = oz_settle_run(sim, &r->settled_time, is_patient, &patience);
+    OzStatus status = oz_settle_run(sim, &r->settled_time, wait_for, &patience);
     oz_stage_end(&patience.stage);
     r->settled_in = oz_clock_now() - patience.start;
     r->cut = status == OZ_ERR_INTERRUPTED;

@@ -29,11 +29,13 @@ static double patience_of(const OzOptions *options)
     return options->quick ? patience_quick : patience;
 }
 
-static bool is_patient(void *deadline, double time, double ratio)
+static OzStatus wait_for(void *deadline, double time, double ratio)
 {
     (void)time;
     (void)ratio;
-    return oz_clock_now() < *(double *)deadline;
+    return oz_clock_now() < *(double *)deadline
+               ? OZ_OK
+               : oz_status_fail(OZ_ERR_INTERRUPTED, "settling takes too long");
 }
 
 /* The shortest hit that rods can have; 0: nothing can touch. */
@@ -155,7 +157,7 @@ static OzStatus warm(OzReportStart *start, OzSim *sim, OzSnapshot *now, double d
 static OzStatus settle(OzReportStart *start, OzSim *sim, OzSnapshot *now, double deadline)
 {
     double begin = oz_clock_now(), spent;
-    OzStatus status = oz_settle_run(sim, &start->settled, is_patient, &deadline);
+    OzStatus status = oz_settle_run(sim, &start->settled, wait_for, &deadline);
     spent = oz_clock_now() - begin;
     bool cut = status == OZ_ERR_INTERRUPTED;
     OZ_TRY(cut ? OZ_OK : status);

@@ -27,7 +27,7 @@ void oz_checkpoint_head_free(OzCheckpointHead *head)
 OzStatus oz_checkpoint_head_state(OzCheckpointHead *head, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "run", 1));
+    OZ_TRY(oz_state_enter(visit, "run", 2));
     OZ_TRY(oz_state_text(visit, "program", &head->version));
     OZ_TRY(oz_state_text(visit, "device", &head->device));
     OZ_TRY(oz_state_text(visit, "device_asked", &head->device_asked));
@@ -42,6 +42,7 @@ OzStatus oz_checkpoint_head_state(OzCheckpointHead *head, OzStateVisit *visit)
     OZ_TRY(oz_state_int(visit, "own_settings", "none", &head->own_settings));
     OZ_TRY(oz_state_bool(visit, "has_seeds", &head->has_seeds));
     OZ_TRY(oz_state_bool(visit, "no_video", &head->no_video));
+    OZ_TRY(oz_state_bool(visit, "settles", &head->settles));
     OZ_TRY(oz_state_int64(visit, "step", "step", &head->step));
     OZ_TRY(oz_state_double(visit, "time", "s", &head->time, 1));
     oz_state_leave(visit);

@@ -13,7 +13,7 @@
 #include "run/replay.h"
 #include "run/swap.h"
 #include "run/watch.h"
-#include "run/worker.h"
+#include "run/worker_state.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -99,8 +99,8 @@ static OzStatus begin_log(const Run *run)
     const OzCheckpointHead *head = run->groups.resume ? &run->groups.resume->heads[0] : NULL;
     OZ_PASS(open_log(run));
     if (head) {
-        oz_log_line("orzo %s: %s goes on at step %lld (%.9g s)", ORZO_VERSION, run->folder,
-                    (long long)head->step, head->time);
+        oz_log_line("orzo %s: %s goes on at step %lld (%.9g s)%s", ORZO_VERSION, run->folder,
+                    (long long)head->step, head->time, head->settles ? " of settling" : "");
     } else {
         oz_log_line("orzo %s: %s, %lld grains", ORZO_VERSION, run->groups.plan.scene.path,
                     (long long)run->groups.loaded->grains.count);
@@ -304,8 +304,8 @@ static OzStatus take_states(Run *run)
 {
     for (int k = 0; k < run->worker_count; k++) {
         OzResume *resume = run->groups.resume;
-        OZ_PASS(oz_worker_take(&run->workers[k], &resume->states[resume->next + k],
-                               resume->heads[resume->next + k].device));
+        OZ_PASS(oz_worker_state_take(&run->workers[k], &resume->states[resume->next + k],
+                                     resume->heads[resume->next + k].device));
     }
     return OZ_OK;
 }

@@ -8,12 +8,11 @@
 #include "base/stage.h"
 #include "base/thread.h"
 #include "model/calibrate.h"
-#include "model/motion.h"
 #include "run/pace.h"
 #include "run/swap.h"
+#include "run/worker_state.h"
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
-#include "sim/sim_state.h"
 #include "sim/stiffness.h"
 
 #include <stdio.h>
@@ -36,68 +35,6 @@ OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *so
                          source_dir));
 done:
     free(members);
-    return status;
-}
-
-/* Walls that had changed are in phase again, and what lies at taps where these are. */
-static void take_phases(OzWorker *worker)
-{
-    for (int64_t m = 0; m < worker->member_count; m++) {
-        oz_motion_copy(&worker->members[m]->scene, oz_sim_scene(worker->sim, (int)m));
-    }
-    oz_schedule_find_end(&worker->schedule);
-}
-
-OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit)
-{
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "worker", 2));
-    OZ_TRY(oz_schedule_state(worker->is_due ? &worker->before : &worker->schedule, visit));
-    OZ_TRY(oz_sim_state_visit(worker->sim, visit));
-    if (visit->is_loading) {
-        take_phases(worker);
-    }
-    for (int64_t m = 0; m < worker->member_count; m++) {
-        oz_state_enter_one(visit, "member", m);
-        OZ_TRY(oz_outputs_state(worker->members[m], visit));
-        oz_state_leave(visit);
-    }
-    oz_state_leave(visit);
-done:
-    return status;
-}
-
-static OzStatus check_taken(const OzWorker *worker, const char *device)
-{
-    int64_t step = oz_sim_step(worker->sim), last = worker->schedule.last_step;
-    if (strcmp(device, worker->device->name) != 0) {
-        return oz_status_fail(OZ_ERR_INPUT,
-                              "the state was made by %s and this is %s; expected the same device",
-                              device, worker->device->name);
-    }
-    if (step > last) {
-        return oz_status_fail(OZ_ERR_INPUT,
-                              "the run is at %.9g s already (step %lld), beyond the end asked for, "
-                              "%.9g s; expected a later one (--until, --set time.duration)",
-                              oz_sim_time(worker->sim), (long long)step,
-                              oz_step_clock_time(&worker->schedule.clock, last));
-    }
-    return OZ_OK;
-}
-
-OzStatus oz_worker_take(OzWorker *worker, OzState *state, const char *device)
-{
-    OzStatus status = OZ_OK;
-    OzCheckpointHead head = {0};
-    OzStateVisit visit = oz_state_load(state);
-    worker->goes_on = true;
-    OZ_TRY(oz_checkpoint_head_state(&head, &visit));
-    OZ_TRY(oz_worker_state(worker, &visit));
-    OZ_TRY(oz_state_finish(&visit));
-    OZ_TRY(check_taken(worker, device));
-done:
-    oz_checkpoint_head_free(&head);
-    oz_state_free(state);
     return status;
 }
 
@@ -140,13 +77,16 @@ static bool must_end(const OzWorker *worker)
     return oz_interrupt_asked() || atomic_load(worker->ended);
 }
 
-static bool watch_settling(void *context, double time, double ratio)
+/* Settling a large bed takes hours, which a kill must not lose. */
+static OzStatus watch_settling(void *context, double time, double ratio)
 {
     OzWorker *worker = context;
     if (worker->leads) {
         oz_stage_say(&worker->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
     }
-    return !must_end(worker);
+    return must_end(worker)
+               ? oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at %.9g s of settling", time)
+               : oz_worker_state_save_if_due(worker);
 }
 
 static OzStatus settle(OzWorker *worker)
@@ -160,6 +100,9 @@ static OzStatus settle(OzWorker *worker)
         oz_stage_end(&worker->stage);
     }
     OZ_AFTER(status, drop_stopped(worker));
+    if (status == OZ_ERR_INTERRUPTED) {
+        OZ_AFTER(status, oz_worker_state_save_at_end(worker));
+    }
     if (status == OZ_OK && seconds > 0) {
         const char *first = worker->members[0]->name;
         const char *others = worker->member_count > 1 ? " and companions " : " ";
@@ -249,41 +192,6 @@ bool oz_worker_next_event(OzWorker *worker)
     return worker->is_due;
 }
 
-/* The state into its file; kept: another one, which later ones do not replace. Where that file
- * cannot be written the run goes on, unless the scene has asked for it; a state that cannot be had
- * leaves a simulation that is not to be trusted. */
-static OzStatus save(OzWorker *worker, bool kept)
-{
-    OzState state = {0};
-    OzStateVisit visit = oz_state_save(&state);
-    OzCheckpointHead *head = &worker->checkpoint->head;
-    head->step = oz_sim_step(worker->sim);
-    head->time = oz_sim_time(worker->sim);
-    OzStatus status = oz_checkpoint_head_state(head, &visit);
-    status = status == OZ_OK ? oz_worker_state(worker, &visit) : status;
-    if (status == OZ_OK) {
-        status = oz_checkpoint_write(worker->checkpoint, &state, kept);
-        if (status != OZ_OK && !kept) {
-            oz_log_line("warning: the state is not kept: %s", oz_status_text());
-            status = OZ_OK;
-        }
-    }
-    oz_state_free(&state);
-    return status;
-}
-
-static OzStatus save_if_due(OzWorker *worker)
-{
-    bool due = worker->checkpoint && oz_checkpoint_is_due(worker->checkpoint);
-    return due ? save(worker, false) : OZ_OK;
-}
-
-static OzStatus save_at_end(OzWorker *worker)
-{
-    bool wanted = worker->checkpoint && worker->checkpoint->every > 0;
-    return wanted ? save(worker, false) : OZ_OK;
-}
-
 /* To the event in hand, unless a change comes between, which gives the event back. */
 static OzStatus go(OzWorker *worker, double *shown)
 {
@@ -291,7 +199,7 @@ static OzStatus go(OzWorker *worker, double *shown)
            oz_sim_step(worker->sim) < worker->event_step) {
         OZ_PASS(launch(worker, oz_pace_next(worker), shown));
         OZ_PASS(oz_swap_serve(worker));
-        OZ_PASS(save_if_due(worker));
+        OZ_PASS(oz_worker_state_save_if_due(worker));
         oz_pace_keep(worker);
     }
     return OZ_OK;
@@ -300,10 +208,10 @@ static OzStatus go(OzWorker *worker, double *shown)
 static OzStatus look_at_event(OzWorker *worker, int64_t *open)
 {
     if (worker->checkpoint && worker->event_due & OZ_DUE_CHECKPOINT) {
-        OZ_PASS(save(worker, true));
+        OZ_PASS(oz_worker_state_save(worker, true));
     }
     if (worker->schedule.over) {
-        OZ_PASS(save_at_end(worker));
+        OZ_PASS(oz_worker_state_save_at_end(worker));
     }
     OZ_PASS(look(worker, worker->event_due, open));
     worker->is_due = false;
@@ -327,7 +235,7 @@ static OzStatus walk(OzWorker *worker)
     }
 done:
     if (status == OZ_ERR_INTERRUPTED) {
-        OZ_AFTER(status, save_at_end(worker));
+        OZ_AFTER(status, oz_worker_state_save_at_end(worker));
     }
     worker->spent = oz_clock_now() - worker->first_step;
     oz_log_progress(" ");
@@ -379,8 +287,9 @@ static void end_all(OzWorker *worker, OzStatus *status)
 
 static void run_one(OzWorker *worker)
 {
-    OzStatus status = worker->goes_on ? OZ_OK : settle(worker);
-    status = status == OZ_OK && !worker->goes_on ? tell_contacts(worker) : status;
+    bool begins = !oz_settle_is_over(worker->sim);
+    OzStatus status = begins ? settle(worker) : OZ_OK;
+    status = status == OZ_OK && begins ? tell_contacts(worker) : status;
     status = status == OZ_OK ? walk(worker) : status;
     end_all(worker, &status);
     /* All its members were stopped: others may do better. */

@@ -25,7 +25,6 @@ typedef struct OzWorker {
     int64_t event_step;       /* of the event that is next, or that has been looked at last */
     int event_due;            /* and what is due there                                      */
     bool is_due;              /* it has not been looked at yet                              */
-    bool goes_on;             /* it has loaded a state: there is nothing to settle          */
     OzCheckpoint *checkpoint; /* borrowed: where its states go; NULL: it leaves none   */
     OzServe *serve;           /* borrowed: is shown where the run is; NULL: none       */
     bool is_ensemble;         /* a member that fails leaves the others alone           */
@@ -56,15 +55,6 @@ OzStatus oz_worker_open(OzWorker *worker, const OzDevice *device, const char *so
  * interruption or success, so far as they came after a failure; each member's outcome says which.
  * Returns the first worker's failure that was one of its own. */
 OzStatus oz_worker_run(OzWorker *workers, int count);
-
-/* Saves or loads (base/state.h), between launches and not while members are looked at, all that the
- * rest of the run depends on. The event that is next belongs to the rest, so that a run which has
- * loaded may end elsewhere. Opened and not run yet, a worker that has loaded goes on from there. */
-OzStatus oz_worker_state(OzWorker *worker, OzStateVisit *visit);
-
-/* Loads the state of a file (run/checkpoint.h), which this device must have made, and frees it. The
- * run must not end before it. */
-OzStatus oz_worker_take(OzWorker *worker, OzState *state, const char *device);
 
 /* Takes the schedule's next event in hand, unless there is one; false at the end. */
 bool oz_worker_next_event(OzWorker *worker);

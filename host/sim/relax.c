@@ -80,6 +80,15 @@ static OzStatus advance(const OzRelax *rest, int64_t step)
     return status;
 }
 
+static int count_going(const OzBatch *batch)
+{
+    int going = 0;
+    for (int m = 0; m < batch->member_count; m++) {
+        going += oz_batch_goes_on(batch, m);
+    }
+    return going;
+}
+
 /* Advances to the end of the part in hand, or with judging until every member waits. The energy is
  * looked at after fixed numbers of steps, not of launches, whose length depends on the machine: the
  * same bits on any. */
@@ -89,7 +98,7 @@ static OzStatus run_part(const OzRelax *rest, bool judging, OzSettleWatch watch,
     const OzBatch *batch = rest->batch;
     const OzScene *scene = batch->members[0].scene;
     double worst = 0;
-    int going = batch->member_count;
+    int going = count_going(batch);
     int64_t last = batch->settling_last;
     while (batch->step < last && going > 0) {
         int64_t next = batch->step + rest->judge_steps;
@@ -97,9 +106,8 @@ static OzStatus run_part(const OzRelax *rest, bool judging, OzSettleWatch watch,
         if (judging) {
             OZ_TRY(judge(rest, &worst, &going));
         }
-        if (watch && !watch(context, oz_batch_time(batch, 0, batch->step), worst)) {
-            status = oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while settling");
-            goto done;
+        if (watch) {
+            OZ_TRY(watch(context, oz_batch_time(batch, 0, batch->step), worst));
         }
     }
     if (judging && going > 0 && scene->settle.threshold > 0) {

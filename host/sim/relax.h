@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
-/* Told between launches how far settling has come; says whether to go on. */
-typedef bool (*OzSettleWatch)(void *context, double time, double energy_ratio);
+/* Told between launches how far settling has come; what is not OZ_OK ends it. */
+typedef OzStatus (*OzSettleWatch)(void *context, double time, double energy_ratio);
 
 /* What settling asks of a model's simulation; each function is called with it. */
 typedef struct OzRelax {
@@ -35,6 +35,6 @@ bool oz_relax_is_same(const OzSettle *a, const OzSettle *b);
  * kinetic energy is below threshold x N m g d (it then waits for the others) or time_max is reached
  * (logged), then rest_time without drag. The step count is 0 again afterwards. Does nothing without
  * scene.settle, nor a second time; settling whose state was loaded goes on where it was. *seconds
- * receives the simulated time of the member that took longest. Fails with OZ_ERR_INTERRUPTED when
- * watch (may be NULL) says no. */
+ * receives the simulated time of the member that took longest. Fails with what watch (may be NULL)
+ * fails with. */
 OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch, void *context);

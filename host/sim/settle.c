@@ -47,3 +47,8 @@ OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *c
                           .start_ledger = start_ledger};
     return oz_relax_run(&rest, seconds, watch, context);
 }
+
+bool oz_settle_is_over(const OzSim *sim)
+{
+    return sim->batch.settling == OZ_SETTLING_OVER;
+}

@@ -6,3 +6,6 @@
 
 /* As oz_relax_run; walls that will go later are all there meanwhile. */
 OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context);
+
+/* Whether time 0 has come: there was nothing to settle, or it is done. */
+bool oz_settle_is_over(const OzSim *sim);

@@ -68,16 +68,30 @@ static size_t fill_in(const uint8_t *bytes, size_t size, char *request)
     return length;
 }
 
+/* A connection from one loopback address after another, for each has some ten thousand ports that
+ * stay taken for a minute. */
+static int connect_to_page(void)
+{
+    static unsigned count;
+    struct sockaddr_in from = {.sin_family = AF_INET}, to = from;
+    int handle = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0), on = 1;
+    from.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 256 + count++ % 65536);
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    to.sin_port = htons((uint16_t)port);
+    if (setsockopt(handle, IPPROTO_IP, IP_BIND_ADDRESS_NO_PORT, &on, sizeof on) != 0 ||
+        bind(handle, (struct sockaddr *)&from, sizeof from) != 0 ||
+        connect(handle, (struct sockaddr *)&to, sizeof to) != 0) {
+        perror("fuzz_page");
+        abort();
+    }
+    return handle;
+}
+
 /* Until the server has answered and closed. */
 static void exchange(const char *request, size_t length)
 {
-    struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port)};
     char answer[4096];
-    int handle = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (connect(handle, (struct sockaddr *)&to, sizeof to) != 0) {
-        abort();
-    }
+    int handle = connect_to_page();
     send(handle, request, length, MSG_NOSIGNAL);
     shutdown(handle, SHUT_WR);
     while (recv(handle, answer, sizeof answer, 0) > 0) {
