@@ -4,7 +4,8 @@
 
 #include "base/file.h"
 #include "command/redraw.h"
-#include "observe/frames.h"
+#include "observe/bytes.h"
+#include "observe/frame_reader.h"
 
 #include <sys/stat.h>
 
@@ -45,13 +46,13 @@ static int count_frames(OzSnapshot *back, OzGrains *grains, const OzScene *scene
     OzFrames *frames = NULL;
     bool more = true;
     int count = -1, purpose = 0;
-    *last = oz_frames_open(&frames, in_folder("frames.bin"), grains);
+    *last = oz_frame_reader_open(&frames, in_folder("frames.bin"), grains);
     if (*last != OZ_OK) {
         return -1;
     }
     assert_int_equal(oz_snapshot_create(back, scene, grains), OZ_OK);
     while (*last == OZ_OK && more) {
-        *last = oz_frames_next(frames, back, &purpose, &more);
+        *last = oz_frame_reader_next(frames, back, &purpose, &more);
         count++;
         assert_true(*last != OZ_OK || !more || purpose == count + 1);
     }
@@ -117,10 +118,70 @@ static void frames_come_back(void **state)
     assert_floats(back.element_position, sent->element_position, 2 * sent->element_count);
     assert_floats(back.element_angle, sent->element_angle, sent->element_count);
     assert_floats(back.element_velocity, sent->element_velocity, 2 * sent->element_count);
+    assert_floats(back.element_angular_velocity, sent->element_angular_velocity,
+                  sent->element_count);
+    assert_false(back.has_contacts);
     for (int64_t k = 0; k < 6; k++) { /* joined: sums of four roundings */
         assert_near(back.position[k], sent->position[k], 3e-7 * 5e-3);
         assert_near(back.velocity[k], sent->velocity[k], 3e-7);
     }
+    oz_snapshot_free(&back);
+    oz_grains_free(&grains);
+    heap_free(&heap);
+}
+
+/* Of frames that are kept to be exported, and of no others. */
+static void contacts_come_back(void **state)
+{
+    (void)state;
+    const OzContactEntry pair = {.a = 0,
+                                 .b = 1,
+                                 .part_a = 2,
+                                 .part_b = 4,
+                                 .kind = OZ_CONTACT_DISC,
+                                 .slips = true,
+                                 .point = {1e-3, 2e-3, 0},
+                                 .normal = {0.6, 0.8, 0},
+                                 .push = 0.25,
+                                 .tangential = {-0.08, 0.06, 0},
+                                 .overlap = 1e-6};
+    OzContactEntry wall = pair;
+    Heap heap;
+    OzGrains grains;
+    OzSnapshot back;
+    OzFrames *frames = NULL;
+    bool more = false;
+    int purpose = 0;
+    make_heap(&heap);
+    wall.a = 1;
+    wall.b = -1;
+    assert_int_equal(oz_contact_list_add(&heap.snapshot.contacts, &pair), OZ_OK);
+    assert_int_equal(oz_contact_list_add(&heap.snapshot.contacts, &wall), OZ_OK);
+    heap.snapshot.has_contacts = true;
+    const char *path = in_folder("frames.bin");
+    assert_int_equal(oz_frames_create(&frames, path, &heap.scene, &heap.grains), OZ_OK);
+    assert_int_equal(oz_frames_add(frames, &heap.snapshot, OZ_FRAME_EXPORT), OZ_OK);
+    assert_int_equal(oz_frames_add(frames, &heap.snapshot, OZ_FRAME_MOVIE), OZ_OK);
+    assert_int_equal(oz_frames_finish(frames), OZ_OK);
+    assert_int_equal(oz_frame_reader_open(&frames, path, &grains), OZ_OK);
+    assert_int_equal(oz_snapshot_create(&back, &heap.scene, &grains), OZ_OK);
+    assert_int_equal(oz_frame_reader_next(frames, &back, &purpose, &more), OZ_OK);
+    assert_true(more && back.has_contacts && purpose == OZ_FRAME_EXPORT);
+    assert_int_equal(back.contacts.count, 2);
+    const OzContactEntry *e = back.contacts.entry;
+    assert_true(e->a == 0 && e->b == 1 && e->part_a == 2 && e->part_b == 4 && e->slips);
+    assert_int_equal(e->kind, OZ_CONTACT_DISC);
+    assert_floats(e->point, pair.point, 3);
+    assert_floats(e->normal, pair.normal, 3);
+    assert_floats(&e->push, &pair.push, 1);
+    assert_floats(e->tangential, pair.tangential, 3);
+    assert_floats(&e->overlap, &pair.overlap, 1);
+    assert_true(e[1].a == 1 && e[1].b == -1);
+    assert_int_equal(oz_frame_reader_next(frames, &back, &purpose, &more), OZ_OK);
+    assert_true(more && !back.has_contacts && purpose == OZ_FRAME_MOVIE);
+    assert_int_equal(oz_frame_reader_next(frames, &back, &purpose, &more), OZ_OK);
+    assert_false(more);
+    assert_int_equal(oz_frames_finish(frames), OZ_OK);
     oz_snapshot_free(&back);
     oz_grains_free(&grains);
     heap_free(&heap);
@@ -137,9 +198,10 @@ static void damage(long at, unsigned char bits)
     fclose(file);
 }
 
-/* Seven elements of seven numbers and of six corners' coordinates, four beams, four outlines. */
+/* Seven elements of seven numbers and of six corners' coordinates, four beams, four outlines; a
+ * frame has six floats of each and the number of contacts. */
 static const long HEAD = 32 + 32 + 2 * 28 + 4 * 4 + 7 * 88 + 4 * 16 + 8;
-static const long FRAME = 32 + 8 + 7 * 20 + 8;
+static const long FRAME = 32 + 8 + 7 * 24 + 8 + 8;
 
 static void any_damage_is_found(void **state)
 {
@@ -178,6 +240,52 @@ static void any_damage_is_found(void **state)
 
 /* A sealed file may still hold what no scene can: each is refused, and nothing is read through it.
  */
+/* The file as the version before wrote it: no angular velocities, no contacts. */
+static void make_old(void)
+{
+    enum { OLD = 2, OLD_FRAME = 32 + 8 + 7 * 20 + 8 };
+    char *bytes = NULL;
+    unsigned char frame[OLD_FRAME];
+    uint32_t version = OLD;
+    uint64_t size = OLD_FRAME;
+    assert_int_equal(oz_file_read(&bytes, NULL, in_folder("frames.bin")), OZ_OK);
+    FILE *file = fopen(in_folder("frames.bin"), "wb");
+    assert_non_null(file);
+    memcpy(bytes + 12, &version, sizeof version);
+    oz_bytes_seal((unsigned char *)bytes, (size_t)HEAD);
+    fwrite(bytes, 1, (size_t)HEAD, file);
+    for (int k = 0; k < FRAMES; k++) {
+        memcpy(frame, bytes + HEAD + k * FRAME, OLD_FRAME - 8);
+        memcpy(frame, &size, sizeof size);
+        oz_bytes_seal(frame, OLD_FRAME);
+        fwrite(frame, 1, OLD_FRAME, file);
+    }
+    fclose(file);
+    free(bytes);
+}
+
+static void old_files_are_read(void **state)
+{
+    (void)state;
+    Heap heap;
+    OzGrains grains;
+    OzSnapshot back;
+    OzStatus last;
+    make_heap(&heap);
+    write_frames(&heap);
+    make_old();
+    assert_int_equal(count_frames(&back, &grains, &heap.scene, &last), FRAMES);
+    assert_int_equal(last, OZ_OK);
+    const OzSnapshot *sent = &heap.snapshot;
+    assert_floats(back.element_position, sent->element_position, 2 * sent->element_count);
+    assert_floats(back.element_velocity, sent->element_velocity, 2 * sent->element_count);
+    assert_true(back.element_angular_velocity[0] == 0 && back.angular_velocity[2] == 0);
+    assert_false(back.has_contacts);
+    oz_snapshot_free(&back);
+    oz_grains_free(&grains);
+    heap_free(&heap);
+}
+
 static void impossible_elements_are_refused(void **state)
 {
     (void)state;
@@ -264,6 +372,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_come_back),
+        cmocka_unit_test(contacts_come_back),
+        cmocka_unit_test(old_files_are_read),
         cmocka_unit_test(any_damage_is_found),
         cmocka_unit_test(impossible_elements_are_refused),
         cmocka_unit_test(frames_are_drawn_again),

@@ -4,7 +4,7 @@
 #include "base/file.h"
 #include "model/restart_csv.h"
 #include "observe/final.h"
-#include "observe/frames.h"
+#include "observe/frame_reader.h"
 
 static void write_text(const char *path, const char *text)
 {
@@ -143,13 +143,13 @@ static int count_frames(OzSnapshot *back, OzGrains *grains, const OzScene *scene
     OzFrames *frames = NULL;
     int purpose = 0, count = 0;
     bool more = true;
-    *last = oz_frames_open(&frames, in_folder("frames.bin"), grains);
+    *last = oz_frame_reader_open(&frames, in_folder("frames.bin"), grains);
     if (*last != OZ_OK) {
         return -1;
     }
     assert_int_equal(oz_snapshot_create(back, scene, grains), OZ_OK);
     while (*last == OZ_OK && more) {
-        *last = oz_frames_next(frames, back, &purpose, &more);
+        *last = oz_frame_reader_next(frames, back, &purpose, &more);
         count += *last == OZ_OK && more;
         assert_true(*last != OZ_OK || purpose == count);
     }
@@ -176,6 +176,7 @@ static void test_frames_come_back(void **state)
     assert_floats(back.position, bed.snapshot.position, 21);
     assert_floats(back.quaternion, bed.snapshot.quaternion, 28);
     assert_floats(back.velocity, bed.snapshot.velocity, 21);
+    assert_floats(back.angular_velocity, bed.snapshot.angular_velocity, 21);
     assert_near(back.axis[20], bed.snapshot.axis[20], 1e-7); /* quaternions as floats: 6e-8 */
     assert_memory_equal(grains.length, bed.grains.length, 7 * sizeof(double));
     assert_memory_equal(grains.mass, bed.grains.mass, 7 * sizeof(double));
@@ -204,7 +205,7 @@ static void test_frames_damaged(void **state)
     OzGrains grains;
     OzSnapshot back;
     OzStatus last;
-    long head = 32 + 2 * 28 + 8, frame = 32 + 2 * 8 + 2 * 40 + 8;
+    long head = 32 + 2 * 28 + 8, frame = 32 + 2 * 8 + 2 * 52 + 8 + 8;
     bed_create(&bed, 2, 0.5e-3, 2e-3);
     fill_randomly(&bed);
     for (long at = 0; at < head + 3 * frame; at++) {

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "command/redraw_plan.h"
 #include "draw/pictures.h"
-#include "observe/frames.h"
+#include "observe/frame_reader.h"
 #include "run/inputs.h"
 
 #include <stdlib.h>
@@ -114,7 +114,7 @@ static OzStatus open_frames(Redraw *r)
     r->frames = NULL;
     oz_snapshot_free(&r->snapshot);
     oz_grains_free(&r->grains);
-    OzStatus status = oz_frames_open(&r->frames, r->frames_path, &r->grains);
+    OzStatus status = oz_frame_reader_open(&r->frames, r->frames_path, &r->grains);
     return status == OZ_OK ? oz_snapshot_create(&r->snapshot, &r->scene, &r->grains) : status;
 }
 
@@ -124,7 +124,7 @@ static OzStatus make_plan(Redraw *r)
     bool more = true;
     OZ_PASS(open_frames(r));
     for (;;) {
-        OZ_PASS(oz_frames_next(r->frames, &r->snapshot, &purpose, &more));
+        OZ_PASS(oz_frame_reader_next(r->frames, &r->snapshot, &purpose, &more));
         if (!more) {
             break;
         }
@@ -177,7 +177,7 @@ static OzStatus draw_all(Redraw *r)
     r->started = oz_clock_now();
     for (size_t i = 0; i < r->plan.count && count < total; i++) {
         int stored = 0;
-        OZ_PASS(oz_frames_next(r->frames, &r->snapshot, &stored, &more));
+        OZ_PASS(oz_frame_reader_next(r->frames, &r->snapshot, &stored, &more));
         if (!more) {
             break; /* the file became shorter meanwhile */
         }

@@ -5,7 +5,8 @@
 
 enum {
     ELEMENT_BYTES = 8 * (1 + 6 + 4), /* radius, corner; area, mass, inertia, angle */
-    FRAME_ELEMENT_BYTES = 4 * 5      /* position, angle, velocity                  */
+    FRAME_ELEMENT_BYTES = 4 * 5,     /* position, angle, velocity                  */
+    FRAME_SPIN_BYTES = 4             /* angular velocity                           */
 };
 
 OzElementCounts oz_frame_elements_count(const OzElements *elements)
@@ -42,9 +43,10 @@ size_t oz_frame_elements_static_bytes(const OzElementCounts *counts)
            (size_t)(counts->free_elements + counts->wall_elements) * ELEMENT_BYTES;
 }
 
-size_t oz_frame_elements_bytes(const OzElementCounts *counts)
+size_t oz_frame_elements_bytes(const OzElementCounts *counts, bool has_spin)
 {
-    return (size_t)(counts->free_elements + counts->wall_elements) * FRAME_ELEMENT_BYTES;
+    size_t element = FRAME_ELEMENT_BYTES + (has_spin ? FRAME_SPIN_BYTES : 0);
+    return (size_t)(counts->free_elements + counts->wall_elements) * element;
 }
 
 static void pack_integers(OzBytes *at, const int *values, int64_t count)
@@ -168,14 +170,20 @@ void oz_frame_elements_pack(OzBytes *at, const OzSnapshot *snapshot)
     oz_bytes_pack_floats(at, snapshot->element_position, 2 * snapshot->element_count);
     oz_bytes_pack_floats(at, snapshot->element_angle, snapshot->element_count);
     oz_bytes_pack_floats(at, snapshot->element_velocity, 2 * snapshot->element_count);
+    oz_bytes_pack_floats(at, snapshot->element_angular_velocity, snapshot->element_count);
 }
 
-void oz_frame_elements_unpack(OzBytes *at, OzSnapshot *snapshot)
+void oz_frame_elements_unpack(OzBytes *at, OzSnapshot *snapshot, bool has_spin)
 {
     oz_bytes_unpack_floats(at, snapshot->element_position, 2 * snapshot->element_count);
     oz_bytes_unpack_floats(at, snapshot->element_angle, snapshot->element_count);
     oz_bytes_unpack_floats(at, snapshot->element_velocity, 2 * snapshot->element_count);
     memset(snapshot->element_angular_velocity, 0, (size_t)snapshot->element_count * sizeof(double));
+    if (has_spin) {
+        oz_bytes_unpack_floats(at, snapshot->element_angular_velocity, snapshot->element_count);
+    }
     oz_snapshot_join_elements(snapshot);
-    memset(snapshot->angular_velocity, 0, (size_t)(3 * snapshot->count) * sizeof(double));
+    if (!has_spin) {
+        memset(snapshot->angular_velocity, 0, (size_t)(3 * snapshot->count) * sizeof(double));
+    }
 }

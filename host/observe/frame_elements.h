@@ -15,9 +15,10 @@ OzElementCounts oz_frame_elements_count(const OzElements *elements);
 void oz_frame_elements_pack_head(OzBytes *at, const OzElementCounts *counts);
 void oz_frame_elements_unpack_head(OzBytes *at, OzElementCounts *counts);
 
-/* Bytes of what never changes, and of a frame's part. */
+/* Bytes of what never changes, and of a frame's part, which old files have without angular
+ * velocities. */
 size_t oz_frame_elements_static_bytes(const OzElementCounts *counts);
-size_t oz_frame_elements_bytes(const OzElementCounts *counts);
+size_t oz_frame_elements_bytes(const OzElementCounts *counts, bool has_spin);
 
 void oz_frame_elements_pack_static(OzBytes *at, const OzElements *elements);
 
@@ -25,7 +26,7 @@ void oz_frame_elements_pack_static(OzBytes *at, const OzElements *elements);
  * zero. False for values that no scene can have; nothing out of range is kept in use then. */
 bool oz_frame_elements_unpack_static(OzBytes *at, OzElements *elements);
 
-/* A frame's part: position, angle and velocity. Reading joins the grains, whose spin stays unknown:
- * zero. */
+/* A frame's part: position, angle, velocity and angular velocity. Reading joins the grains, whose
+ * spin is zero where it was not kept. */
 void oz_frame_elements_pack(OzBytes *at, const OzSnapshot *snapshot);
-void oz_frame_elements_unpack(OzBytes *at, OzSnapshot *snapshot);
+void oz_frame_elements_unpack(OzBytes *at, OzSnapshot *snapshot, bool has_spin);

@@ -2,22 +2,28 @@
  * again without simulating.
  *
  * Layout, in the byte order of the machine that wrote it, without padding:
- *   head    char[8] "ozframes"; u32 0x01020304; u32 version 1; i64 count; u32 wall_count; u32 0
+ *   head    char[8] "ozframes"; u32 0x01020304; u32 version 3; i64 count; u32 wall_count; u32 0
  *   grains  f64 diameter[count]; f64 length[count]; f64 mass[count]; i32 population[count]
  *           u64 checksum of head and grains
- *   frame   u64 bytes of this frame, itself included; u32 purpose; u32 0; i64 step; f64 time
+ *   frame   u64 bytes of this frame, itself included; u32 purpose; u32 check: the lower half of
+ *           the checksum of u64 bytes, u64 purpose; i64 step; f64 time
  *           f32 wall_offset[wall_count]; f32 wall_velocity[wall_count]
  *           f32 position[3 count]; f32 quaternion[4 count]; f32 velocity[3 count]
+ *           f32 angular_velocity[3 count]
+ *           i64 contact_count, -1 where contacts were not looked at; then of each contact
+ *               i32 a, b, part_a, part_b, kind, slips; f32 point[3], normal[3], push,
+ *               tangential[3], overlap (model/contact_list.h)
  *           u64 checksum of this frame
  *   ...     further frames to the end of the file
- * Version 2, of trigrains, differs thus:
+ * Version 4, of trigrains, differs thus:
  *   head    followed by i64 elements of grains; i64 of walls; i64 beam_count; i64 outline_count
  *   grains  followed by i32 first[count + wall_count + 1]; for all elements f64 radius, corner x 6,
  *           area, mass, inertia, angle (array after array); i32 beam_a, beam_b, outline_element,
  *           outline_edge (array after array)
  *   frame   f32 element_position[2 elements]; f32 element_angle[elements]; f32 element_velocity[2
- * elements] in the place of position, quaternion and velocity SI units; quaternions w x y z; a
- * checksum is FNV-1a, 64 bits, of all bytes before it. */
+ *           elements] in the place of position to angular_velocity
+ * Versions 1 and 2 are 3 and 4 without angular_velocity and without contacts; they are read still.
+ * SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
 #pragma once
 
 #include "base/state.h"
@@ -26,7 +32,7 @@
 typedef struct OzFrames OzFrames;
 
 /* What a frame is for: bits. */
-enum { OZ_FRAME_MOVIE = 1, OZ_FRAME_SNAPSHOT = 2, OZ_FRAME_STROBE = 4 };
+enum { OZ_FRAME_MOVIE = 1, OZ_FRAME_SNAPSHOT = 2, OZ_FRAME_STROBE = 4, OZ_FRAME_EXPORT = 8 };
 
 /* Opens path for writing; scene and grains are read here only. Fails with OZ_ERR_FILE. */
 OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *scene,
@@ -40,20 +46,9 @@ OzStatus oz_frames_go_on(OzFrames **frames, const char *path, const OzScene *sce
 /* Saves or loads (base/state.h) how much of the file is whole. */
 OzStatus oz_frames_state(OzFrames *frames, OzStateVisit *visit);
 
-/* Appends one frame and flushes, so that a crash later leaves it whole. */
+/* Appends one frame and flushes, so that a crash later leaves it whole. Contacts are kept of frames
+ * for OZ_FRAME_EXPORT. */
 OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose);
 
 OzStatus
 oz_frames_finish(OzFrames *frames); /* closes and frees, also after reading; NULL is fine */
-
-/* Opens for reading: *grains receives geometry, mass, inertia and population, at the origin and
- * upright, and trigrains' elements (the caller frees). A damaged or foreign file is refused by name
- * with OZ_ERR_INPUT; a file cut short by a crash gives its whole frames. Nothing larger than the
- * file is ever allocated.
- */
-OzStatus oz_frames_open(OzFrames **frames, const char *path, OzGrains *grains);
-
-/* The next frame into snapshot (made for these grains and a scene with as many walls, else
- * OZ_ERR_INPUT); *more is false at the end and the snapshot then untouched. Spin is zero, axes are
- * turned, there are no contacts and no ledger. */
-OzStatus oz_frames_next(OzFrames *frames, OzSnapshot *snapshot, int *purpose, bool *more);

@@ -2,7 +2,7 @@
  * past them. */
 #include "fuzz_file.h"
 
-#include "observe/frames.h"
+#include "observe/frame_reader.h"
 
 static void read_all(OzFrames *frames, const OzGrains *grains)
 {
@@ -12,7 +12,7 @@ static void read_all(OzFrames *frames, const OzGrains *grains)
     bool more = true;
     OzStatus status = oz_snapshot_create(&snapshot, &scene, grains);
     while (status == OZ_OK && more) {
-        status = oz_frames_next(frames, &snapshot, &purpose, &more);
+        status = oz_frame_reader_next(frames, &snapshot, &purpose, &more);
     }
     oz_snapshot_free(&snapshot);
 }
@@ -23,7 +23,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     OzGrains grains = {0};
     char path[64];
     int file = file_of(bytes, size, path);
-    if (oz_frames_open(&frames, path, &grains) == OZ_OK) {
+    if (oz_frame_reader_open(&frames, path, &grains) == OZ_OK) {
         read_all(frames, &grains);
     }
     oz_frames_finish(frames);
