@@ -24,6 +24,8 @@ static const struct {
      "orzo check scenes/an6.yaml --set time.step=2e-5 --verbose"},
     {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o",
      1, 1, "orzo draw runs/an6 -o pictures --set movie.colour=speed"},
+    {"export", "DIR", "oak", "a run's frames as VTK, extended XYZ, H5MD or CSV, into DIR/export or -o",
+     1, 1, "orzo export runs/an6 --to vtk,xyz"},
     {"keys", "[PART]", "c",
      "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1,
      "orzo keys contact."},
@@ -41,7 +43,7 @@ static const struct {
     const char *name, *value, *help;
 } option_rows[] = {
     {'o', "-o", "DIR",
-     "folder to write (default runs/<scene name>; of draw DIR/draw, of bench and report their "
+     "folder to write (default runs/<scene name>; of draw DIR/draw, of export DIR/export, of bench and report their "
      "names)"},
     {'O', "--overwrite", NULL, "replace the run that is there"},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
@@ -76,6 +78,8 @@ static const struct {
     {'E', "--ensemble", NULL, "a shaken bed at every step and integrator, for many seeds, instead"},
     {'H', "--hits", NULL,
      "how often two grains hit and how they spin then, for each value, instead"},
+    {'a', "--to", "FORMAT", "vtk, xyz, h5md or csv, or several with commas between"},
+    {'k', "--every", "N", "only each N-th frame"},
     {'v', "--verbose", NULL, "kernel switches, what is left out, device memory, too"},
     {'x', "--share", "X", "of --hits: from which share of the impulse a hit counts (default 0.05)"},
     {'c', "--columns", NULL, "the columns of series.csv instead"},
@@ -240,6 +244,16 @@ static OzStatus parse_share(OzOptions *options, const char *value)
     return OZ_OK;
 }
 
+static OzStatus parse_every(OzOptions *options, const char *value)
+{
+    char *end = NULL;
+    options->every = strtoll(value, &end, 10);
+    if (*value == '\0' || *end || options->every < 1) {
+        return wrong(value, "--every with a whole number above 0");
+    }
+    return OZ_OK;
+}
+
 static OzStatus add_setting(OzOptions *options, const char *value)
 {
     if (options->setting_count == OZ_CLI_SETTINGS_MAX) {
@@ -279,6 +293,23 @@ static OzStatus parse_serve(OzOptions *options, const char *value)
                : OZ_OK;
 }
 
+/* Where a text that is taken as it is goes. */
+static const char **text_of(OzOptions *options, char letter)
+{
+    switch (letter) {
+    case 'S':
+        return &options->source_dir;
+    case 'r':
+        return &options->from;
+    case 'd':
+        return &options->device;
+    case 'z':
+        return &options->sizes;
+    default:
+        return &options->yardstick;
+    }
+}
+
 static OzStatus take_option(OzOptions *options, char letter, const char *value)
 {
     switch (letter) {
@@ -286,9 +317,6 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return take_name(&options->out, value, "-o with the name of a folder");
     case 's':
         return add_setting(options, value);
-    case 'd':
-        options->device = value;
-        return OZ_OK;
     case 't':
         return parse_threads(options, value);
     case 'p':
@@ -301,10 +329,6 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return parse_pace(options, value);
     case 'u':
         return parse_until(options, value);
-    case 'S':
-    case 'r':
-        *(letter == 'S' ? &options->source_dir : &options->from) = value;
-        return OZ_OK;
     case 'm':
         return take_name(&options->stream, value, "--stream with the name of a file, or -");
     case 'V':
@@ -315,11 +339,16 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
         return parse_tolerance(options, value);
     case 'x':
         return parse_share(options, value);
+    case 'k':
+        return parse_every(options, value);
+    case 'a':
+        return take_name(&options->to, value, "--to with vtk, xyz, h5md or csv");
+    case 'S':
+    case 'r':
+    case 'd':
     case 'z':
-        options->sizes = value;
-        return OZ_OK;
     case 'y':
-        options->yardstick = value;
+        *text_of(options, letter) = value;
         return OZ_OK;
     default:
         options->quick |= letter == 'Q';
@@ -395,13 +424,13 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     if (argc < 2) {
         return oz_status_fail(OZ_ERR_INPUT,
                               "orzo: no command; expected one of run, resume, check, draw, "
-                              "keys, bench, report, devices (see orzo --help)");
+                              "export, keys, bench, report, devices (see orzo --help)");
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
         return wrong(argv[1],
-                     "run, resume, check, draw, keys, bench, report or devices (see orzo --help)");
+                     "run, resume, check, draw, export, keys, bench, report or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
         OZ_PASS(take_argument(options, command, argc, argv, &i));

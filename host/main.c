@@ -4,6 +4,7 @@
 #include "base/streams.h"
 #include "bench/bench.h"
 #include "cli.h"
+#include "command/export_folder.h"
 #include "command/inspect.h"
 #include "command/redraw.h"
 #include "compute/device.h"
@@ -37,6 +38,12 @@ static OzStatus check_command(const OzOptions *options)
 static OzStatus draw_command(const OzOptions *options)
 {
     return oz_redraw_folder(options);
+}
+
+static OzStatus export_command(const OzOptions *options)
+{
+    oz_interrupt_watch();
+    return oz_export_folder_run(options);
 }
 
 static OzStatus list_keys(const char *part)
@@ -94,8 +101,8 @@ static const struct {
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
     {"run", run_command},       {"resume", resume_command},   {"check", check_command},
-    {"draw", draw_command},     {"keys", keys_command},       {"bench", bench_command},
-    {"report", report_command}, {"devices", devices_command},
+    {"draw", draw_command},     {"export", export_command},   {"keys", keys_command},
+    {"bench", bench_command},   {"report", report_command},   {"devices", devices_command},
 };
 
 static OzStatus help_or_run(const OzOptions *options)

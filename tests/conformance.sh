@@ -15,8 +15,7 @@ on_pocl() {
 
 # Found through a folder that names it and nothing else.
 install_intel() {
-    [ -x "$work/intel/bin/pip" ] || python3 -m venv "$work/intel" || stop "python3 -m venv failed"
-    "$work/intel/bin/pip" install --quiet -r tests/requirements.txt || stop "Intel's runtime cannot be installed"
+    install_python "$work/intel" intel-opencl-rt intel-cmplr-lib-rt || stop "Intel's runtime cannot be installed"
     OCL_ICD_VENDORS=$work/vendors
     mkdir -p "$OCL_ICD_VENDORS"
     echo "$work/intel/lib/libintelocl.so" >"$OCL_ICD_VENDORS/intel.icd"

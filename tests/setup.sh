@@ -50,6 +50,16 @@ install_packages() {
         stop "apt-get could not install: $missing"
 }
 
+# install_python FOLDER PACKAGE...: a virtual environment with these packages of tests/requirements.txt.
+install_python() {
+    environment=$1
+    shift
+    [ -x "$environment/bin/pip" ] || python3 -m venv "$environment" || return 1
+    # shellcheck disable=SC2046 # one word a package is meant
+    "$environment/bin/pip" install --quiet --disable-pip-version-check \
+        $(for package in "$@"; do grep -E "^$package([=<>~].*)?\$" tests/requirements.txt; done)
+}
+
 # build_orzo FOLDER TYPE: configures and builds everything in FOLDER.
 build_orzo() {
     say "building ($2) in $1/"

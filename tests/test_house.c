@@ -22,20 +22,25 @@ static const struct {
     const char *name;
     int floor;
 } rooms[] = {
-    {"base", 0},   {"scene", 1},   {"model", 2}, {"compute", 2}, {"observe", 3},
-    {"draw", 4},   {"sim", 4},     {"cli", 5},   {"run", 6},     {"bench", 7},
-    {"report", 7}, {"command", 8}, {"main", 9},
+    {"base", 0},  {"scene", 1},  {"model", 2},   {"compute", 2}, {"observe", 3},
+    {"draw", 4},  {"sim", 4},    {"export", 4},  {"cli", 5},     {"run", 6},
+    {"bench", 7}, {"report", 7}, {"command", 8}, {"main", 9},
 };
 
 /* An outside header's beginning, and the only place whose files may include it. */
 static const struct {
     const char *header, *place;
 } keepers[] = {
-    {"CL/", "host/compute/"},     {"GL/", "host/draw/"},
-    {"EGL/", "host/draw/"},       {"KHR/", "host/draw/"},
-    {"libav", "host/draw/movie"}, {"libsw", "host/draw/movie"},
-    {"yaml.h", "host/scene/"},    {"ft2build.h", "host/draw/"},
-    {"png.h", "host/draw/"},      {"hdf5.h", "host/run/state_file"},
+    {"CL/", "host/compute/"},
+    {"GL/", "host/draw/"},
+    {"EGL/", "host/draw/"},
+    {"KHR/", "host/draw/"},
+    {"libav", "host/draw/movie"},
+    {"libsw", "host/draw/movie"},
+    {"yaml.h", "host/scene/"},
+    {"ft2build.h", "host/draw/"},
+    {"png.h", "host/draw/"},
+    {"hdf5.h", "host/base/hdf5_library"},
     {"microhttpd.h", "host/run/page_server"},
 };
 

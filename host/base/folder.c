@@ -422,3 +422,15 @@ done:
     free(whole);
     return status;
 }
+
+OzStatus oz_folder_finish_file(FILE *file, const char *name)
+{
+    if (!file) {
+        return OZ_OK;
+    }
+    bool good = fflush(file) == 0 && !ferror(file);
+    int cause = errno;
+    good = fclose(file) == 0 && good;
+    return good ? OZ_OK
+                : oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", name, strerror(cause));
+}

@@ -53,6 +53,9 @@ OzStatus oz_folder_note(const char *path, const char *name);
 /* Notes a file and opens it for writing, empty. Fails with OZ_ERR_FILE, naming it. */
 OzStatus oz_folder_create_file(FILE **file, const char *path, const char *name);
 
+/* Closes a file so made; NULL is fine. Fails with OZ_ERR_FILE where not all of it was written. */
+OzStatus oz_folder_finish_file(FILE *file, const char *name);
+
 /* Whether the folder's marker names it. */
 bool oz_folder_names(const char *path, const char *name);
 

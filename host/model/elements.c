@@ -155,3 +155,22 @@ void oz_elements_corners(const OzElements *elements, int64_t i, const double pos
         corners[2 * k + 1] = position[1] + s * corner[2 * k] + c * corner[2 * k + 1];
     }
 }
+
+double oz_elements_turned(const OzElements *elements, int64_t body, const double *angle)
+{
+    double turn = 0, mass = 0;
+    for (int64_t i = elements->first[body]; i < elements->first[body + 1]; i++) {
+        mass += elements->mass[i];
+        turn += elements->mass[i] * (angle[i] - elements->angle[i]);
+    }
+    return turn / mass;
+}
+
+double oz_elements_body_area(const OzElements *elements, int64_t body)
+{
+    double area = 0;
+    for (int64_t i = elements->first[body]; i < elements->first[body + 1]; i++) {
+        area += elements->area[i];
+    }
+    return area;
+}

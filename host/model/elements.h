@@ -64,3 +64,10 @@ void oz_elements_rest_beam(OzElements *elements, int64_t k);
 /* The world coordinates of an element's corners at a position and angle. */
 void oz_elements_corners(const OzElements *elements, int64_t i, const double position[2],
                          double angle, double corners[6]);
+
+/* How far a body has turned since the start, rad, not wrapped: the mean over its elements by mass;
+ * angle is of all elements now. */
+double oz_elements_turned(const OzElements *elements, int64_t body, const double *angle);
+
+/* m^2, of a body's elements together. */
+double oz_elements_body_area(const OzElements *elements, int64_t body);

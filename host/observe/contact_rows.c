@@ -65,11 +65,16 @@ static void write_row(FILE *file, const OzSnapshot *now, const OzContactEntry *e
     fprintf(file, ",%d\n", e->slips);
 }
 
-OzStatus oz_contact_rows_write(OzContactRows *rows, const OzSnapshot *snapshot)
+void oz_contact_rows_print(FILE *file, const OzSnapshot *snapshot)
 {
     for (int64_t i = 0; snapshot->has_contacts && i < snapshot->contacts.count; i++) {
-        write_row(rows->file, snapshot, &snapshot->contacts.entry[i]);
+        write_row(file, snapshot, &snapshot->contacts.entry[i]);
     }
+}
+
+OzStatus oz_contact_rows_write(OzContactRows *rows, const OzSnapshot *snapshot)
+{
+    oz_contact_rows_print(rows->file, snapshot);
     return oz_file_commit(rows->file, &rows->whole, rows->path);
 }
 

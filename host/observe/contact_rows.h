@@ -8,6 +8,8 @@
 #include "base/state.h"
 #include "model/snapshot.h"
 
+#include <stdio.h>
+
 #define OZ_CONTACT_ROWS_HEADER "step,time,a,b,x,y,z,nx,ny,nz,overlap,fn,ftx,fty,ftz,slips"
 
 typedef struct OzContactRows OzContactRows;
@@ -23,6 +25,9 @@ OzStatus oz_contact_rows_state(OzContactRows *rows, OzStateVisit *visit);
 
 /* All contacts of a snapshot, nothing of one without; then flushes. */
 OzStatus oz_contact_rows_write(OzContactRows *rows, const OzSnapshot *snapshot);
+
+/* The rows alone, into any file. */
+void oz_contact_rows_print(FILE *file, const OzSnapshot *snapshot);
 
 /* Closes; NULL is fine. */
 OzStatus oz_contact_rows_free(OzContactRows *rows);

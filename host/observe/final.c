@@ -73,34 +73,21 @@ static void write_rows(const OzSnapshot *snapshot, FILE *file)
     }
 }
 
-/* Sums over a flat grain's elements. */
-typedef struct Sums {
-    double area, mass, turn; /* turn: weighted by mass */
-} Sums;
-
-static Sums sum_elements(const OzSnapshot *snapshot, int64_t g)
-{
-    const OzElements *elements = snapshot->grains->elements;
-    Sums sums = {0};
-    for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
-        sums.area += elements->area[i];
-        sums.mass += elements->mass[i];
-        sums.turn += elements->mass[i] * (snapshot->element_angle[i] - elements->angle[i]);
-    }
-    return sums;
-}
-
 static void write_flat_rows(const OzSnapshot *snapshot, FILE *file)
 {
     const OzElements *elements = snapshot->grains->elements;
     fputs(OZ_FINAL_FLAT_HEADER "\n", file);
     for (int64_t g = 0; g < snapshot->count; g++) {
         const double *x = &snapshot->position[3 * g], *v = &snapshot->velocity[3 * g];
-        Sums sums = sum_elements(snapshot, g);
+        double turned = oz_elements_turned(elements, g, snapshot->element_angle), mass = 0;
+        for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
+            mass += elements->mass[i];
+        }
         fprintf(file, "%lld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%.17g,%.17g\n", (long long)g,
-                x[0], x[1], sums.turn / sums.mass, v[0], v[1],
+                x[0], x[1], turned, v[0], v[1],
                 snapshot->angular_velocity[3 * g + 2],
-                (long long)(elements->first[g + 1] - elements->first[g]), sums.area, sums.mass);
+                (long long)(elements->first[g + 1] - elements->first[g]),
+                oz_elements_body_area(elements, g), mass);
     }
 }
 

@@ -45,6 +45,7 @@ static void intervals_of(const OzScene *scene, double until, double intervals[OZ
     intervals[OZ_TRACK_FRAME] = frame_interval(scene, duration);
     intervals[OZ_TRACK_STROBE] = scene->snapshots.strobe;
     intervals[OZ_TRACK_CONTACTS] = scene->observe.contacts ? scene->observe.contacts_interval : 0;
+    intervals[OZ_TRACK_EXPORT] = scene->export_count > 0 ? scene->export_interval : 0;
     intervals[OZ_TRACK_CHECKPOINT] = scene->checkpoint.interval_taps * scene->period;
 }
 
@@ -161,6 +162,16 @@ static int64_t next_step(OzSchedule *s)
     return next;
 }
 
+/* What is due because something else is. */
+static int due_with(const OzSchedule *s, int due)
+{
+    bool contacts = s->scene->observe.contacts && s->track[OZ_TRACK_CONTACTS].interval == 0;
+    bool exports = s->scene->export_count > 0 && s->track[OZ_TRACK_EXPORT].interval == 0;
+    int leads = s->scene->movie.present ? OZ_DUE_MOVIE : OZ_DUE_ROW;
+    return (contacts && (due & OZ_DUE_ROW) ? OZ_DUE_CONTACTS : 0) |
+           (exports && (due & leads) ? OZ_DUE_EXPORT : 0);
+}
+
 bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
 {
     int64_t next = next_step(s);
@@ -177,8 +188,8 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     *due |= pass(s, OZ_TRACK_STROBE, next) ? OZ_DUE_STROBE : 0;
     *due |= pass_checkpoints(s, next) ? OZ_DUE_CHECKPOINT : 0;
     *due |= pass(s, OZ_TRACK_CONTACTS, next) ? OZ_DUE_CONTACTS : 0;
-    bool with_rows = s->scene->observe.contacts && s->track[OZ_TRACK_CONTACTS].interval == 0;
-    *due |= with_rows && (*due & OZ_DUE_ROW) ? OZ_DUE_CONTACTS : 0;
+    *due |= pass(s, OZ_TRACK_EXPORT, next) ? OZ_DUE_EXPORT : 0;
+    *due |= due_with(s, *due);
     while (snapshot_step(s) <= next) {
         *due |= OZ_DUE_SNAPSHOT;
         s->snapshots++;
@@ -329,7 +340,7 @@ OzStatus oz_schedule_state(OzSchedule *s, OzStateVisit *visit)
     OzStatus status = OZ_OK;
     int64_t snapshots = s->snapshots, kept = s->kept;
     double checkpoint = s->track[OZ_TRACK_CHECKPOINT].interval;
-    OZ_TRY(oz_state_enter(visit, "schedule", 4));
+    OZ_TRY(oz_state_enter(visit, "schedule", 5));
     OZ_TRY(oz_step_clock_state(&s->clock, visit, "clock"));
     for (int k = 0; k < OZ_TRACKS; k++) {
         OZ_TRY(track_state(&s->track[k], visit, "track", k));

@@ -18,7 +18,8 @@ enum {
     OZ_DUE_STROBE = 16,
     OZ_DUE_CHECKPOINT = 32, /* a state to be kept */
     OZ_DUE_CONTACTS = 64,
-    OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS /* what needs the snapshot's contacts */
+    OZ_DUE_EXPORT = 128,
+    OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS | OZ_DUE_EXPORT /* what needs the snapshot's contacts */
 };
 
 /* Events of one kind: event `count` is next, at from + count x interval. */
@@ -34,6 +35,7 @@ typedef enum OzTrackKind {
     OZ_TRACK_STROBE,
     OZ_TRACK_CONTACTS,
     OZ_TRACK_CHECKPOINT,
+    OZ_TRACK_EXPORT,
     OZ_TRACKS
 } OzTrackKind;
 
@@ -56,7 +58,7 @@ typedef struct OzSchedule {
  * samples samples_per_tap times a period. With top or bottom, there is a sample in every period
  * where the first moving wall is highest or lowest, and rows at such moments only, the first in the
  * first period, the others each `interval` seconds after. Contacts asked for without an interval
- * are due with every row. */
+ * are due with every row, an export without one with every frame of the movie, or else row. */
 OzSchedule oz_schedule_create(const OzScene *scene, double until);
 
 /* Lets another scene's events follow after this step, up to which all have been due: what keeps its

@@ -3,6 +3,9 @@
 
 #include "base/file.h"
 #include "base/folder.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "export/export.h"
 #include "observe/final.h"
 #include "observe/schedule.h"
 
@@ -40,6 +43,7 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "snapshots/tap_*.png*",
                                          "snapshots/time_*.png*",
                                          "snapshots/strobe.png*",
+                                         "export/",
                                          NULL};
     static const char *const endings[] = {"final.csv", "members.csv", NULL};
     static const char *const results[] = {"series.csv",     "frames.bin",       "movie.mp4",
@@ -107,6 +111,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     const OzGrains *grains = &outputs->grains;
     bool pictures =
         scene->movie.present || scene->snapshots.count > 0 || scene->snapshots.strobe > 0;
+    bool stores = pictures || scene->export_count > 0;
     outputs->is_open = true;
     if (outputs->name &&
         outputs->name[0]) { /* a plain run's folder is chosen, with its log in it */
@@ -135,7 +140,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     if (options->watch) {
         OZ_TRY(oz_reload_log_begin(outputs->reloads));
     }
-    if (pictures) {
+    if (stores) {
         OZ_TRY(claim(&frames, outputs->folder, "frames.bin", NULL));
         OZ_TRY((outputs->goes_on ? oz_frames_go_on : oz_frames_create)(&outputs->frames, frames,
                                                                        scene, grains));
@@ -163,7 +168,8 @@ static int purpose_of(int due)
 {
     return (due & OZ_DUE_MOVIE ? OZ_FRAME_MOVIE : 0) |
            (due & OZ_DUE_SNAPSHOT ? OZ_FRAME_SNAPSHOT : 0) |
-           (due & OZ_DUE_STROBE ? OZ_FRAME_STROBE : 0);
+           (due & OZ_DUE_STROBE ? OZ_FRAME_STROBE : 0) |
+           (due & OZ_DUE_EXPORT ? OZ_FRAME_EXPORT : 0);
 }
 
 OzStatus oz_outputs_look(OzOutputs *outputs, int due)
@@ -182,7 +188,7 @@ OzStatus oz_outputs_look(OzOutputs *outputs, int due)
     if (purpose && outputs->frames) {
         OZ_PASS(oz_frames_add(outputs->frames, &outputs->now, purpose));
     }
-    if (purpose && outputs->pictures) {
+    if ((purpose & ~OZ_FRAME_EXPORT) && outputs->pictures) {
         OZ_PASS(
             oz_render_queue_add(outputs->render_queue, outputs->pictures, &outputs->now, purpose));
     }
@@ -255,15 +261,52 @@ done:
     return status;
 }
 
+/* What the scene asks for, of the frames that are stored by now. */
+static OzStatus export_frames(const OzOutputs *o)
+{
+    OzStatus status = OZ_OK;
+    OzFolderUse use = {.writes = oz_export_patterns};
+    OzFolder owned = {0};
+    char *frames = NULL, *folder = NULL;
+    int64_t count = 0;
+    if (oz_interrupt_asked()) {
+        oz_log_line("nothing is exported before the run's end; `orzo export %s` does it sooner",
+                    o->folder);
+        return OZ_OK;
+    }
+    OZ_TRY(oz_file_join(&frames, o->folder, "frames.bin"));
+    OZ_TRY(oz_folder_note(o->folder, "export/"));
+    OZ_TRY(oz_file_join(&folder, o->folder, "export"));
+    OZ_TRY(oz_folder_open(&owned, folder, &use));
+    OZ_TRY(oz_export_frames(&(OzExportJob){.frames = frames,
+                                           .scene = &o->scene,
+                                           .folder = folder,
+                                           .kinds = o->scene.exports,
+                                           .kind_count = o->scene.export_count,
+                                           .purpose = OZ_FRAME_EXPORT,
+                                           .every = 1},
+                            &count));
+    oz_log_line("%lld frames exported into %s", (long long)count, folder);
+done:
+    oz_folder_close(&owned);
+    free(frames);
+    free(folder);
+    return status;
+}
+
 OzStatus oz_outputs_close(OzOutputs *o)
 {
     OzStatus status = OZ_OK;
+    bool exports = o->frames && o->scene.export_count > 0;
 #define CLOSE(type, member, state, close)                                                          \
     OZ_AFTER(status, close);                                                                       \
     o->member = NULL;
     OZ_OUTPUTS_OWNERS(CLOSE)
 #undef CLOSE
     o->is_open = false;
+    if (exports) {
+        OZ_AFTER(status, export_frames(o));
+    }
     if (o->final) {
         oz_final_give_up(o->final);
     }

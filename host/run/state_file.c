@@ -2,98 +2,28 @@
 #include "run/state_file.h"
 
 #include "base/file.h"
+#include "base/hdf5_library.h"
 #include "base/memory.h"
 #include "observe/bytes.h"
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <hdf5.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 static const char MAGIC[8] = {'o', 'z', 's', 't', 'a', 't', 'e', '\n'};
-/* HDF5's own names for these two call into the library. */
-enum { ACCESS_READ = 0, ACCESS_TRUNCATE = 2 };
 enum { HEAD = 512, BYTE_ORDER_MARK = 0x01020304, VERSION = 1 };
 
-/* clang-format off */
-/* Every function and every number of libhdf5 that is used. */
-#define FUNCTIONS(F)                                                                               \
-    F(H5open) F(H5Eset_auto2)                                                                      \
-    F(H5Pcreate) F(H5Pset_fapl_core) F(H5Pset_file_image) F(H5Pset_create_intermediate_group)      \
-    F(H5Pclose) F(H5Fcreate) F(H5Fopen) F(H5Fflush) F(H5Fget_file_image) F(H5Fclose)               \
-    F(H5Screate_simple) F(H5Screate) F(H5Sget_simple_extent_npoints) F(H5Sclose)                   \
-    F(H5Dcreate2) F(H5Dopen2) F(H5Dwrite) F(H5Dread) F(H5Dget_space) F(H5Dget_type) F(H5Dclose)    \
-    F(H5Tcopy) F(H5Tset_size) F(H5Tget_size) F(H5Tequal) F(H5Tclose)                               \
-    F(H5Acreate2) F(H5Awrite) F(H5Aopen) F(H5Aget_type) F(H5Aread) F(H5Aclose)
-#define NUMBERS(N)                                                                                 \
-    N(H5P_CLS_FILE_ACCESS_ID_g) N(H5P_CLS_LINK_CREATE_ID_g) N(H5T_C_S1_g) N(H5T_NATIVE_INT64_g)    \
-    N(H5T_NATIVE_INT32_g) N(H5T_NATIVE_DOUBLE_g) N(H5T_NATIVE_FLOAT_g) N(H5T_NATIVE_UINT8_g)
-/* clang-format on */
-
-#define FUNCTION(function) __typeof__(function) *function;
-#define NUMBER(number)     hid_t *number;
-static struct {
-    FUNCTIONS(FUNCTION)
-    NUMBERS(NUMBER)
-} h5;
-
-/* libhdf5 is not made for several threads: held during every call of ours. */
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-
-#define H5_TRY(call)                                                                               \
-    do {                                                                                           \
-        if ((call) < 0) {                                                                          \
-            status = oz_status_fail(OZ_ERR_FILE, "state: %s failed (run/state_file.c:%d)", #call,  \
-                                    __LINE__);                                                     \
-            goto done;                                                                             \
-        }                                                                                          \
-    } while (0)
-
-/* ISO C has no cast from an object to a function pointer. */
-static OzStatus find(void *library, const char *name, void *into)
-{
-    void *address = dlsym(library, name);
-    memcpy(into, &address, sizeof address);
-    return address ? OZ_OK : oz_status_fail(OZ_ERR_FILE, "state: libhdf5 lacks %s", name);
-}
-
-#define STRINGIFY_(x) #x
-#define STRINGIFY(x)  STRINGIFY_(x)
-#define FIND(name)    OZ_TRY(find(library, STRINGIFY(name), &h5.name));
-
-/* Once a process; the library stays open to its end. */
-static OzStatus load(void)
-{
-    static bool loaded;
-    OzStatus status = OZ_OK;
-    if (loaded) {
-        return OZ_OK;
-    }
-    void *library = dlopen("libhdf5_serial.so.103", RTLD_NOW | RTLD_LOCAL);
-    library = library ? library : dlopen("libhdf5.so.103", RTLD_NOW | RTLD_LOCAL);
-    if (!library) {
-        return oz_status_fail(OZ_ERR_FILE, "state: cannot open libhdf5: %s; install it", dlerror());
-    }
-    FUNCTIONS(FIND)
-    NUMBERS(FIND)
-    H5_TRY(h5.H5open());
-    H5_TRY(h5.H5Eset_auto2(H5E_DEFAULT, NULL, NULL)); /* what fails is told by us */
-    loaded = true;
-done:
-    return status;
-}
+static const OzHdf5 *h5; /* of who is in the library */
 
 static hid_t type_of(OzStateKind kind)
 {
-    hid_t *const types[] = {[OZ_STATE_INT64] = h5.H5T_NATIVE_INT64_g,
-                            [OZ_STATE_INT32] = h5.H5T_NATIVE_INT32_g,
-                            [OZ_STATE_DOUBLE] = h5.H5T_NATIVE_DOUBLE_g,
-                            [OZ_STATE_FLOAT] = h5.H5T_NATIVE_FLOAT_g,
-                            [OZ_STATE_BYTES] = h5.H5T_NATIVE_UINT8_g};
+    hid_t *const types[] = {[OZ_STATE_INT64] = h5->H5T_NATIVE_INT64_g,
+                            [OZ_STATE_INT32] = h5->H5T_NATIVE_INT32_g,
+                            [OZ_STATE_DOUBLE] = h5->H5T_NATIVE_DOUBLE_g,
+                            [OZ_STATE_FLOAT] = h5->H5T_NATIVE_FLOAT_g,
+                            [OZ_STATE_BYTES] = h5->H5T_NATIVE_UINT8_g};
     return *types[kind];
 }
 
@@ -103,17 +33,17 @@ static OzStatus open_image(hid_t *file, void *image, size_t bytes)
     OzStatus status = OZ_OK;
     hid_t access = -1;
     *file = -1;
-    H5_TRY(access = h5.H5Pcreate(*h5.H5P_CLS_FILE_ACCESS_ID_g));
-    H5_TRY(h5.H5Pset_fapl_core(access, (size_t)1 << 20, 0));
+    OZ_H5_TRY(access = h5->H5Pcreate(*h5->H5P_CLS_FILE_ACCESS_ID_g));
+    OZ_H5_TRY(h5->H5Pset_fapl_core(access, (size_t)1 << 20, 0));
     if (image) {
-        H5_TRY(h5.H5Pset_file_image(access, image, bytes));
-        H5_TRY(*file = h5.H5Fopen("state", ACCESS_READ, access));
+        OZ_H5_TRY(h5->H5Pset_file_image(access, image, bytes));
+        OZ_H5_TRY(*file = h5->H5Fopen("state", OZ_H5_READ, access));
     } else {
-        H5_TRY(*file = h5.H5Fcreate("state", ACCESS_TRUNCATE, H5P_DEFAULT, access));
+        OZ_H5_TRY(*file = h5->H5Fcreate("state", OZ_H5_TRUNCATE, H5P_DEFAULT, access));
     }
 done:
     if (access >= 0) {
-        h5.H5Pclose(access);
+        h5->H5Pclose(access);
     }
     return status;
 }
@@ -122,20 +52,20 @@ static OzStatus write_unit(hid_t dataset, const char *unit)
 {
     OzStatus status = OZ_OK;
     hid_t type = -1, space = -1, attribute = -1;
-    H5_TRY(type = h5.H5Tcopy(*h5.H5T_C_S1_g));
-    H5_TRY(h5.H5Tset_size(type, strlen(unit) + 1));
-    H5_TRY(space = h5.H5Screate(H5S_SCALAR));
-    H5_TRY(attribute = h5.H5Acreate2(dataset, "unit", type, space, H5P_DEFAULT, H5P_DEFAULT));
-    H5_TRY(h5.H5Awrite(attribute, type, unit));
+    OZ_H5_TRY(type = h5->H5Tcopy(*h5->H5T_C_S1_g));
+    OZ_H5_TRY(h5->H5Tset_size(type, strlen(unit) + 1));
+    OZ_H5_TRY(space = h5->H5Screate(H5S_SCALAR));
+    OZ_H5_TRY(attribute = h5->H5Acreate2(dataset, "unit", type, space, H5P_DEFAULT, H5P_DEFAULT));
+    OZ_H5_TRY(h5->H5Awrite(attribute, type, unit));
 done:
     if (attribute >= 0) {
-        h5.H5Aclose(attribute);
+        h5->H5Aclose(attribute);
     }
     if (space >= 0) {
-        h5.H5Sclose(space);
+        h5->H5Sclose(space);
     }
     if (type >= 0) {
-        h5.H5Tclose(type);
+        h5->H5Tclose(type);
     }
     return status;
 }
@@ -145,22 +75,22 @@ static OzStatus write_entry(hid_t file, const OzStateEntry *entry)
     OzStatus status = OZ_OK;
     hid_t links = -1, space = -1, dataset = -1, type = type_of(entry->kind);
     hsize_t count = (hsize_t)entry->count;
-    H5_TRY(links = h5.H5Pcreate(*h5.H5P_CLS_LINK_CREATE_ID_g));
-    H5_TRY(h5.H5Pset_create_intermediate_group(links, 1));
-    H5_TRY(space = h5.H5Screate_simple(1, &count, NULL));
-    H5_TRY(dataset =
-               h5.H5Dcreate2(file, entry->name, type, space, links, H5P_DEFAULT, H5P_DEFAULT));
-    H5_TRY(h5.H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry->data));
+    OZ_H5_TRY(links = h5->H5Pcreate(*h5->H5P_CLS_LINK_CREATE_ID_g));
+    OZ_H5_TRY(h5->H5Pset_create_intermediate_group(links, 1));
+    OZ_H5_TRY(space = h5->H5Screate_simple(1, &count, NULL));
+    OZ_H5_TRY(dataset =
+                  h5->H5Dcreate2(file, entry->name, type, space, links, H5P_DEFAULT, H5P_DEFAULT));
+    OZ_H5_TRY(h5->H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry->data));
     OZ_TRY(write_unit(dataset, entry->unit));
 done:
     if (dataset >= 0) {
-        h5.H5Dclose(dataset);
+        h5->H5Dclose(dataset);
     }
     if (space >= 0) {
-        h5.H5Sclose(space);
+        h5->H5Sclose(space);
     }
     if (links >= 0) {
-        h5.H5Pclose(links);
+        h5->H5Pclose(links);
     }
     return status;
 }
@@ -215,11 +145,11 @@ static OzStatus make_bytes(const OzState *state, unsigned char **bytes, size_t *
     uint32_t marks[2] = {BYTE_ORDER_MARK, VERSION};
     OZ_TRY(open_image(&file, NULL, 0));
     OZ_TRY(write_entries(file, state));
-    H5_TRY(h5.H5Fflush(file, H5F_SCOPE_GLOBAL));
-    H5_TRY(image = h5.H5Fget_file_image(file, NULL, 0));
+    OZ_H5_TRY(h5->H5Fflush(file, H5F_SCOPE_GLOBAL));
+    OZ_H5_TRY(image = h5->H5Fget_file_image(file, NULL, 0));
     *length = HEAD + (size_t)image;
     OZ_TRY(OZ_NEW(bytes, *length));
-    H5_TRY(h5.H5Fget_file_image(file, *bytes + HEAD, (size_t)image));
+    OZ_H5_TRY(h5->H5Fget_file_image(file, *bytes + HEAD, (size_t)image));
     uint64_t whole = *length, sum;
     OzBytes at = *bytes;
     oz_bytes_pack(&at, MAGIC, sizeof MAGIC);
@@ -229,7 +159,7 @@ static OzStatus make_bytes(const OzState *state, unsigned char **bytes, size_t *
     memcpy(*bytes + HEAD - sizeof sum, &sum, sizeof sum);
 done:
     if (file >= 0) {
-        h5.H5Fclose(file);
+        h5->H5Fclose(file);
     }
     return status;
 }
@@ -292,15 +222,16 @@ OzStatus oz_state_file_write(const OzState *state, const char *path)
     OzStatus status = OZ_OK;
     unsigned char *bytes = NULL;
     size_t length = 0;
+    const OzHdf5 *library = NULL;
     char part[4096];
     snprintf(part, sizeof part, "%s.part", path);
-    pthread_mutex_lock(&lock);
-    OZ_TRY(load());
+    OZ_TRY(oz_hdf5_library_enter(&library));
+    h5 = library;
     OZ_TRY(make_bytes(state, &bytes, &length));
     OZ_TRY(write_whole(part, bytes, length));
     OZ_TRY(put_in_place(part, path));
 done:
-    pthread_mutex_unlock(&lock);
+    oz_hdf5_library_leave(&library);
     free(bytes);
     return status;
 }
@@ -339,7 +270,7 @@ static OzStatus check_head(unsigned char *bytes, size_t length, const char *path
 static OzStateKind kind_of(hid_t type)
 {
     int kind = 0;
-    while (kind < OZ_STATE_KINDS && h5.H5Tequal(type, type_of((OzStateKind)kind)) <= 0) {
+    while (kind < OZ_STATE_KINDS && h5->H5Tequal(type, type_of((OzStateKind)kind)) <= 0) {
         kind++;
     }
     return (OzStateKind)kind;
@@ -349,16 +280,16 @@ static OzStatus read_unit(hid_t dataset, char **unit)
 {
     OzStatus status = OZ_OK;
     hid_t attribute = -1, type = -1;
-    H5_TRY(attribute = h5.H5Aopen(dataset, "unit", H5P_DEFAULT));
-    H5_TRY(type = h5.H5Aget_type(attribute));
-    OZ_TRY(OZ_NEW(unit, h5.H5Tget_size(type) + 1));
-    H5_TRY(h5.H5Aread(attribute, type, *unit));
+    OZ_H5_TRY(attribute = h5->H5Aopen(dataset, "unit", H5P_DEFAULT));
+    OZ_H5_TRY(type = h5->H5Aget_type(attribute));
+    OZ_TRY(OZ_NEW(unit, h5->H5Tget_size(type) + 1));
+    OZ_H5_TRY(h5->H5Aread(attribute, type, *unit));
 done:
     if (type >= 0) {
-        h5.H5Tclose(type);
+        h5->H5Tclose(type);
     }
     if (attribute >= 0) {
-        h5.H5Aclose(attribute);
+        h5->H5Aclose(attribute);
     }
     return status;
 }
@@ -368,25 +299,26 @@ static OzStatus read_entry(hid_t file, OzStateEntry *entry)
 {
     OzStatus status = OZ_OK;
     hid_t dataset = -1, space = -1, type = -1;
-    H5_TRY(dataset = h5.H5Dopen2(file, entry->name, H5P_DEFAULT));
-    H5_TRY(space = h5.H5Dget_space(dataset));
-    H5_TRY(type = h5.H5Dget_type(dataset));
-    H5_TRY(entry->count = (int64_t)h5.H5Sget_simple_extent_npoints(space));
+    OZ_H5_TRY(dataset = h5->H5Dopen2(file, entry->name, H5P_DEFAULT));
+    OZ_H5_TRY(space = h5->H5Dget_space(dataset));
+    OZ_H5_TRY(type = h5->H5Dget_type(dataset));
+    OZ_H5_TRY(entry->count = (int64_t)h5->H5Sget_simple_extent_npoints(space));
     entry->kind = kind_of(type);
-    H5_TRY(entry->kind == OZ_STATE_KINDS ? -1 : 0);
+    OZ_H5_TRY(entry->kind == OZ_STATE_KINDS ? -1 : 0);
     OZ_TRY(oz_memory_new(&entry->data, (size_t)entry->count + 1, oz_state_kind_bytes(entry->kind),
                          entry->name));
-    H5_TRY(h5.H5Dread(dataset, type_of(entry->kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, entry->data));
+    OZ_H5_TRY(
+        h5->H5Dread(dataset, type_of(entry->kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, entry->data));
     OZ_TRY(read_unit(dataset, &entry->unit));
 done:
     if (type >= 0) {
-        h5.H5Tclose(type);
+        h5->H5Tclose(type);
     }
     if (space >= 0) {
-        h5.H5Sclose(space);
+        h5->H5Sclose(space);
     }
     if (dataset >= 0) {
-        h5.H5Dclose(dataset);
+        h5->H5Dclose(dataset);
     }
     return status;
 }
@@ -425,18 +357,19 @@ OzStatus oz_state_file_read(OzState *state, const char *path)
     char *bytes = NULL;
     size_t length = 0;
     hid_t file = -1;
+    const OzHdf5 *library = NULL;
     *state = (OzState){0};
-    pthread_mutex_lock(&lock);
     OZ_TRY(oz_file_read(&bytes, &length, path));
     OZ_TRY(check_head((unsigned char *)bytes, length, path));
-    OZ_TRY(load());
+    OZ_TRY(oz_hdf5_library_enter(&library));
+    h5 = library;
     OZ_TRY(open_image(&file, bytes + HEAD, length - HEAD));
     OZ_TRY(read_entries(state, file));
 done:
     if (file >= 0) {
-        h5.H5Fclose(file);
+        h5->H5Fclose(file);
     }
-    pthread_mutex_unlock(&lock);
+    oz_hdf5_library_leave(&library);
     free(bytes);
     if (status != OZ_OK) {
         oz_state_free(state);

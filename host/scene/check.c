@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "scene/check_flat.h"
+#include "scene/check_solid.h"
 #include "scene/keys.h"
 #include "scene/value.h"
 #include "scene/wall_shape.h"
@@ -235,6 +236,23 @@ static void check_run_length(Checker *checker)
     }
 }
 
+static void check_export(Checker *checker)
+{
+    const OzScene *scene = checker->scene;
+    const char *own = "export_interval";
+    check_interval(checker, own, scene->export_interval, "the export");
+    if (is_written(checker, own) && scene->export_count == 0) {
+        fault(checker, own, "%s without export; expected formats, as in export: [vtk]", own);
+    }
+    for (int i = 1; i < scene->export_count; i++) {
+        for (int k = 0; k < i; k++) {
+            if (scene->exports[i] == scene->exports[k]) {
+                fault(checker, "export", "export names a format twice; expected each once");
+            }
+        }
+    }
+}
+
 /* Rows at one phase lie whole periods apart. */
 static void check_phase(Checker *checker)
 {
@@ -267,89 +285,6 @@ static void check_movie(Checker *checker)
         fault(checker, movie->length > 0 ? "movie.length" : "movie.speed",
               "%.3g pictures of movie; expected at most %g", length * movie->fps,
               OZ_CHECK_FRAMES_MAX);
-    }
-}
-
-/* Diameter of the narrowest cylinder, or infinity. */
-static double cylinder_of(const OzScene *scene)
-{
-    double least = INFINITY;
-    for (int i = 0; i < scene->wall_count; i++) {
-        const OzWall *wall = &scene->walls[i];
-        if (wall->kind == OZ_WALL_CYLINDER && wall->diameter > 0) {
-            least = fmin(least, wall->diameter);
-        }
-    }
-    return least;
-}
-
-/* Height between the level planes that face each other, or infinity. */
-static double height_of(const OzScene *scene)
-{
-    double floor = -INFINITY, ceiling = INFINITY;
-    for (int i = 0; i < scene->wall_count; i++) {
-        const OzWall *wall = &scene->walls[i];
-        if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == 1) {
-            floor = fmax(floor, wall->point[2]);
-        } else if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == -1) {
-            ceiling = fmin(ceiling, wall->point[2]);
-        }
-    }
-    return fmax(ceiling - floor, 0);
-}
-
-/* Mean volume of a population's grain, m^3: diameter and aspect are uniform and independent. */
-static double mean_volume(const OzPopulation *grains)
-{
-    double a = grains->diameter.low, b = grains->diameter.high;
-    double cubed = (a + b) * (a * a + b * b) / 4;
-    double aspect = (grains->aspect.low + grains->aspect.high) / 2;
-    return PI * cubed * (aspect / 4 + 1.0 / 6);
-}
-
-/* A cheap bound; the placement itself may still find no room. */
-static void check_room(Checker *checker)
-{
-    /* Grains put down at random without overlap jam far below this volume fraction. */
-    const double densest = 0.6;
-    const OzScene *scene = checker->scene;
-    double diameter = cylinder_of(scene), height = height_of(scene);
-    double room = densest * height * PI * diameter * diameter / 4, volume = 0;
-    for (int i = 0; i < scene->population_count; i++) {
-        const OzPopulation *grains = &scene->populations[i];
-        char path[64];
-        if (grains->diameter.high > diameter) {
-            snprintf(path, sizeof path, "grains.%d.diameter", i);
-            fault(checker, path,
-                  "grains up to %g m cannot fit; expected at most the cylinder's %g m",
-                  grains->diameter.high, diameter);
-        }
-        double before = volume;
-        volume +=
-            grains->kind == OZ_GRAINS_RANDOM ? (double)grains->count * mean_volume(grains) : 0;
-        if (before <= room && volume > room) {
-            snprintf(path, sizeof path, "grains.%d.count", i);
-            fault(checker, path,
-                  "grains of %.3g m^3 cannot fit; expected at most %.3g m^3 between the walls",
-                  volume, room);
-        }
-    }
-}
-
-static void check_singles(Checker *checker)
-{
-    const OzScene *scene = checker->scene;
-    for (int i = 0; i < scene->population_count; i++) {
-        char path[64];
-        snprintf(path, sizeof path, "grains.%d.position", i);
-        bool known = scene->populations[i].kind == OZ_GRAINS_SINGLE && is_written(checker, path);
-        for (int j = 0; known && j < scene->wall_count; j++) {
-            if (oz_wall_shape_distance(&scene->walls[j], 0, scene->populations[i].position, NULL) <
-                0) {
-                fault(checker, path, "%s lies behind walls.%d; expected it on the free side", path,
-                      j);
-            }
-        }
     }
 }
 
@@ -438,13 +373,13 @@ OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
     OzStatus status = derive_snapshots(&checker);
     check_grain_count(&checker);
     check_run_length(&checker);
+    check_export(&checker);
     check_phase(&checker);
     check_movie(&checker);
     if (scene->model == OZ_MODEL_TRIGRAINS) {
         oz_check_flat_scene(scene, root, faults);
     } else {
-        check_room(&checker);
-        check_singles(&checker);
+        oz_check_solid_scene(scene, root, faults);
     }
     return status;
 }

@@ -57,6 +57,8 @@ static const char *const FLAT_GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
                                                NULL};
 #define OZ_CHOICES_SHAPE(NAME, name, choice) choice,
 static const char *const SHAPES[] = {OZ_SHAPES(OZ_CHOICES_SHAPE) NULL};
+#define OZ_CHOICES_EXPORT(NAME, name, choice) choice,
+static const char *const EXPORTS[] = {OZ_EXPORTS(OZ_CHOICES_EXPORT) NULL};
 static const char *const FORCE_POINTS[] = {
     [OZ_FORCE_CENTROID] = "centroid", [OZ_FORCE_MIDPOINT] = "midpoint", NULL};
 static const char *const DAMPING_SHEARS[] = {

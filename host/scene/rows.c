@@ -428,6 +428,13 @@ static const OzKey KEYS[] = {
     {"checkpoint.times", .type = OZ_KEY_NUMBERS, .low = 0, .high = 1e9, .unit = "s",
      AT(checkpoint.times), .count_offset = offsetof(OzScene, checkpoint.count), .rival = "taps",
      .write = OZ_WRITE_UNLESS_RIVAL, .help = "states are kept at these times"},
+    {"export", .type = OZ_KEY_CHOICES, .choices = EXPORTS, .unit = "", .width = OZ_EXPORTS_END,
+     AT(exports), .count_offset = offsetof(OzScene, export_count), .write = OZ_WRITE_NONZERO,
+     FIXED("frames are kept for it from the start"), .fallback_help = "none",
+     .help = "formats for other programs, written into export/ when the run ends"},
+    {"export_interval", NUMBER(1e-12, 1e9, "s"), AT(export_interval), .write = OZ_WRITE_NONZERO,
+     .fallback_help = "the movie's frames, without a movie the rows of series.csv",
+     .help = "between exported frames"},
     {"sweep", OF(SWEEP), AT(sweep), FIXED("members have been made of it"),
      .write = OZ_WRITE_NONZERO,
      .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}; of several keys "

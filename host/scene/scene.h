@@ -221,6 +221,17 @@ typedef enum OzColour {
     OZ_COLOUR_TURNED   /* trigrains: how far since the start, cyclic, 0..360 degrees       */
 } OzColour;
 
+/* THE list of formats that a run's frames are exported to, X(NAME, name, choice):
+ * host/export/export_<name>.c defines oz_export_<name>_format. */
+#define OZ_EXPORTS(X)                                                                              \
+    X(VTK, vtk, "vtk")                                                                             \
+    X(XYZ, xyz, "xyz")                                                                             \
+    X(H5MD, h5md, "h5md")                                                                          \
+    X(CSV, csv, "csv")
+
+#define OZ_EXPORTS_ID(NAME, name, choice) OZ_EXPORT_##NAME,
+typedef enum OzExportKind { OZ_EXPORTS(OZ_EXPORTS_ID) OZ_EXPORTS_END } OzExportKind;
+
 /* Pixels a side of any picture or movie: below, its parts cannot be told apart; above, MPEG-4 has
  * no bits for it (13) and H.264 and GL are not sure to hold it. */
 enum { OZ_PICTURE_SIDE_MIN = 64, OZ_PICTURE_SIDE_MAX = 8190 };
@@ -313,6 +324,9 @@ typedef struct OzScene {
     OzMovieSettings movie;
     OzSnapshotSettings snapshots;
     OzCheckpoints checkpoint;
+    OzExportKind exports[OZ_EXPORTS_END]; /* formats that frames are exported to at the end   */
+    int export_count;
+    double export_interval; /* s between such frames; 0: the movie's, else rows of series.csv */
     OzSweep sweep;
 } OzScene;
 

@@ -311,6 +311,7 @@ bool oz_value_holds(const OzKey *key, const void *base)
         return *(char *const *)oz_value_at(key, base) != NULL;
     case OZ_KEY_SWEEP:
         return ((const OzSweep *)oz_value_at(key, base))->count > 0;
+    case OZ_KEY_CHOICES:
     case OZ_KEY_NUMBERS:
     case OZ_KEY_ITEMS:
         return *oz_value_count(key, base) > 0;

@@ -1,0 +1,98 @@
+/* The checks of rods' scenes that need more than one value: whether grains find room. */
+#include "scene/check_solid.h"
+
+#include "scene/wall_shape.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Diameter of the narrowest cylinder, or infinity. */
+static double cylinder_of(const OzScene *scene)
+{
+    double least = INFINITY;
+    for (int i = 0; i < scene->wall_count; i++) {
+        const OzWall *wall = &scene->walls[i];
+        if (wall->kind == OZ_WALL_CYLINDER && wall->diameter > 0) {
+            least = fmin(least, wall->diameter);
+        }
+    }
+    return least;
+}
+
+/* Height between the level planes that face each other, or infinity. */
+static double height_of(const OzScene *scene)
+{
+    double floor = -INFINITY, ceiling = INFINITY;
+    for (int i = 0; i < scene->wall_count; i++) {
+        const OzWall *wall = &scene->walls[i];
+        if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == 1) {
+            floor = fmax(floor, wall->point[2]);
+        } else if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == -1) {
+            ceiling = fmin(ceiling, wall->point[2]);
+        }
+    }
+    return fmax(ceiling - floor, 0);
+}
+
+/* Mean volume of a population's grain, m^3: diameter and aspect are uniform and independent. */
+static double mean_volume(const OzPopulation *grains)
+{
+    double a = grains->diameter.low, b = grains->diameter.high;
+    double cubed = (a + b) * (a * a + b * b) / 4;
+    double aspect = (grains->aspect.low + grains->aspect.high) / 2;
+    return PI * cubed * (aspect / 4 + 1.0 / 6);
+}
+
+/* A cheap bound; the placement itself may still find no room. */
+static void check_room(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    /* Grains put down at random without overlap jam far below this volume fraction. */
+    const double densest = 0.6;
+    double diameter = cylinder_of(scene), height = height_of(scene);
+    double room = densest * height * PI * diameter * diameter / 4, volume = 0;
+    for (int i = 0; i < scene->population_count; i++) {
+        const OzPopulation *grains = &scene->populations[i];
+        char path[64];
+        if (grains->diameter.high > diameter) {
+            snprintf(path, sizeof path, "grains.%d.diameter", i);
+            oz_tree_fault(root, faults, path,
+                          "grains up to %g m cannot fit; expected at most the cylinder's %g m",
+                          grains->diameter.high, diameter);
+        }
+        double before = volume;
+        volume +=
+            grains->kind == OZ_GRAINS_RANDOM ? (double)grains->count * mean_volume(grains) : 0;
+        if (before <= room && volume > room) {
+            snprintf(path, sizeof path, "grains.%d.count", i);
+            oz_tree_fault(
+                root, faults, path,
+                "grains of %.3g m^3 cannot fit; expected at most %.3g m^3 between the walls",
+                volume, room);
+        }
+    }
+}
+
+static void check_singles(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    for (int i = 0; i < scene->population_count; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "grains.%d.position", i);
+        bool known =
+            scene->populations[i].kind == OZ_GRAINS_SINGLE && oz_tree_at(root, path) != NULL;
+        for (int j = 0; known && j < scene->wall_count; j++) {
+            if (oz_wall_shape_distance(&scene->walls[j], 0, scene->populations[i].position, NULL) <
+                0) {
+                oz_tree_fault(root, faults, path,
+                              "%s lies behind walls.%d; expected it on the free side", path, j);
+            }
+        }
+    }
+}
+
+void oz_check_solid_scene(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    check_room(scene, root, faults);
+    check_singles(scene, root, faults);
+}
