@@ -4,7 +4,9 @@
 #include "state_run.h"
 
 #include "base/memory.h"
+#include "sim/branch.h"
 #include "sim/settle.h"
+#include "sim/sim_private.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -299,6 +301,64 @@ static void test_settling_goes_on(void **state)
     rig_close(&rig);
 }
 
+/* The state of a bed after some steps; wider: of lists that have become longer than they must. */
+static void save_bed(const Rig *rig, const OzDevice *device, bool wider, OzState *state)
+{
+    OzSim *sim = start_sim(rig, device);
+    OzSizesHead *sizes = NULL;
+    size_t bytes = sim->model->sizes_bytes;
+    must(oz_sim_advance(sim, 400));
+    must(oz_memory_new((void **)&sizes, bytes, 1, "sizes"));
+    memcpy(sizes, sim->arrays.sizes, bytes);
+    sizes->outer_capacity += wider ? 64 : 0;
+    sizes->inner_capacity += wider ? 32 : 0;
+    sizes->back_capacity += wider ? 16 : 0;
+    must(oz_sim_state_save_springs(sim));
+    must(oz_arrays_resize(&sim->arrays, sizes));
+    must(oz_sim_state_renew(sim));
+    OzStateVisit visit = oz_state_save(state);
+    must(oz_sim_state_visit(sim, &visit));
+    free(sizes);
+    oz_sim_free(sim);
+}
+
+/* Two that begin with the same bed, but for lists, do the same. */
+static void check_unequal_lists(const Rig *rig, const OzDevice *device)
+{
+    OzState states[2] = {0};
+    OzSim *sim = NULL;
+    OzSnapshot now[2];
+    const OzMember members[2] = {{&rig->scene, &rig->grains}, {&rig->scene, &rig->grains}};
+    const OzBranchSource sources[2] = {{&states[0], "", 0}, {&states[1], "", 0}};
+    save_bed(rig, device, false, &states[0]);
+    save_bed(rig, device, true, &states[1]);
+    must(oz_sim_create(&sim, device, members, 2, NULL));
+    must(oz_branch_take(sim, sources));
+    must(oz_sim_advance(sim, 100));
+    for (int m = 0; m < 2; m++) {
+        must(oz_snapshot_create(&now[m], &rig->scene, &rig->grains));
+        must(oz_read_snapshot_snapshot(sim, m, &now[m], true));
+    }
+    assert_true(now[0].contacts.count > 10);
+    assert_same_bits(&now[0], &now[1]);
+    for (int m = 0; m < 2; m++) {
+        oz_snapshot_free(&now[m]);
+        oz_state_free(&states[m]);
+    }
+    oz_sim_free(sim);
+}
+
+static void test_branches_of_unequal_lists(void **state)
+{
+    (void)state;
+    Rig rig;
+    snprintf(text, sizeof text, rods, "euler", "float", "hash", "false");
+    rig_open(&rig, "%s", text);
+    const OzDevice device = shaped_device(GROUP); /* a row of springs for each work-item */
+    check_unequal_lists(&rig, &device);
+    rig_close(&rig);
+}
+
 /* A state is taken by the run that it is of. */
 static void test_other_runs_are_refused(void **state)
 {
@@ -348,6 +408,7 @@ int main(void)
         cmocka_unit_test(test_left_and_taken_up),
         cmocka_unit_test(test_nothing_is_superfluous),
         cmocka_unit_test(test_settling_goes_on),
+        cmocka_unit_test(test_branches_of_unequal_lists),
         cmocka_unit_test(test_other_runs_are_refused),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);

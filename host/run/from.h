@@ -1,5 +1,5 @@
-/* What a run begins from instead of grains that are placed: the state that another run left
- * (`orzo run SCENE --from DIR`). */
+/* What a run begins from instead of grains that are placed: states that another run left (`orzo run
+ * SCENE --from DIR`), of which its folder keeps a copy. */
 #pragma once
 
 #include "model/grains.h"
@@ -7,24 +7,50 @@
 #include "run/inputs.h"
 #include "run/worker.h"
 
-/* Zeroed is valid: none. */
-typedef struct OzFrom {
-    char *path; /* of the state's file; NULL: none; owned */
+/* A file of states: of a plain run, or of some members of an ensemble. */
+typedef struct OzFromFile {
+    char *path; /* owned */
     OzState state;
     OzCheckpointHead head;
-    OzScene scene;   /* of that run               */
-    OzGrains grains; /* its grains as they were placed; their geometry holds */
+} OzFromFile;
+
+/* A member of that run. Zeroed is none. */
+typedef struct OzFromMember {
+    OzFromFile *file;
+    int index;       /* in the file                                          */
+    char *name;      /* "seed_00003"; of a plain run "" or NULL; owned       */
+    OzScene scene;   /* as it ran, its walls' phases included                */
+    OzGrains grains; /* as they were placed; their geometry holds            */
+} OzFromMember;
+
+/* Zeroed is valid: none. */
+typedef struct OzFrom {
+    char *asked; /* NULL: none; owned                                       */
+    OzFromFile *files;
+    int count;
+    char *only;        /* the member that was named; NULL: whichever fits; owned */
+    OzFromMember last; /* that was looked at                                */
 } OzFrom;
 
-/* asked: "DIR", its newest state, or "DIR@tap=N", "DIR@time=T", one that was kept
- * (checkpoint.taps). Its files are added to inputs. Refuses by name what is not there; says which
- * moments are. The caller frees, also on failure. */
+/* asked: "DIR", its newest states, or "DIR@tap=N", "DIR@time=T", those that were kept
+ * (checkpoint.taps). DIR is a run's folder, or a member's in an ensemble's. Files are added to
+ * inputs. Refuses by name what is not there; says which moments are. The caller frees, also on
+ * failure. */
 OzStatus oz_from_open(OzFrom *from, const char *asked, OzInputs *inputs);
 void oz_from_free(OzFrom *from);
 
-/* Refuses a scene and its grains that cannot begin there: other grains, another step, a wall that
- * would jump, or one of trigrains that is another. */
-OzStatus oz_from_check(const OzFrom *from, const OzScene *scene, const OzGrains *grains);
+/* The member with which one of this name and seed begins: the only one, or that of the same name,
+ * or that of an ensemble's member of the same seed. Refuses with OZ_ERR_INPUT when there is none.
+ * Borrowed until the next call. */
+OzStatus oz_from_find(OzFrom *from, const char *name, uint64_t seed, const OzFromMember **found);
 
-/* Opened workers' members begin there; without a state they are left alone. */
-OzStatus oz_from_begin(const OzFrom *from, OzWorker *workers, int count);
+/* Whether all members begin with the same one. */
+bool oz_from_is_single(const OzFrom *from);
+
+/* Refuses a scene and its grains, of this name, that cannot begin there (run/from_check.h). */
+OzStatus oz_from_check(OzFrom *from, const char *name, const OzScene *scene,
+                       const OzGrains *grains);
+
+/* Opened workers' members begin there, and their folders say so (run/from_keep.h). Without a state
+ * they are left alone. */
+OzStatus oz_from_begin(OzFrom *from, OzWorker *workers, int count);

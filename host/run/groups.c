@@ -40,6 +40,14 @@ static bool has_begun(const OzGroups *groups, int64_t number)
     return false;
 }
 
+/* Its scene and grains, which can begin where they shall. */
+static OzStatus load_member(OzGroups *groups, OzOutputs *member)
+{
+    OZ_PASS(oz_members_name(&groups->plan, member->number, &member->name));
+    OZ_PASS(oz_members_load(&groups->plan, member->number, &member->scene, &member->grains));
+    return oz_from_check(&groups->plan.from, member->name, &member->scene, &member->grains);
+}
+
 /* The plan's next member that can be loaded into *loaded; NULL when there is none left. A plain
  * run's one scene must load. */
 static OzStatus load_next(OzGroups *groups, OzOutputs **loaded)
@@ -54,8 +62,7 @@ static OzStatus load_next(OzGroups *groups, OzOutputs **loaded)
         }
         OZ_TRY(OZ_NEW(&member, 1));
         member->number = groups->loaded_count++;
-        OzStatus own =
-            oz_members_load(&groups->plan, member->number, &member->scene, &member->grains);
+        OzStatus own = load_member(groups, member);
         if (own == OZ_OK) {
             *loaded = member;
         } else if (groups->plan.is_ensemble) {
@@ -154,6 +161,7 @@ static OzStatus gather_begun(OzGroups *groups)
             (*member)->goes_on = true;
             OZ_PASS(oz_members_load(&groups->plan, head->first + i, &(*member)->scene,
                                     &(*member)->grains));
+            OZ_PASS(oz_members_name(&groups->plan, head->first + i, &(*member)->name));
             OZ_PASS(take_name(&(*member)->scene, head->name));
         }
     }
@@ -204,8 +212,7 @@ OzStatus oz_groups_write_tables(const OzGroups *groups, const char *folder)
         free(name);
         OZ_TRY(oz_members_name(&groups->plan, i, &name));
         OzEnsembleRow row = {name, oz_members_seed(&groups->plan, i),
-                             oz_members_value(&groups->plan, i),
-                             outcome_names[groups->outcomes[i]],
+                             oz_members_value(&groups->plan, i), outcome_names[groups->outcomes[i]],
                              groups->outcomes[i] != OZ_OUTCOME_NOT_STARTED};
         OZ_TRY(oz_ensemble_tables_add(ensemble, &row));
     }

@@ -145,9 +145,6 @@ OzStatus oz_members_load(const OzMembers *plan, int64_t i, OzScene *scene, OzGra
 {
     OZ_PASS(load_scene(plan, i, scene));
     OZ_PASS(oz_members_place(grains, scene));
-    if (plan->from.path) {
-        OZ_PASS(oz_from_check(&plan->from, scene, grains));
-    }
     return oz_members_judge(scene, grains, plan->options->force);
 }
 
@@ -339,13 +336,12 @@ OzStatus oz_members_create(OzMembers *plan, const OzOptions *options)
     plan->is_ensemble = options->has_seeds || plan->scene.sweep.count > 0;
     plan->count = plan->seed_count * (plan->scene.sweep.count ? plan->scene.sweep.count : 1);
     OZ_PASS(oz_inputs_add_scene(&plan->inputs, &plan->scene));
-    if (options->from && options->has_seeds) {
-        return oz_status_fail(OZ_ERR_INPUT,
-                              "--seeds with --from: a seed places grains and nothing else, so all "
-                              "these runs would be the same; expected one of the two");
-    }
     if (options->from) {
         OZ_PASS(oz_from_open(&plan->from, options->from, &plan->inputs));
+    }
+    if (plan->from.asked && options->has_seeds && oz_from_is_single(&plan->from)) {
+        oz_log_line("warning: a seed places grains and nothing else: from one state, members of "
+                    "all seeds are the same run");
     }
     return check_values(plan);
 }

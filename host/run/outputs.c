@@ -31,6 +31,7 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "state*.h5",
                                          "state*.h5.part",
                                          "state*.h5.previous",
+                                         "from/state*.h5*",
                                          "checkpoints/*.h5*",
                                          "latest.png",
                                          "latest.png.part",
@@ -91,17 +92,6 @@ OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder)
     return write_scene(scene, folder, "scene.yaml");
 }
 
-/* from.txt: what --from named, without which the run cannot be made again. */
-static OzStatus write_from(const char *folder, const char *from)
-{
-    FILE *file = NULL;
-    OZ_PASS(oz_folder_create_file(&file, folder, "from.txt"));
-    bool good = fprintf(file, "%s\n", from) > 0;
-    return fclose(file) == 0 && good ? OZ_OK
-                                     : oz_status_fail(OZ_ERR_FILE, "cannot write %s/from.txt: %s",
-                                                      folder, strerror(errno));
-}
-
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
                          OzRenderQueue *render_queue)
 {
@@ -122,9 +112,6 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     OZ_TRY(oz_snapshot_create(&outputs->now, scene, grains));
     if (!outputs->goes_on) {
         OZ_TRY(oz_outputs_write_scene(scene, outputs->folder));
-    }
-    if (!outputs->goes_on && options->from) {
-        OZ_TRY(write_from(outputs->folder, options->from));
     }
     OZ_TRY(claim(&outputs->final, outputs->folder, "final.csv", "final.csv.part"));
     OZ_TRY(oz_final_reserve(grains, outputs->final));
@@ -236,12 +223,29 @@ done:
     return status;
 }
 
+/* Which member this is, for who begins with it (run/from.h): its own run knows that. */
+static OzStatus identity_state(OzOutputs *o, OzStateVisit *visit)
+{
+    OzStatus status = OZ_OK;
+    char *text = NULL;
+    size_t length = 0;
+    OZ_TRY(oz_state_text(visit, "name", &o->name));
+    if (!visit->is_loading) {
+        OZ_TRY(oz_scene_text(&o->scene, &text, &length));
+    }
+    OZ_TRY(oz_state_text(visit, "scene", &text));
+done:
+    free(text);
+    return status;
+}
+
 OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
     bool is_open = o->is_open;
     int outcome = (int)o->outcome, loss = (int)o->loss;
-    OZ_TRY(oz_state_enter(visit, "outputs", 2));
+    OZ_TRY(oz_state_enter(visit, "outputs", 3));
+    OZ_TRY(identity_state(o, visit));
     OZ_TRY(oz_state_bool(visit, "is_open", &is_open));
     OZ_TRY(oz_state_int(visit, "outcome", "none", &outcome));
     OZ_TRY(oz_state_int(visit, "loss", "none", &loss));

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "run/from_keep.h"
 #include "run/state_file.h"
 
 #include <glob.h>
@@ -170,27 +171,16 @@ static OzStatus join_settings(OzResume *resume)
     return OZ_OK;
 }
 
-static OzStatus write_text(const OzScene *scene, char **text)
-{
-    size_t length = 0;
-    FILE *file = open_memstream(text, &length);
-    OzStatus status = file ? oz_scene_write(scene, file) : OZ_ERR_MEMORY;
-    if (file && fclose(file) != 0 && status == OZ_OK) {
-        status = OZ_ERR_MEMORY;
-    }
-    return status == OZ_ERR_MEMORY ? oz_status_fail(status, "out of memory for a scene's text")
-                                   : status;
-}
-
 /* An ensemble's members are made of the scene it was given, which must be what it was. */
 static OzStatus check_origin(const OzResume *resume, const char *folder)
 {
     OzStatus status = OZ_OK;
     OzScene scene = {0};
     char *now = NULL, *then = NULL;
+    size_t length = 0;
     const char *origin = resume->heads[0].origin;
     OZ_TRY(oz_scene_load(&scene, origin, resume->options.settings, resume->heads[0].own_settings));
-    OZ_TRY(write_text(&scene, &now));
+    OZ_TRY(oz_scene_text(&scene, &now, &length));
     OZ_TRY(oz_file_read(&then, NULL, resume->scene_path));
     if (strcmp(now, then) != 0) {
         status = oz_status_fail(OZ_ERR_INPUT,
@@ -222,6 +212,8 @@ static OzStatus make_options(OzResume *resume, const OzOptions *asked)
     for (int i = 0; i < asked->setting_count; i++) {
         OZ_PASS(add_setting(resume, asked->settings[i], strlen(asked->settings[i])));
     }
+    OZ_PASS(oz_from_keep_find(&resume->from, asked->paths[0]));
+    options->from = resume->from;
     options->out = asked->paths[0];
     options->has_seeds = head->has_seeds;
     options->seed_first = (uint64_t)head->seed_first;
@@ -258,5 +250,6 @@ void oz_resume_free(OzResume *resume)
     free(resume->heads);
     free(resume->settings);
     free(resume->scene_path);
+    free(resume->from);
     *resume = (OzResume){0};
 }

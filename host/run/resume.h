@@ -14,6 +14,7 @@ typedef struct OzResume {
     char **settings;   /* that its options point to; owned */
     int setting_count;
     char *scene_path; /* the folder's scene.yaml; owned  */
+    char *from;       /* what members that have not begun begin with, or NULL; owned */
 } OzResume;
 
 /* Reads the states in a run's folder. A damaged one is said, and the one before it taken. Fails

@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "run/costs.h"
+#include "run/from_keep.h"
 #include "run/groups.h"
 #include "run/pace.h"
 #include "run/replay.h"
@@ -104,6 +105,9 @@ static OzStatus begin_log(const Run *run)
     } else {
         oz_log_line("orzo %s: %s, %lld grains", ORZO_VERSION, run->groups.plan.scene.path,
                     (long long)run->groups.loaded->grains.count);
+    }
+    if (!head) {
+        OZ_PASS(oz_from_keep_copy(&run->groups.plan.from, run->folder));
     }
     return run->groups.plan.is_ensemble && !head
                ? oz_outputs_write_scene(&run->groups.plan.scene, run->folder)
@@ -252,7 +256,6 @@ static OzStatus open_group(Run *run)
     for (int64_t m = 0; m < run->groups.member_count; m++) {
         OzOutputs *member = run->groups.members[m];
         OZ_PASS(check_interrupt());
-        OZ_PASS(oz_members_name(&run->groups.plan, member->number, &member->name));
         OZ_PASS(choose_member_folder(run, member));
         member->serve = member->number == 0 ? run->serve : NULL;
         OZ_PASS(oz_outputs_open(member, run->options, run->device.name, run->render_queue));
@@ -335,10 +338,9 @@ static OzStatus run_group(Run *run)
     bool ran = false;
     OZ_TRY(oz_groups_gather(&run->groups));
     OZ_TRY(open_group(run));
-    if (oz_groups_is_begun(&run->groups)) {
-        OZ_TRY(take_states(run));
-    }
-    OZ_TRY(oz_from_begin(&run->groups.plan.from, run->workers, run->worker_count));
+    OZ_TRY(oz_groups_is_begun(&run->groups)
+               ? take_states(run)
+               : oz_from_begin(&run->groups.plan.from, run->workers, run->worker_count));
     ran = true;
     OZ_TRY(run_workers(run));
 done:
@@ -396,20 +398,17 @@ static OzStatus repeat_run(const OzOptions *asked)
     OzStatus status = OZ_OK;
     OzOptions options = *asked;
     char *scene = NULL, *from = NULL;
-    OZ_TRY(oz_file_join(&from, asked->paths[0], "from.txt"));
-    if (oz_file_exists(from)) {
-        status = oz_status_fail(OZ_ERR_INPUT,
-                                "%s: that run began with the state of another one, which --replay "
-                                "does not take up; expected one without --from",
-                                from);
-        oz_log_line("%s", oz_status_text());
-        goto done;
-    }
+    OZ_TRY(oz_from_keep_find(&from, asked->paths[0]));
     OZ_TRY(oz_file_join(&scene, asked->paths[0], "scene.yaml"));
     options.replay_folder = asked->paths[0];
+    options.from = from;
     options.paths[0] = scene;
-    status = run_all(&options, NULL);
 done:
+    if (status == OZ_OK) {
+        status = run_all(&options, NULL);
+    } else {
+        oz_log_line("%s", oz_status_text());
+    }
     free(from);
     free(scene);
     return status;

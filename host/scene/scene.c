@@ -288,20 +288,30 @@ OzStatus oz_scene_parse(OzScene *scene, const char *path, const char *text, char
     return load_text(scene, NULL, path, text, strlen(text), settings, setting_count);
 }
 
+OzStatus oz_scene_text(const OzScene *scene, char **text, size_t *length)
+{
+    *text = NULL;
+    FILE *file = open_memstream(text, length);
+    if (file) {
+        oz_write_scene(scene, file);
+    }
+    if (!file || fclose(file) != 0 || !*text) {
+        free(*text);
+        *text = NULL;
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a scene's text");
+    }
+    return OZ_OK;
+}
+
 OzStatus oz_scene_change(OzScene *scene, const OzScene *running, char *const *settings,
                          int setting_count)
 {
     char *text = NULL;
     size_t length = 0;
     *scene = (OzScene){0};
-    FILE *file = open_memstream(&text, &length);
-    if (file) {
-        oz_write_scene(running, file);
-    }
+    OZ_PASS(oz_scene_text(running, &text, &length));
     OzStatus status =
-        !file || fclose(file) != 0 || !text
-            ? oz_status_fail(OZ_ERR_MEMORY, "out of memory for a scene")
-            : load_text(scene, running, running->path, text, length, settings, setting_count);
+        load_text(scene, running, running->path, text, length, settings, setting_count);
     free(text);
     return status;
 }

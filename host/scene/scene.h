@@ -197,16 +197,16 @@ typedef enum OzObserveAt {
 } OzObserveAt;
 
 typedef struct OzObserve {
-    double interval;         /* s between rows of series.csv; interval_taps x period is put here */
-    double interval_taps;    /* as written; 0: interval was, or neither                         */
-    int64_t samples_per_tap; /* for the tap means over all phases                          */
-    OzObserveAt at;          /* when rows are written, and of which phase tap means are     */
-    double layer_thickness;  /* m; default 4e-3                                             */
-    bool ledger;             /* energy columns                                              */
-    bool walls;              /* columns of the force on each wall                           */
-    bool contacts;           /* contacts.csv                                                */
+    double interval;          /* s between rows of series.csv; interval_taps x period is put here */
+    double interval_taps;     /* as written; 0: interval was, or neither                         */
+    int64_t samples_per_tap;  /* for the tap means over all phases                          */
+    OzObserveAt at;           /* when rows are written, and of which phase tap means are     */
+    double layer_thickness;   /* m; default 4e-3                                             */
+    bool ledger;              /* energy columns                                              */
+    bool walls;               /* columns of the force on each wall                           */
+    bool contacts;            /* contacts.csv                                                */
     double contacts_interval; /* s between its looks; 0: at every row of series.csv         */
-    double outlet;           /* m, trigrains: grains below this height have flowed out      */
+    double outlet;            /* m, trigrains: grains below this height have flowed out      */
     bool has_outlet;
 } OzObserve;
 
@@ -350,6 +350,9 @@ OzStatus oz_scene_change(OzScene *scene, const OzScene *running, char *const *se
 
 /* Writes the scene with every default filled in, as a file that loads to the same scene. */
 OzStatus oz_scene_write(const OzScene *scene, FILE *file);
+
+/* The same as a text, which the caller frees. */
+OzStatus oz_scene_text(const OzScene *scene, char **text, size_t *length);
 
 /* A copy that shares no memory with the scene. The caller frees it, after a
  * failure too. */

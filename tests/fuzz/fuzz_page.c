@@ -6,6 +6,7 @@
 #include "run/serve_keys.h"
 
 #include <arpa/inet.h>
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -68,21 +69,23 @@ static size_t fill_in(const uint8_t *bytes, size_t size, char *request)
     return length;
 }
 
-/* A connection from one loopback address after another, for each has some ten thousand ports that
- * stay taken for a minute. */
+/* The fuzzer's own timer may interrupt it. */
 static int connect_to_page(void)
 {
-    static unsigned count;
-    struct sockaddr_in from = {.sin_family = AF_INET}, to = from;
-    int handle = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0), on = 1;
-    from.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 256 + count++ % 65536);
+    struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port)};
+    int handle = -1;
+    bool connected = false;
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    to.sin_port = htons((uint16_t)port);
-    if (setsockopt(handle, IPPROTO_IP, IP_BIND_ADDRESS_NO_PORT, &on, sizeof on) != 0 ||
-        bind(handle, (struct sockaddr *)&from, sizeof from) != 0 ||
-        connect(handle, (struct sockaddr *)&to, sizeof to) != 0) {
-        perror("fuzz_page");
-        abort();
+    while (!connected) {
+        handle = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        connected = connect(handle, (struct sockaddr *)&to, sizeof to) == 0;
+        if (!connected && errno != EINTR) {
+            perror("fuzz_page");
+            abort();
+        }
+        if (!connected) {
+            close(handle);
+        }
     }
     return handle;
 }
