@@ -4,7 +4,8 @@
  *
  * ORZO_FAULT=KIND:N, N from 1, says which; KIND is memory, write, open, sync, rename, opencl, libav
  * or gl. The file $ORZO_FAULT_COUNT then receives "failed" when the call came. With N = 0 it
- * receives, at the end, how many such calls there were. */
+ * receives, at the end, how many such calls there were. The file $ORZO_FAULT_HELD receives at the
+ * end what the program had not given back (leaks.h). */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -20,14 +21,17 @@
 #define CL_USE_DEPRECATED_OPENCL_1_2_APIS
 #include <CL/cl.h>
 
+#include "leaks.h"
+
 static atomic_long calls;
-static uintptr_t text_begin, text_end; /* of the program */
+static uintptr_t base, text_begin, text_end; /* of the program */
 
 /* The first object that is listed is the program itself. */
 static int note_text(struct dl_phdr_info *info, size_t size, void *unused)
 {
     (void)size;
     (void)unused;
+    base = info->dlpi_addr;
     for (int i = 0; i < info->dlpi_phnum; i++) {
         const ElfW(Phdr) *part = &info->dlpi_phdr[i];
         if (part->p_type == PT_LOAD && part->p_flags & PF_X) {
@@ -48,17 +52,31 @@ static void tell(const char *text)
     }
 }
 
+static int is_ours(void *caller)
+{
+    if (!text_begin) {
+        dl_iterate_phdr(note_text, NULL);
+    }
+    return (uintptr_t)caller >= text_begin && (uintptr_t)caller < text_end;
+}
+
+/* What a call of the program's own was given. */
+static void *given(void *what, void *caller)
+{
+    if (what && is_ours(caller)) {
+        hold(what, (uintptr_t)caller - base);
+    }
+    return what;
+}
+
 /* Whether this call of the kind, returning to `caller`, is the one. */
 static int fails(const char *kind, void *caller)
 {
     static _Thread_local int inside;
     const char *fault = getenv("ORZO_FAULT");
     size_t length = strlen(kind);
-    if (!text_begin) {
-        dl_iterate_phdr(note_text, NULL);
-    }
-    if (inside || !fault || (uintptr_t)caller < text_begin || (uintptr_t)caller >= text_end ||
-        strncmp(fault, kind, length) != 0 || fault[length] != ':') {
+    if (inside || !fault || !is_ours(caller) || strncmp(fault, kind, length) != 0 ||
+        fault[length] != ':') {
         return 0;
     }
     int failing = atomic_fetch_add(&calls, 1) + 1 == atol(fault + length + 1);
@@ -79,6 +97,7 @@ __attribute__((destructor)) static void tell_count(void)
         unsetenv("ORZO_FAULT");
         tell(text);
     }
+    tell_held(getenv("ORZO_FAULT_HELD"));
 }
 
 static void *next(const char *name)
@@ -105,10 +124,26 @@ static void *next(const char *name)
         return real arguments;                                                                     \
     }
 
-FAULT("memory", void *, malloc, (size_t size), (size), NULL, ENOMEM)
-FAULT("memory", void *, realloc, (void *old, size_t size), (old, size), NULL, ENOMEM)
-FAULT("memory", FILE *, open_memstream, (char **text, size_t *size), (text, size), NULL, ENOMEM)
-FAULT("open", FILE *, fopen, (const char *path, const char *mode), (path, mode), NULL, EMFILE)
+/* The same of one that gives something to be given back. */
+#define FAULT_GIVEN(kind, result, name, parameters, arguments, code)                               \
+    result name parameters                                                                         \
+    {                                                                                              \
+        static result(*real) parameters;                                                           \
+        if (!real) {                                                                               \
+            *(void **)&real = next(#name);                                                         \
+        }                                                                                          \
+        if (fails(kind, __builtin_return_address(0))) {                                            \
+            errno = code;                                                                          \
+            return NULL;                                                                           \
+        }                                                                                          \
+        return given(real arguments, __builtin_return_address(0));                                 \
+    }
+
+FAULT_GIVEN("memory", void *, malloc, (size_t size), (size), ENOMEM)
+FAULT_GIVEN("memory", char *, strdup, (const char *text), (text), ENOMEM)
+FAULT_GIVEN("memory", char *, strndup, (const char *text, size_t size), (text, size), ENOMEM)
+FAULT_GIVEN("memory", FILE *, open_memstream, (char **text, size_t *size), (text, size), ENOMEM)
+FAULT_GIVEN("open", FILE *, fopen, (const char *path, const char *mode), (path, mode), EMFILE)
 FAULT("open", int, mkdir, (const char *path, mode_t mode), (path, mode), -1, EACCES)
 /* A failure leaves its mark on the stream, as glibc's own does. */
 size_t fwrite(const void *items, size_t size, size_t count, FILE *file)
@@ -126,18 +161,64 @@ size_t fwrite(const void *items, size_t size, size_t count, FILE *file)
     return real(items, size, count, file);
 }
 FAULT("write", int, fflush, (FILE * file), (file), EOF, ENOSPC)
-FAULT("write", int, fclose, (FILE * file), (file), EOF, ENOSPC)
+/* A stream is gone also when closing fails. */
+int fclose(FILE *file)
+{
+    static int (*real)(FILE *);
+    if (!real) {
+        *(void **)&real = next("fclose");
+    }
+    let_go(file);
+    int closed = real(file);
+    if (fails("write", __builtin_return_address(0))) {
+        errno = ENOSPC;
+        return EOF;
+    }
+    return closed;
+}
 FAULT("write", ssize_t, write, (int file, const void *bytes, size_t size), (file, bytes, size), -1,
       ENOSPC)
 FAULT("sync", int, fsync, (int file), (file), -1, EIO)
 FAULT("rename", int, rename, (const char *from, const char *to), (from, to), -1, EACCES)
+
+static char early[4096]; /* what was given before there was a calloc */
+
+static int is_early(const void *what)
+{
+    return (uintptr_t)what >= (uintptr_t)early && (uintptr_t)what < (uintptr_t)early + sizeof early;
+}
+
+void *realloc(void *old, size_t size)
+{
+    static void *(*real)(void *, size_t);
+    if (!real) {
+        *(void **)&real = next("realloc");
+    }
+    if (fails("memory", __builtin_return_address(0))) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    let_go(old);
+    return given(real(old, size), __builtin_return_address(0));
+}
+
+void free(void *what)
+{
+    static void (*real)(void *);
+    if (!real) {
+        *(void **)&real = next("free");
+    }
+    let_go(what);
+    if (!is_early(what)) {
+        real(what);
+    }
+}
 
 /* dlsym itself calls calloc before there is one to call: that is served from here. */
 void *calloc(size_t count, size_t size)
 {
     static void *(*real)(size_t, size_t);
     static _Thread_local int looking;
-    static char early[4096];
     static size_t used;
     if (!real) {
         if (looking) {
@@ -153,7 +234,7 @@ void *calloc(size_t count, size_t size)
         errno = ENOMEM;
         return NULL;
     }
-    return real(count, size);
+    return given(real(count, size), __builtin_return_address(0));
 }
 
 FAULT("opencl", cl_int, clEnqueueNDRangeKernel,
@@ -191,7 +272,7 @@ FAULT("opencl", cl_int, clBuildProgram,
             *code = CL_OUT_OF_HOST_MEMORY;                                                         \
             return NULL;                                                                           \
         }                                                                                          \
-        return real arguments;                                                                     \
+        return given(real arguments, __builtin_return_address(0));                                 \
     }
 FAULT_MADE(cl_mem, clCreateBuffer, (cl_context c, cl_mem_flags f, size_t s, void *h, cl_int *code),
            (c, f, s, h, code))
@@ -200,6 +281,32 @@ FAULT_MADE(cl_kernel, clCreateKernel, (cl_program p, const char *name, cl_int *c
 FAULT_MADE(cl_command_queue, clCreateCommandQueue,
            (cl_context c, cl_device_id d, cl_command_queue_properties f, cl_int *code),
            (c, d, f, code))
+FAULT_MADE(cl_program, clCreateProgramWithSource,
+           (cl_context c, cl_uint n, const char **t, const size_t *l, cl_int *code),
+           (c, n, t, l, code))
+FAULT_MADE(cl_context, clCreateContext,
+           (const cl_context_properties *p, cl_uint n, const cl_device_id *d,
+            void(CL_CALLBACK *f)(const char *, const void *, size_t, void *), void *u,
+            cl_int *code),
+           (p, n, d, f, u, code))
+
+#define RELEASE(name, type)                                                                        \
+    cl_int name(type what)                                                                         \
+    {                                                                                              \
+        static cl_int (*real)(type);                                                               \
+        if (!real) {                                                                               \
+            *(void **)&real = next(#name);                                                         \
+        }                                                                                          \
+        if (is_ours(__builtin_return_address(0))) {                                                \
+            let_go(what);                                                                          \
+        }                                                                                          \
+        return real(what);                                                                         \
+    }
+RELEASE(clReleaseMemObject, cl_mem)
+RELEASE(clReleaseKernel, cl_kernel)
+RELEASE(clReleaseProgram, cl_program)
+RELEASE(clReleaseCommandQueue, cl_command_queue)
+RELEASE(clReleaseContext, cl_context)
 
 /* libav and EGL come by dlsym: of the functions below another one is handed out. All that they are
  * given fits registers. */
@@ -208,14 +315,16 @@ FAULT_MADE(cl_command_queue, clCreateCommandQueue,
     X(avcodec_send_frame)                                                                          \
     X(avcodec_receive_packet)                                                                      \
     X(avformat_write_header)                                                                       \
-    X(av_interleaved_write_frame) X(av_write_frame) X(av_write_trailer) X(avio_open) X(avio_open2) \
-        X(av_frame_get_buffer) X(avformat_alloc_output_context2) X(av_packet_rescale_ts)
+    X(av_interleaved_write_frame)                                                                  \
+    X(av_write_frame) X(av_write_trailer) X(avio_open) X(avio_open2) X(av_frame_get_buffer)        \
+        X(avformat_alloc_output_context2) X(av_packet_rescale_ts)
 
 /* Of EGL and OSMesa; a GL function comes by the two last ones, and is then missing. */
 #define GL_BY_DLSYM(X)                                                                             \
     X(eglGetPlatformDisplay)                                                                       \
     X(eglGetPlatformDisplayEXT)                                                                    \
-    X(eglInitialize) X(eglBindAPI) X(eglChooseConfig) X(eglCreateContext) X(eglMakeCurrent)        \
+    X(eglInitialize)                                                                               \
+    X(eglBindAPI) X(eglChooseConfig) X(eglCreateContext) X(eglMakeCurrent)                         \
         X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent) X(eglGetProcAddress)                    \
             X(OSMesaGetProcAddress)
 

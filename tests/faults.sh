@@ -1,7 +1,8 @@
 #!/bin/sh
 # Makes the n-th call of each kind fail (tests/faults.c) in a small run with a movie, for n = 1, 1 + STRIDE, ...: memory,
 # write, open, sync, rename, OpenCL, libav, GL. However it ends: by no signal, in time, with no success claimed that is none,
-# and in a folder from which `orzo resume` gives the bytes of the run without a fault, or that can be run again.
+# with all memory, files and OpenCL objects given back (tests/leaks.h), and in a folder from which `orzo resume` gives the
+# bytes of the run without a fault, or that can be run again.
 #   tests/faults.sh [STRIDE] [PROGRAM] [KIND]...
 set -u
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -41,19 +42,25 @@ same() {
     cmp -s whole/series.csv cut/series.csv && cmp -s whole/final.csv cut/final.csv
 }
 
+# all_given_back WHERE
+all_given_back() {
+    [ ! -s held ] || complain "$1: not given back: $(sort -u held | xargs addr2line -fsp -e "$orzo" | cut -d' ' -f1 | tr '\n' ' ')"
+}
+
 # with KIND N COMMAND...
 with() {
     timeout -k 5 100 env LD_PRELOAD="$work/faults.so" ORZO_FAULT="$1:$2" ORZO_FAULT_COUNT="$work/count" \
-        "$orzo" run scene.yaml -o cut >log 2>&1
+        ORZO_FAULT_HELD="$work/held" "$orzo" run scene.yaml -o cut >log 2>&1
 }
 
 # try KIND N
 try() {
-    rm -rf cut count
+    rm -rf cut count held
     with "$1" "$2"
     status=$?
     [ -s count ] || return 0 # not that many calls this time
     faulty=$((faulty + 1))
+    all_given_back "$1 $2"
     case $status in
     0)
         same || complain "$1 $2: success is claimed, and the numbers are others"
@@ -78,6 +85,7 @@ try() {
 for kind in $kinds; do
     rm -rf cut count
     with "$kind" 0 || { complain "$kind: the run that counts"; exit 1; }
+    all_given_back "$kind"
     calls=$(cat count)
     n=1
     while [ "$n" -le "$calls" ]; do
