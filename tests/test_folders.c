@@ -203,6 +203,7 @@ static void test_one_owner(void **state)
     expect(2, said, "run bed.yaml -o owned --overwrite --seeds 1..2");
     expect(2, said, "draw owned");
     expect(2, said, "draw owned -o owned_drawn");
+    expect(2, said, "export owned --to csv -o owned_drawn");
     assert_false(is_there("owned_drawn"));
     snprintf(said, sizeof said, "owned/.. is in use by process %d", (int)child);
     shell("mkdir owned/below");

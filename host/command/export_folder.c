@@ -13,7 +13,8 @@
 typedef struct Work {
     OzScene scene;
     OzInputs inputs;
-    OzFolder owned;
+    OzFolder read;  /* the run's, which nobody may change meanwhile */
+    OzFolder owned; /* out, in use                                  */
     char *scene_path, *frames_path, *out;
     OzExportKind kinds[OZ_EXPORTS_END];
     int kind_count;
@@ -72,6 +73,7 @@ static OzStatus export_all(Work *work, const OzOptions *options)
     const char *folder = options->paths[0];
     int64_t count = 0;
     OZ_PASS(read_kinds(work, options->to));
+    OZ_PASS(oz_folder_read(&work->read, folder));
     OZ_PASS(oz_file_join(&work->scene_path, folder, "scene.yaml"));
     OZ_PASS(oz_file_join(&work->frames_path, folder, "frames.bin"));
     OZ_PASS(options->out ? oz_file_join(&work->out, NULL, options->out)
@@ -94,6 +96,7 @@ OzStatus oz_export_folder_run(const OzOptions *options)
     Work work = {0};
     OzStatus status = export_all(&work, options);
     oz_folder_close(&work.owned);
+    oz_folder_close(&work.read);
     oz_inputs_free(&work.inputs);
     oz_scene_free(&work.scene);
     free(work.scene_path);
