@@ -117,6 +117,23 @@ static void test_a_later_end(void **state)
     expect(2, "beyond the end asked for", "resume shorter --until 0.01");
 }
 
+/* Other keys change where it goes on, as they would have in a run that was not left. */
+static void test_changed_on_the_way(void **state)
+{
+    (void)state;
+    expect(0, "", "run bed.yaml -o turned --until 0.0213 --no-video");
+    expect(0, "walls.0.motion.acceleration_ratio 2 -> 3",
+           "resume turned --until 0.04 --set walls.0.motion.acceleration_ratio=3");
+    expect(0, "contact.friction 0.3 -> 0.2",
+           "resume turned --until 0.06 --set contact.friction=0.2");
+    assert_false(same_files("turned/series.csv", "bed/series.csv"));
+    expect(0, "", "run turned --replay -o repeated --until 0.06 --no-video");
+    assert_same_run("turned", "repeated", true);
+    expect(0, "", "run dice.yaml -o pair --seeds 1..2 --until 0.0052");
+    expect(0, "gravity", "resume pair --set 'gravity=[0, -5]'");
+    assert_true(contains("pair/seed_00002/reloads.csv", "2600,0.0052,gravity"));
+}
+
 static void test_an_ensemble(void **state)
 {
     (void)state;
@@ -135,8 +152,9 @@ static void test_what_is_refused(void **state)
 {
     (void)state;
     expect(2, "nothing holds no state of a run", "resume nothing");
-    expect(2, "--set contact.friction=0.2: a run that goes on keeps what it has begun with",
-           "resume bed --set contact.friction=0.2");
+    expect(2, "grains.0.count runs with 29, which cannot change",
+           "resume bed --set grains.0.count=28 --set contact.friction=0.2");
+    expect(2, "contact.friction is -1", "resume bed --set contact.friction=-1");
     expect(0, "", "run dice.yaml -o none --until 0.001 --set checkpoint.every=0");
     assert_false(is_there("none/state.h5"));
     expect(2, "none holds no state of a run", "resume none");
@@ -202,6 +220,7 @@ int main(void)
         cmocka_unit_test(test_trigrains),
         cmocka_unit_test(test_left_while_settling),
         cmocka_unit_test(test_a_later_end),
+        cmocka_unit_test(test_changed_on_the_way),
         cmocka_unit_test(test_an_ensemble),
         cmocka_unit_test(test_what_is_refused),
         cmocka_unit_test(test_damaged_states),

@@ -11,7 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool oz_resume_may_set(const char *setting)
+/* Whether a setting is of the run's end or of the states that it leaves, which changes nothing that
+ * was computed. */
+static bool is_of_end(const char *setting)
 {
     static const char *const keys[] = {"time.duration=", "time.taps=", "checkpoint."};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
@@ -20,21 +22,6 @@ bool oz_resume_may_set(const char *setting)
         }
     }
     return false;
-}
-
-static OzStatus check_settings(const OzOptions *asked)
-{
-    for (int i = 0; i < asked->setting_count; i++) {
-        const char *setting = asked->settings[i];
-        if (!oz_resume_may_set(setting)) {
-            return oz_status_fail(OZ_ERR_INPUT,
-                                  "--set %s: a run that goes on keeps what it has begun with; "
-                                  "expected time.taps, time.duration or a key of checkpoint (a "
-                                  "changed scene can begin from here: orzo run SCENE --from %s)",
-                                  setting, asked->paths[0]);
-        }
-    }
-    return OZ_OK;
 }
 
 /* A state and what it says of its run. */
@@ -195,6 +182,20 @@ done:
     return status;
 }
 
+/* Refuses by name what cannot change in a run, before anything is touched. */
+static OzStatus check_changes(const OzResume *resume)
+{
+    OzStatus status = OZ_OK;
+    OzScene scene = {0}, next = {0};
+    const OzOptions *options = &resume->options;
+    OZ_TRY(oz_scene_load(&scene, options->paths[0], options->settings, options->setting_count));
+    OZ_TRY(oz_scene_change(&next, &scene, resume->changes, resume->change_count));
+done:
+    oz_scene_free(&scene);
+    oz_scene_free(&next);
+    return status;
+}
+
 /* The command that the run was, with what is asked for now. */
 static OzStatus make_options(OzResume *resume, const OzOptions *asked)
 {
@@ -210,7 +211,12 @@ static OzStatus make_options(OzResume *resume, const OzOptions *asked)
         options->paths[0] = head->origin;
     }
     for (int i = 0; i < asked->setting_count; i++) {
-        OZ_PASS(add_setting(resume, asked->settings[i], strlen(asked->settings[i])));
+        char *setting = asked->settings[i];
+        if (is_of_end(setting)) {
+            OZ_PASS(add_setting(resume, setting, strlen(setting)));
+        } else {
+            resume->changes[resume->change_count++] = setting;
+        }
     }
     OZ_PASS(oz_from_keep_find(&resume->from, asked->paths[0]));
     options->from = resume->from;
@@ -226,13 +232,12 @@ static OzStatus make_options(OzResume *resume, const OzOptions *asked)
     options->own_settings = head->own_settings;
     options->force = true;     /* what it began with has been judged */
     options->overwrite = true; /* members that had not begun         */
-    return OZ_OK;
+    return check_changes(resume);
 }
 
 OzStatus oz_resume_open(OzResume *resume, const OzOptions *asked)
 {
     *resume = (OzResume){0};
-    OZ_PASS(check_settings(asked));
     OZ_PASS(read_states(resume, asked->paths[0]));
     return make_options(resume, asked);
 }

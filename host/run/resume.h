@@ -13,20 +13,18 @@ typedef struct OzResume {
     OzOptions options; /* of the run                      */
     char **settings;   /* that its options point to; owned */
     int setting_count;
-    char *scene_path; /* the folder's scene.yaml; owned  */
-    char *from;       /* what members that have not begun begin with, or NULL; owned */
+    char *scene_path;                   /* the folder's scene.yaml; owned  */
+    char *changes[OZ_CLI_SETTINGS_MAX]; /* settings from where it goes on; borrowed */
+    int change_count;
+    char *from; /* what members that have not begun begin with, or NULL; owned */
 } OzResume;
 
 /* Reads the states in a run's folder. A damaged one is said, and the one before it taken. Fails
- * with OZ_ERR_INPUT when there is none, or none that is whole. asked: `orzo resume` as written;
- * what it sets must not change what was computed (oz_resume_may_set). The caller frees, also on
- * failure.
- */
+ * with OZ_ERR_INPUT when there is none, or none that is whole. asked: `orzo resume` as written.
+ * What it sets of the end and of states belongs to the run; other settings change it where it goes
+ * on (run/reload.h). The caller frees, also on failure. */
 OzStatus oz_resume_open(OzResume *resume, const OzOptions *asked);
 void oz_resume_free(OzResume *resume);
 
 /* Whether there is a state to go on from in a run's folder. */
 bool oz_resume_has_state(const char *folder);
-
-/* Whether a key may be set while a run goes on: what ends it, and what states it leaves. */
-bool oz_resume_may_set(const char *setting);

@@ -313,6 +313,22 @@ static OzStatus take_states(Run *run)
     return OZ_OK;
 }
 
+/* What was asked to be changed where the run goes on; members that begin later catch up. */
+static OzStatus change_resumed(Run *run)
+{
+    OzResume *resume = run->groups.resume;
+    char message[2048];
+    if (!resume || resume->change_count == 0) {
+        return OZ_OK;
+    }
+    if (!oz_reload_set(run->reload, resume->changes, resume->change_count, message,
+                       sizeof message)) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s", message);
+    }
+    resume->change_count = 0;
+    return OZ_OK;
+}
+
 /* Members can be changed while they run. */
 static OzStatus run_workers(Run *run)
 {
@@ -320,6 +336,7 @@ static OzStatus run_workers(Run *run)
     if (run->reload) {
         OZ_TRY(oz_reload_enter(run->reload, &run->device, run->groups.members,
                                run->groups.member_count, run->worker_count));
+        OZ_TRY(change_resumed(run));
     }
     status = oz_worker_run(run->workers, run->worker_count);
 done:

@@ -227,6 +227,7 @@ static OzStatus walk(OzWorker *worker)
     if (worker->leads) {
         oz_log_line("first step %.2f s after start", worker->first_step - worker->started);
     }
+    OZ_TRY(oz_swap_serve(worker)); /* what was asked for before */
     while (open > 0 && !oz_swap_is_at_end(worker) && oz_worker_next_event(worker)) {
         OZ_TRY(go(worker, &shown));
         if (worker->is_due && !oz_swap_is_at_end(worker)) {
