@@ -1,6 +1,6 @@
 #!/bin/sh
 # A long run of a small shaken bed with rows, a movie and a state every second: memory and open files must not grow after
-# its first tenth. Speed is printed for people to look at.
+# its first fifth. Speed is printed for people to look at.
 #   tests/long.sh [STEPS] [PROGRAM]     1e7 steps, some minutes; build/orzo
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -42,7 +42,7 @@ pid=$!
 printf '%12s %10s %6s %10s\n' step 'memory/kB' files 'steps/s'
 next=$((steps / 10))
 before=0
-first=
+looks=0
 while kill -0 "$pid" 2>/dev/null; do
     sleep 0.2
     last_step
@@ -52,16 +52,17 @@ while kill -0 "$pid" 2>/dev/null; do
     [ -n "$memory" ] || break
     now=$(date +%s%N)
     printf '%12d %10d %6d %10d\n' "$step" "$memory" "$files" $(((step - before) * 1000000 / ((now - start) / 1000)))
-    [ -n "$first" ] || { first=$memory; first_files=$files; }
+    looks=$((looks + 1))
+    [ "$looks" -gt 2 ] || { first=$memory; first_files=$files; }
     before=$step
     start=$now
     next=$((step + steps / 10))
 done
 wait "$pid" || { cat log >&2; fail 'the run failed'; }
 pid=
-[ -n "$first" ] || fail 'too short to be looked at'
-# One part in twenty: what malloc keeps of one state's writing, whose parts come in another order each time.
-[ "$memory" -le $((first + first / 20)) ] || fail "memory grew from $first to $memory kB"
+[ "$looks" -gt 5 ] || fail 'too short to be looked at'
+# A run that frees all moved by 40 kB of 166 MB, one that loses the bytes of every state grew by 6 MB.
+[ "$memory" -le $((first + first / 100)) ] || fail "memory grew from $first to $memory kB"
 [ "$files" -le $((first_files + 2)) ] || fail "open files grew from $first_files to $files" # a state may be on its way
 last_step
 printf 'long.sh: %s steps, %s rows\n' "$step" "$(($(wc -l <out/series.csv) - 1))"
