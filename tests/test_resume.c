@@ -132,6 +132,10 @@ static void test_changed_on_the_way(void **state)
     expect(0, "", "run dice.yaml -o pair --seeds 1..2 --until 0.0052");
     expect(0, "gravity", "resume pair --set 'gravity=[0, -5]'");
     assert_true(contains("pair/seed_00002/reloads.csv", "2600,0.0052,gravity"));
+    expect(2, "expected a member's folder", "run pair --replay -o pair_again");
+    assert_false(is_there("pair_again"));
+    expect(0, "", "run pair/seed_00002 --replay -o second");
+    assert_same_run("pair/seed_00002", "second", false);
 }
 
 static void test_an_ensemble(void **state)

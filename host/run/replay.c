@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,6 +104,25 @@ OzStatus oz_replay_parse(OzReplay *replay, const char *path, char *text)
     return OZ_OK;
 }
 
+/* Members of an ensemble keep their changes in their own folders. */
+static OzStatus refuse_members(const char *folder)
+{
+    OzStatus status = OZ_OK;
+    glob_t found = {0};
+    char *pattern = NULL;
+    OZ_TRY(oz_file_join(&pattern, folder, "*/reloads.csv"));
+    if (glob(pattern, 0, NULL, &found) == 0) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "%s: members of this run were changed while they ran (%s), which "
+                                "is repeated of one at a time; expected a member's folder",
+                                folder, found.gl_pathv[0]);
+    }
+done:
+    globfree(&found);
+    free(pattern);
+    return status;
+}
+
 OzStatus oz_replay_read(OzReplay *replay, const char *folder)
 {
     OzStatus status = OZ_OK;
@@ -112,6 +132,8 @@ OzStatus oz_replay_read(OzReplay *replay, const char *folder)
     if (oz_file_exists(path)) {
         OZ_TRY(oz_file_read(&text, NULL, path));
         OZ_TRY(oz_replay_parse(replay, path, text));
+    } else {
+        OZ_TRY(refuse_members(folder));
     }
 done:
     free(path);

@@ -22,7 +22,8 @@ typedef struct OzReplay {
 } OzReplay;
 
 /* Of the run in this folder; without a reloads.csv nothing was changed. Refuses with OZ_ERR_INPUT,
- * at file and line, what no run has written. The caller frees, also on failure. */
+ * at file and line, what no run has written, and an ensemble whose members were changed. The caller
+ * frees, also on failure. */
 OzStatus oz_replay_read(OzReplay *replay, const char *folder);
 
 /* The same of a text in memory, which is cut up; path serves for messages. */

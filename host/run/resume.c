@@ -129,6 +129,22 @@ done:
     return status;
 }
 
+OzStatus oz_resume_take_seeds(OzOptions *options, const char *folder)
+{
+    OzStatus status = OZ_OK;
+    OzResume resume = {0};
+    if (options->has_seeds || !oz_resume_has_state(folder)) {
+        return OZ_OK;
+    }
+    OZ_TRY(read_states(&resume, folder));
+    options->has_seeds = resume.heads[0].has_seeds;
+    options->seed_first = (uint64_t)resume.heads[0].seed_first;
+    options->seed_last = (uint64_t)resume.heads[0].seed_last;
+done:
+    oz_resume_free(&resume);
+    return status;
+}
+
 static OzStatus add_setting(OzResume *resume, const char *text, size_t length)
 {
     OzOptions *options = &resume->options;
@@ -240,6 +256,18 @@ OzStatus oz_resume_open(OzResume *resume, const OzOptions *asked)
     *resume = (OzResume){0};
     OZ_PASS(read_states(resume, asked->paths[0]));
     return make_options(resume, asked);
+}
+
+OzStatus oz_resume_change(OzResume *resume, OzReload *reload)
+{
+    char message[2048];
+    if (!resume || resume->change_count == 0) {
+        return OZ_OK;
+    }
+    bool taken =
+        oz_reload_set(reload, resume->changes, resume->change_count, message, sizeof message);
+    resume->change_count = 0;
+    return taken ? OZ_OK : oz_status_fail(OZ_ERR_INPUT, "%s", message);
 }
 
 void oz_resume_free(OzResume *resume)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "run/checkpoint.h"
+#include "run/reload.h"
 
 /* The newest whole state of each worker of a run, in the order of their members. Zeroed is valid.
  */
@@ -26,5 +27,12 @@ typedef struct OzResume {
 OzStatus oz_resume_open(OzResume *resume, const OzOptions *asked);
 void oz_resume_free(OzResume *resume);
 
+/* Asks for the changes, once, of the members that go on; those that begin later catch up. NULL is
+ * fine. */
+OzStatus oz_resume_change(OzResume *resume, OzReload *reload);
+
 /* Whether there is a state to go on from in a run's folder. */
 bool oz_resume_has_state(const char *folder);
+
+/* Takes the seeds of the run in a folder, where its states tell any and options has none. */
+OzStatus oz_resume_take_seeds(OzOptions *options, const char *folder);

@@ -140,7 +140,7 @@ static OzStatus open_reload(Run *run)
 {
     const OzScene *scene = &run->groups.plan.scene;
     if (run->options->replay) {
-        return oz_replay_read(&run->replay, run->options->replay_folder);
+        return OZ_OK;
     }
     OZ_PASS(oz_reload_create(&run->reload, run->options, scene));
     return run->options->watch ? oz_watch_start(&run->watch, run->reload, scene) : OZ_OK;
@@ -153,6 +153,9 @@ static OzStatus open_run(Run *run)
     if (!run->groups.resume && !run->groups.loaded) {
         return oz_status_fail(run->groups.loss, "%s: no member can be run",
                               run->groups.plan.scene.path);
+    }
+    if (options->replay) {
+        OZ_PASS(oz_replay_read(&run->replay, options->replay_folder));
     }
     OZ_PASS(open_live(run));
     OZ_PASS(open_folder(run));
@@ -313,22 +316,6 @@ static OzStatus take_states(Run *run)
     return OZ_OK;
 }
 
-/* What was asked to be changed where the run goes on; members that begin later catch up. */
-static OzStatus change_resumed(Run *run)
-{
-    OzResume *resume = run->groups.resume;
-    char message[2048];
-    if (!resume || resume->change_count == 0) {
-        return OZ_OK;
-    }
-    if (!oz_reload_set(run->reload, resume->changes, resume->change_count, message,
-                       sizeof message)) {
-        return oz_status_fail(OZ_ERR_INPUT, "%s", message);
-    }
-    resume->change_count = 0;
-    return OZ_OK;
-}
-
 /* Members can be changed while they run. */
 static OzStatus run_workers(Run *run)
 {
@@ -336,7 +323,7 @@ static OzStatus run_workers(Run *run)
     if (run->reload) {
         OZ_TRY(oz_reload_enter(run->reload, &run->device, run->groups.members,
                                run->groups.member_count, run->worker_count));
-        OZ_TRY(change_resumed(run));
+        OZ_TRY(oz_resume_change(run->groups.resume, run->reload));
     }
     status = oz_worker_run(run->workers, run->worker_count);
 done:
@@ -415,6 +402,7 @@ static OzStatus repeat_run(const OzOptions *asked)
     OzStatus status = OZ_OK;
     OzOptions options = *asked;
     char *scene = NULL, *from = NULL;
+    OZ_TRY(oz_resume_take_seeds(&options, asked->paths[0]));
     OZ_TRY(oz_from_keep_find(&from, asked->paths[0]));
     OZ_TRY(oz_file_join(&scene, asked->paths[0], "scene.yaml"));
     options.replay_folder = asked->paths[0];
