@@ -9,6 +9,12 @@
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static OzHdf5 library; /* written once, under the lock */
 
+OzStatus oz_hdf5_library_check(int64_t code, const char *call, const char *file, int line)
+{
+    return code >= 0 ? OZ_OK
+                     : oz_status_fail(OZ_ERR_FILE, "libhdf5: %s failed (%s:%d)", call, file, line);
+}
+
 /* ISO C has no cast from an object to a function pointer. */
 static OzStatus find(void *handle, const char *name, void *into)
 {
@@ -24,7 +30,6 @@ static OzStatus find(void *handle, const char *name, void *into)
 static OzStatus load(void)
 {
     static bool loaded;
-    OzStatus status = OZ_OK;
     if (loaded) {
         return OZ_OK;
     }
@@ -35,11 +40,10 @@ static OzStatus load(void)
     }
     OZ_HDF5_FUNCTIONS(FIND)
     OZ_HDF5_NUMBERS(FIND)
-    OZ_H5_TRY(library.H5open());
-    OZ_H5_TRY(library.H5Eset_auto2(H5E_DEFAULT, NULL, NULL)); /* what fails is told by us */
+    OZ_H5_PASS(library.H5open());
+    OZ_H5_PASS(library.H5Eset_auto2(H5E_DEFAULT, NULL, NULL)); /* what fails is told by us */
     loaded = true;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_hdf5_library_enter(const OzHdf5 **h5)

@@ -39,12 +39,9 @@ OzStatus oz_hdf5_library_enter(const OzHdf5 **h5);
 /* Lets others in, *h5 becomes NULL; without effect where it is NULL. */
 void oz_hdf5_library_leave(const OzHdf5 **h5);
 
-/* OZ_TRY for HDF5's own calls. */
-#define OZ_H5_TRY(call)                                                                            \
-    do {                                                                                           \
-        if ((call) < 0) {                                                                          \
-            status = oz_status_fail(OZ_ERR_FILE, "libhdf5: %s failed (%s:%d)", #call, __FILE__,    \
-                                    __LINE__);                                                     \
-            goto done;                                                                             \
-        }                                                                                          \
-    } while (0)
+/* OZ_OK for a code that is not negative; else fails with OZ_ERR_FILE, naming the call. */
+OzStatus oz_hdf5_library_check(int64_t code, const char *call, const char *file, int line);
+
+/* As OZ_TRY and OZ_PASS, for HDF5's own calls. */
+#define OZ_H5_TRY(call)  OZ_TRY(oz_hdf5_library_check((call), #call, __FILE__, __LINE__))
+#define OZ_H5_PASS(call) OZ_PASS(oz_hdf5_library_check((call), #call, __FILE__, __LINE__))

@@ -84,17 +84,15 @@ done:
 /* Without a look at whether the name is there already, which costs a pass over all. */
 static OzStatus append(OzState *state, const OzStateEntry *entry)
 {
-    OzStatus status = OZ_OK;
     if (state->count == state->capacity) {
         int64_t wanted = state->capacity ? 2 * state->capacity : 64;
-        OZ_TRY(oz_memory_grow((void **)&state->entries, (size_t)state->capacity, (size_t)wanted,
-                              sizeof *state->entries, "entries of state"));
+        OZ_PASS(oz_memory_grow((void **)&state->entries, (size_t)state->capacity, (size_t)wanted,
+                               sizeof *state->entries, "entries of state"));
         state->capacity = wanted;
     }
-    OZ_TRY(copy_entry(&state->entries[state->count], entry));
+    OZ_PASS(copy_entry(&state->entries[state->count], entry));
     state->count++;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_state_add(OzState *state, const OzStateEntry *entry)
@@ -202,27 +200,24 @@ static OzStatus name_entry(const OzStateVisit *visit, const char *name, char *fu
 OzStatus oz_state_items(OzStateVisit *visit, const char *name, const char *unit, OzStateKind kind,
                         void *items, int64_t count)
 {
-    OzStatus status = OZ_OK;
     char full[sizeof visit->path];
     OzStateEntry entry = {
         .name = full, .unit = (char *)unit, .kind = kind, .count = count, .data = items};
     OzStateEntry *found = NULL;
-    OZ_TRY(name_entry(visit, name, full, sizeof full));
+    OZ_PASS(name_entry(visit, name, full, sizeof full));
     if (!visit->is_loading) {
         return append(visit->state, &entry);
     }
-    OZ_TRY(take(visit, &entry, &found));
+    OZ_PASS(take(visit, &entry, &found));
     if (count > 0) {
         memcpy(items, found->data, (size_t)count * kinds[kind].bytes);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_state_array(OzStateVisit *visit, const char *name, const char *unit, OzStateKind kind,
                         void *items, int64_t *count)
 {
-    OzStatus status = OZ_OK;
     char full[sizeof visit->path];
     void *made = NULL, *old = NULL;
     OzStateEntry wanted = {.name = full, .kind = kind, .count = -1}, *found = NULL;
@@ -230,15 +225,14 @@ OzStatus oz_state_array(OzStateVisit *visit, const char *name, const char *unit,
     if (!visit->is_loading) {
         return oz_state_items(visit, name, unit, kind, old, *count);
     }
-    OZ_TRY(name_entry(visit, name, full, sizeof full));
-    OZ_TRY(take(visit, &wanted, &found));
-    OZ_TRY(oz_memory_new(&made, (size_t)found->count, kinds[kind].bytes, name));
+    OZ_PASS(name_entry(visit, name, full, sizeof full));
+    OZ_PASS(take(visit, &wanted, &found));
+    OZ_PASS(oz_memory_new(&made, (size_t)found->count, kinds[kind].bytes, name));
     memcpy(made, found->data, (size_t)found->count * kinds[kind].bytes);
     *count = found->count;
     free(old);
     memcpy(items, &made, sizeof made);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_state_int64(OzStateVisit *visit, const char *name, const char *unit, int64_t *value)

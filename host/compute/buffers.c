@@ -6,7 +6,6 @@
 
 OzStatus oz_buffers_make(cl_mem *buffer, const OzDevice *device, const char *name, size_t bytes)
 {
-    OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     cl_uint zero = 0;
     size_t rounded = (bytes + 63) / 64 * 64;
@@ -20,11 +19,10 @@ OzStatus oz_buffers_make(cl_mem *buffer, const OzDevice *device, const char *nam
                               (unsigned long long)device->largest_buffer);
     }
     *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, rounded, NULL, &code);
-    CL_TRY(code);
-    CL_TRY(
+    CL_PASS(code);
+    CL_PASS(
         clEnqueueFillBuffer(device->queue, *buffer, &zero, sizeof zero, 0, rounded, 0, NULL, NULL));
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_buffers_free(const cl_mem *buffers, int count)
@@ -39,33 +37,27 @@ void oz_buffers_free(const cl_mem *buffers, int count)
 OzStatus oz_buffers_write(const OzDevice *device, cl_mem buffer, size_t offset, const void *data,
                           size_t bytes)
 {
-    OzStatus status = OZ_OK;
     if (buffer && bytes > 0) {
-        CL_TRY(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, data, 0, NULL,
-                                    NULL));
+        CL_PASS(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, data, 0, NULL,
+                                     NULL));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_buffers_read(const OzDevice *device, cl_mem buffer, size_t offset, void *data,
                          size_t bytes)
 {
-    OzStatus status = OZ_OK;
     if (buffer && bytes > 0) {
-        CL_TRY(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, data, 0, NULL,
-                                   NULL));
+        CL_PASS(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, data, 0, NULL,
+                                    NULL));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus size_of(cl_mem buffer, size_t *bytes)
 {
-    OzStatus status = OZ_OK;
-    CL_TRY(clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof *bytes, bytes, NULL));
-done:
-    return status;
+    CL_PASS(clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof *bytes, bytes, NULL));
+    return OZ_OK;
 }
 
 OzStatus oz_buffers_save(const OzDevice *device, const cl_mem *buffers, int count, void **copies)
@@ -98,10 +90,9 @@ OzStatus oz_buffers_restore(const OzDevice *device, const cl_mem *buffers, int c
 
 OzStatus oz_buffers_bind(const cl_mem *buffers, int count, cl_kernel kernel)
 {
-    OzStatus status = OZ_OK;
     for (int i = 0; i < count; i++) {
-        CL_TRY(clSetKernelArg(kernel, (cl_uint)i, sizeof(cl_mem), buffers[i] ? &buffers[i] : NULL));
+        CL_PASS(
+            clSetKernelArg(kernel, (cl_uint)i, sizeof(cl_mem), buffers[i] ? &buffers[i] : NULL));
     }
-done:
-    return status;
+    return OZ_OK;
 }

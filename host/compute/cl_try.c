@@ -46,8 +46,10 @@ const char *oz_cl_try_name(cl_int code)
     return "unknown OpenCL error";
 }
 
-OzStatus oz_cl_try_fail(cl_int code, const char *call, const char *file, int line)
+OzStatus oz_cl_try_check(cl_int code, const char *call, const char *file, int line)
 {
-    return oz_status_fail(OZ_ERR_DEVICE, "OpenCL: %s (%d) from %s at %s:%d", oz_cl_try_name(code),
-                          code, call, file, line);
+    return code == CL_SUCCESS
+               ? OZ_OK
+               : oz_status_fail(OZ_ERR_DEVICE, "OpenCL: %s (%d) from %s at %s:%d",
+                                oz_cl_try_name(code), code, call, file, line);
 }

@@ -52,7 +52,6 @@ static int lanes_of(const OzDevice *device, bool is_double)
 static OzStatus open_limit(Limit *limit, const OzDevice *device, const char *source_dir,
                            const char *kernel, bool is_double)
 {
-    OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     char options[96];
     *limit = (Limit){.device = device};
@@ -61,38 +60,33 @@ static OzStatus open_limit(Limit *limit, const OzDevice *device, const char *sou
                                   : (size_t)device->units * GROUPS_A_UNIT * limit->group;
     snprintf(options, sizeof options, "-DOZ_LANES=%d -DOZ_GROUP=%d%s", lanes_of(device, is_double),
              device->group, is_double ? " -DOZ_DOUBLE=1" : "");
-    OZ_TRY(oz_program_build(&limit->program, device, source_dir, "kernels/limits.cl", options));
+    OZ_PASS(oz_program_build(&limit->program, device, source_dir, "kernels/limits.cl", options));
     limit->kernel = clCreateKernel(limit->program, kernel, &code);
-    CL_TRY(code);
-done:
-    return status;
+    CL_PASS(code);
+    return OZ_OK;
 }
 
 static OzStatus make_buffer(Limit *limit, cl_mem *buffer, cl_uint index, size_t bytes)
 {
-    OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     cl_uint zero = 0;
     *buffer = clCreateBuffer(limit->device->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
-    CL_TRY(code);
-    CL_TRY(clEnqueueFillBuffer(limit->device->queue, *buffer, &zero, sizeof zero, 0, bytes, 0, NULL,
-                               NULL));
-    CL_TRY(clSetKernelArg(limit->kernel, index, sizeof *buffer, buffer));
-done:
-    return status;
+    CL_PASS(code);
+    CL_PASS(clEnqueueFillBuffer(limit->device->queue, *buffer, &zero, sizeof zero, 0, bytes, 0,
+                                NULL, NULL));
+    CL_PASS(clSetKernelArg(limit->kernel, index, sizeof *buffer, buffer));
+    return OZ_OK;
 }
 
 static OzStatus time_launch(Limit *limit, int repeats, double *seconds)
 {
-    OzStatus status = OZ_OK;
-    CL_TRY(clSetKernelArg(limit->kernel, limit->repeats_at, sizeof repeats, &repeats));
+    CL_PASS(clSetKernelArg(limit->kernel, limit->repeats_at, sizeof repeats, &repeats));
     double start = oz_clock_now();
-    CL_TRY(clEnqueueNDRangeKernel(limit->device->queue, limit->kernel, 1, NULL, &limit->items,
-                                  &limit->group, 0, NULL, NULL));
-    CL_TRY(clFinish(limit->device->queue));
+    CL_PASS(clEnqueueNDRangeKernel(limit->device->queue, limit->kernel, 1, NULL, &limit->items,
+                                   &limit->group, 0, NULL, NULL));
+    CL_PASS(clFinish(limit->device->queue));
     *seconds = oz_clock_now() - start;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Seconds of one repeat, of the fastest launch: a limit is what can be done. */

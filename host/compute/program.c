@@ -177,18 +177,16 @@ done:
 
 OzStatus oz_program_check(cl_program program, const OzDevice *device, const OzLayout *layout)
 {
-    OzStatus status = OZ_OK;
     cl_int answer[5] = {0};
     size_t scalar = layout->is_double ? 8 : 4;
-    OZ_TRY(ask_layout(program, device, answer));
+    OZ_PASS(ask_layout(program, device, answer));
     if ((size_t)answer[0] != layout->parameters * scalar || (size_t)answer[1] != layout->control ||
         (size_t)answer[2] != layout->sizes || (size_t)answer[3] != scalar ||
         answer[4] != layout->lanes) {
-        status = oz_status_fail(OZ_ERR_DEVICE,
-                                "host and %s disagree about struct sizes (parameters %d, control "
-                                "%d, sizes %d bytes): rebuild orzo",
-                                device->name, answer[0], answer[1], answer[2]);
+        return oz_status_fail(OZ_ERR_DEVICE,
+                              "host and %s disagree about struct sizes (parameters %d, control "
+                              "%d, sizes %d bytes): rebuild orzo",
+                              device->name, answer[0], answer[1], answer[2]);
     }
-done:
-    return status;
+    return OZ_OK;
 }

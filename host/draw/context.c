@@ -113,14 +113,8 @@ static OzStatus egl_failed(const char *call)
                           (unsigned)code);
 }
 
-/* Leaves through `done` when an EGL call was refused. */
-#define EGL_TRY(call, name)                                                                        \
-    do {                                                                                           \
-        if (!(call)) {                                                                             \
-            status = egl_failed(name);                                                             \
-            goto done;                                                                             \
-        }                                                                                          \
-    } while (0)
+/* As OZ_PASS, for an EGL call that may be refused. */
+#define EGL_PASS(call, name) OZ_PASS((call) ? OZ_OK : egl_failed(name))
 
 /* The first EGL device whose display can be initialised: the way to NVIDIA's driver. */
 static EGLDisplay device_display(PFNEGLGETPLATFORMDISPLAYEXTPROC get_display)
@@ -168,7 +162,6 @@ static OzStatus find_display(OzContext *context, const char **platform)
 
 static OzStatus create_egl(OzContext *context)
 {
-    OzStatus status = OZ_OK;
     const char *platform = "";
     const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                              EGL_NONE};
@@ -181,19 +174,18 @@ static OzStatus create_egl(OzContext *context)
                               EGL_NONE};
     EGLConfig config = NULL;
     EGLint config_count = 0;
-    OZ_TRY(open_egl());
-    OZ_TRY(find_display(context, &platform));
-    EGL_TRY(egl.bind_api(EGL_OPENGL_API), "eglBindAPI");
-    EGL_TRY(egl.choose_config(context->display, wanted, &config, 1, &config_count),
-            "eglChooseConfig");
+    OZ_PASS(open_egl());
+    OZ_PASS(find_display(context, &platform));
+    EGL_PASS(egl.bind_api(EGL_OPENGL_API), "eglBindAPI");
+    EGL_PASS(egl.choose_config(context->display, wanted, &config, 1, &config_count),
+             "eglChooseConfig");
     context->handle =
         egl.create_context(context->display, config_count ? config : NULL, EGL_NO_CONTEXT, version);
-    EGL_TRY(context->handle, "eglCreateContext (OpenGL 3.3 core)");
-    OZ_TRY(oz_context_use(context));
-    OZ_TRY(oz_gl_load(&context->gl, (OzGlFinder)egl.get_proc_address));
+    EGL_PASS(context->handle, "eglCreateContext (OpenGL 3.3 core)");
+    OZ_PASS(oz_context_use(context));
+    OZ_PASS(oz_gl_load(&context->gl, (OzGlFinder)egl.get_proc_address));
     snprintf(context->name, sizeof context->name, "EGL %s", platform);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus create_osmesa(OzContext *context)

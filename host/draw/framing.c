@@ -224,13 +224,10 @@ void oz_framing_keep(OzLook *look, const OzLook *framed)
 
 OzStatus oz_framing_state(OzLook *look, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_double(visit, "height_low", "m", &look->height_low, 1));
-    OZ_TRY(oz_state_double(visit, "height_high", "m", &look->height_high, 1));
-    OZ_TRY(oz_state_double(visit, "centre", "m", look->centre, 2));
-    OZ_TRY(oz_state_double(visit, "half_width", "m", &look->half_width, 1));
-    OZ_TRY(oz_state_double(visit, "cut", "m", &look->cut, 1));
-    OZ_TRY(oz_state_double(visit, "speed_high", "m/s", &look->speed_high, 1));
-done:
-    return status;
+    OZ_PASS(oz_state_double(visit, "height_low", "m", &look->height_low, 1));
+    OZ_PASS(oz_state_double(visit, "height_high", "m", &look->height_high, 1));
+    OZ_PASS(oz_state_double(visit, "centre", "m", look->centre, 2));
+    OZ_PASS(oz_state_double(visit, "half_width", "m", &look->half_width, 1));
+    OZ_PASS(oz_state_double(visit, "cut", "m", &look->cut, 1));
+    return oz_state_double(visit, "speed_high", "m/s", &look->speed_high, 1);
 }

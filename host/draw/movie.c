@@ -21,13 +21,11 @@ struct OzMovie {
 
 OzStatus oz_movie_encoder(const char **name)
 {
-    OzStatus status = OZ_OK;
     OzMovieCodec codec = {0};
-    OZ_TRY(oz_movie_libav_load());
-    OZ_TRY(oz_movie_codec_choose(&codec, NULL));
+    OZ_PASS(oz_movie_libav_load());
+    OZ_PASS(oz_movie_codec_choose(&codec, NULL));
     *name = oz_movie_codec_name(&codec);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Sizes and rates that no encoder takes, told in our words. */
@@ -116,33 +114,28 @@ OzStatus oz_movie_create(OzMovie **movie, const char *path, int width, int heigh
  * one a packet, from an encoder to the next. */
 static OzStatus drain(OzMovie *movie)
 {
-    OzStatus status = OZ_OK;
     for (bool any = true;;) {
-        OZ_TRY(oz_movie_codec_receive(&movie->codec, &any));
+        OZ_PASS(oz_movie_codec_receive(&movie->codec, &any));
         if (!any) {
             break;
         }
         movie->codec.packet->dts = movie->file.packets - movie->codec.delay;
-        OZ_TRY(oz_movie_file_add(&movie->file, movie->codec.packet));
+        OZ_PASS(oz_movie_file_add(&movie->file, movie->codec.packet));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_movie_add(OzMovie *movie, const OzImage *image)
 {
-    OzStatus status = OZ_OK;
     const OzMovieCodec *codec = &movie->codec;
     if (image->width != codec->width || image->height != codec->height) {
         return oz_status_fail(OZ_ERR_MOVIE, "movie: a picture of %d x %d for a movie of %d x %d",
                               image->width, image->height, codec->width, codec->height);
     }
-    OZ_TRY(oz_movie_codec_open(&movie->codec));
-    OZ_TRY(oz_movie_codec_send(&movie->codec, image, movie->frame_count));
+    OZ_PASS(oz_movie_codec_open(&movie->codec));
+    OZ_PASS(oz_movie_codec_send(&movie->codec, image, movie->frame_count));
     movie->frame_count++;
-    OZ_TRY(drain(movie));
-done:
-    return status;
+    return drain(movie);
 }
 
 /* All frames so far into the file; the next one will open another encoder. */
@@ -290,14 +283,12 @@ static OzStatus save(OzMovie *movie, OzStateVisit *visit)
 
 OzStatus oz_movie_state(OzMovie **movie, const char *path, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     int64_t frame_count = *movie ? (*movie)->frame_count : 0;
-    OZ_TRY(oz_state_enter(visit, "movie", 1));
-    OZ_TRY(oz_state_index(visit, "frame_count", &frame_count, 0, INT64_MAX));
+    OZ_PASS(oz_state_enter(visit, "movie", 1));
+    OZ_PASS(oz_state_index(visit, "frame_count", &frame_count, 0, INT64_MAX));
     if (frame_count > 0) {
-        OZ_TRY(visit->is_loading ? load(movie, path, frame_count, visit) : save(*movie, visit));
+        OZ_PASS(visit->is_loading ? load(movie, path, frame_count, visit) : save(*movie, visit));
     }
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }

@@ -113,21 +113,19 @@ done:
  * bt709, which is also what the file says it holds. */
 static OzStatus open_conversion(OzMovieCodec *codec)
 {
-    OzStatus status = OZ_OK;
-    AV_TRY_NEW(codec->packet, av->av_packet_alloc());
-    AV_TRY_NEW(codec->frame, av->av_frame_alloc());
+    AV_PASS_NEW(codec->packet, av->av_packet_alloc());
+    AV_PASS_NEW(codec->frame, av->av_frame_alloc());
     codec->frame->format = AV_PIX_FMT_YUV420P;
     codec->frame->width = codec->width;
     codec->frame->height = codec->height;
-    AV_TRY(av->av_frame_get_buffer(codec->frame, 0));
-    AV_TRY_NEW(codec->scaler,
-               av->sws_getContext(codec->width, codec->height, AV_PIX_FMT_RGBA, codec->width,
-                                  codec->height, AV_PIX_FMT_YUV420P,
-                                  SWS_BILINEAR | SWS_ACCURATE_RND, NULL, NULL, NULL));
+    AV_PASS(av->av_frame_get_buffer(codec->frame, 0));
+    AV_PASS_NEW(codec->scaler,
+                av->sws_getContext(codec->width, codec->height, AV_PIX_FMT_RGBA, codec->width,
+                                   codec->height, AV_PIX_FMT_YUV420P,
+                                   SWS_BILINEAR | SWS_ACCURATE_RND, NULL, NULL, NULL));
     const int *bt709 = av->sws_getCoefficients(SWS_CS_ITU709);
-    AV_TRY(av->sws_setColorspaceDetails(codec->scaler, bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16));
-done:
-    return status;
+    AV_PASS(av->sws_setColorspaceDetails(codec->scaler, bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16));
+    return OZ_OK;
 }
 
 /* Keeps the first context's head, and compares those of later ones with it. */
@@ -171,35 +169,31 @@ done:
 
 OzStatus oz_movie_codec_send(OzMovieCodec *codec, const OzImage *image, int64_t number)
 {
-    OzStatus status = OZ_OK;
     if (!image) {
-        AV_TRY(av->avcodec_send_frame(codec->context, NULL));
-        goto done;
+        AV_PASS(av->avcodec_send_frame(codec->context, NULL));
+        return OZ_OK;
     }
     const uint8_t *rows[4] = {image->pixels};
     int row_bytes[4] = {4 * image->width};
-    AV_TRY(av->av_frame_make_writable(codec->frame)); /* the encoder may still hold the last one */
-    AV_TRY(av->sws_scale(codec->scaler, rows, row_bytes, 0, image->height, codec->frame->data,
-                         codec->frame->linesize));
+    AV_PASS(av->av_frame_make_writable(codec->frame)); /* the encoder may still hold the last one */
+    AV_PASS(av->sws_scale(codec->scaler, rows, row_bytes, 0, image->height, codec->frame->data,
+                          codec->frame->linesize));
     codec->frame->pts = number;
-    AV_TRY(av->avcodec_send_frame(codec->context, codec->frame));
-done:
-    return status;
+    AV_PASS(av->avcodec_send_frame(codec->context, codec->frame));
+    return OZ_OK;
 }
 
 /* "Again" asks for more frames, "end" says that it is flushed, and both are known here only. */
 OzStatus oz_movie_codec_receive(OzMovieCodec *codec, bool *any)
 {
-    OzStatus status = OZ_OK;
     int code = av->avcodec_receive_packet(codec->context, codec->packet);
     *any = code >= 0;
     if (code != AVERROR(EAGAIN) && code != AVERROR_EOF) {
-        AV_TRY(code);
+        AV_PASS(code);
         /* One frame: a constant rate, the last frame included. */
         codec->packet->duration = codec->live_ticks ? 0 : 1;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_movie_codec_end(OzMovieCodec *codec)

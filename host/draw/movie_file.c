@@ -50,30 +50,26 @@ done:
  * head only. */
 static OzStatus cut_fragment(OzMovieFile *file)
 {
-    OzStatus status = OZ_OK;
     for (int calls = file->whole == 0 ? 2 : 1; calls > 0; calls--) {
-        AV_TRY(av->av_write_frame(file->format, NULL));
+        AV_PASS(av->av_write_frame(file->format, NULL));
     }
     av->avio_flush(file->format->pb);
-    AV_TRY(file->format->pb->error);
+    AV_PASS(file->format->pb->error);
     file->whole = av->avio_seek(file->format->pb, 0, SEEK_CUR);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_movie_file_add(OzMovieFile *file, AVPacket *packet)
 {
-    OzStatus status = OZ_OK;
     AVRational frame = {file->rate.den, file->rate.num};
     packet->stream_index = file->stream->index;
     av->av_packet_rescale_ts(packet, frame, file->stream->time_base);
-    AV_TRY(av->av_write_frame(file->format, packet));
+    AV_PASS(av->av_write_frame(file->format, packet));
     if (file->is_chain) {
-        OZ_TRY(cut_fragment(file));
+        OZ_PASS(cut_fragment(file));
     }
     file->packets++;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_movie_file_sync(const char *path)
@@ -162,29 +158,25 @@ static bool is_formats_own(const char *key)
 /* The others, in their order. */
 static OzStatus copy_metadata(AVDictionary **metadata, const AVDictionary *all)
 {
-    OzStatus status = OZ_OK;
     const AVDictionaryEntry *entry = NULL;
     while ((entry = av->av_dict_get(all, "", entry, AV_DICT_IGNORE_SUFFIX))) {
         if (!is_formats_own(entry->key)) {
-            AV_TRY(av->av_dict_set(metadata, entry->key, entry->value, 0));
+            AV_PASS(av->av_dict_set(metadata, entry->key, entry->value, 0));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* The head of the stream in the form in which the encoder gives it. */
 static OzStatus replace_head(AVCodecParameters *parameters, const OzMovieCodec *codec)
 {
-    OzStatus status = OZ_OK;
     uint8_t *head = NULL;
-    AV_TRY_NEW(head, av->av_mallocz((size_t)codec->head_bytes + AV_INPUT_BUFFER_PADDING_SIZE));
+    AV_PASS_NEW(head, av->av_mallocz((size_t)codec->head_bytes + AV_INPUT_BUFFER_PADDING_SIZE));
     memcpy(head, codec->head, (size_t)codec->head_bytes);
     av->av_freep(&parameters->extradata);
     parameters->extradata = head;
     parameters->extradata_size = (int)codec->head_bytes;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* H.264 in an mp4 counts the bytes of each of a packet's parts before it; encoders put a mark there
@@ -225,17 +217,14 @@ static OzStatus fail_to_read(const Source *source, int code)
 
 static OzStatus open_source(Source *source)
 {
-    OzStatus status = OZ_OK;
     const AVInputFormat *mp4 = av->av_find_input_format("mp4");
-    AV_TRY_NEW(source->packet, av->av_packet_alloc());
+    AV_PASS_NEW(source->packet, av->av_packet_alloc());
     int code = av->avformat_open_input(&source->format, source->path, mp4, NULL);
     if (code < 0 || source->format->nb_streams != 1) {
-        status = fail_to_read(source, code < 0 ? code : AVERROR_INVALIDDATA);
-        goto done;
+        return fail_to_read(source, code < 0 ? code : AVERROR_INVALIDDATA);
     }
     source->stream = source->format->streams[0];
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void close_source(Source *source)
@@ -289,18 +278,16 @@ done:
 static OzStatus describe(AVCodecParameters **parameters, const Source *source,
                          const OzMovieCodec *codec, bool goes_on)
 {
-    OzStatus status = OZ_OK;
-    AV_TRY_NEW(*parameters, av->avcodec_parameters_alloc());
-    AV_TRY(av->avcodec_parameters_copy(*parameters, source->stream->codecpar));
+    AV_PASS_NEW(*parameters, av->avcodec_parameters_alloc());
+    AV_PASS(av->avcodec_parameters_copy(*parameters, source->stream->codecpar));
     (*parameters)->width = codec->width;
     (*parameters)->height = codec->height;
     (*parameters)->bit_rate =
         0; /* for the writer to count: of a chain it is that of a few frames */
     if (goes_on) {
-        OZ_TRY(replace_head(*parameters, codec));
+        OZ_PASS(replace_head(*parameters, codec));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_movie_file_copy(OzMovieFile *file, const char *path, const char *source, int64_t count,

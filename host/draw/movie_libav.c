@@ -11,8 +11,11 @@
 
 OzMovieLibav oz_movie_libav_table;
 
-OzStatus oz_movie_libav_fail(int code, const char *call, const char *file, int line)
+OzStatus oz_movie_libav_check(int code, const char *call, const char *file, int line)
 {
+    if (code >= 0) {
+        return OZ_OK;
+    }
     char reason[AV_ERROR_MAX_STRING_SIZE] = "unknown reason";
     const char *slash = strrchr(file, '/');
     av->av_strerror(code, reason, sizeof reason);
@@ -57,25 +60,23 @@ static OzStatus open_library(void **library, const char *name)
     return OZ_OK;
 }
 
-#define FIND(function)      OZ_TRY(find_function(library, #function, &oz_movie_libav_table.function));
+#define FIND(function)      OZ_PASS(find_function(library, #function, &oz_movie_libav_table.function));
 #define SONAME(name, major) "lib" name ".so." AV_STRINGIFY(major)
 
 /* The libraries stay open to the end of the process: they keep data of their own per thread. */
 static OzStatus load_libraries(void)
 {
-    OzStatus status = OZ_OK;
     void *library = NULL;
-    OZ_TRY(open_library(&library, SONAME("avutil", LIBAVUTIL_VERSION_MAJOR)));
+    OZ_PASS(open_library(&library, SONAME("avutil", LIBAVUTIL_VERSION_MAJOR)));
     OZ_AVUTIL_FUNCTIONS(FIND)
-    OZ_TRY(open_library(&library, SONAME("avcodec", LIBAVCODEC_VERSION_MAJOR)));
+    OZ_PASS(open_library(&library, SONAME("avcodec", LIBAVCODEC_VERSION_MAJOR)));
     OZ_AVCODEC_FUNCTIONS(FIND)
-    OZ_TRY(open_library(&library, SONAME("avformat", LIBAVFORMAT_VERSION_MAJOR)));
+    OZ_PASS(open_library(&library, SONAME("avformat", LIBAVFORMAT_VERSION_MAJOR)));
     OZ_AVFORMAT_FUNCTIONS(FIND)
-    OZ_TRY(open_library(&library, SONAME("swscale", LIBSWSCALE_VERSION_MAJOR)));
+    OZ_PASS(open_library(&library, SONAME("swscale", LIBSWSCALE_VERSION_MAJOR)));
     OZ_SWSCALE_FUNCTIONS(FIND)
     av->av_log_set_callback(take_log);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_movie_libav_load(void)

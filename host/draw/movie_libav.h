@@ -49,18 +49,14 @@ extern OzMovieLibav oz_movie_libav_table;
  * missing. */
 OzStatus oz_movie_libav_load(void);
 
-/* The failure of a call, with libav's reason for this code, as OZ_ERR_MOVIE. */
-OzStatus oz_movie_libav_fail(int code, const char *call, const char *file, int line);
+/* OZ_OK unless the code is negative; else fails with OZ_ERR_MOVIE, with libav's reason for it. */
+OzStatus oz_movie_libav_check(int code, const char *call, const char *file, int line);
 
 static const OzMovieLibav *const av = &oz_movie_libav_table;
 
-#define AV_TRY(call)                                                                               \
-    do {                                                                                           \
-        int av_code = (call);                                                                      \
-        if (av_code < 0) {                                                                         \
-            status = oz_movie_libav_fail(av_code, #call, __FILE__, __LINE__);                      \
-            goto done;                                                                             \
-        }                                                                                          \
-    } while (0)
+/* As OZ_TRY and OZ_PASS, for a call that returns its code. */
+#define AV_TRY(call)  OZ_TRY(oz_movie_libav_check((call), #call, __FILE__, __LINE__))
+#define AV_PASS(call) OZ_PASS(oz_movie_libav_check((call), #call, __FILE__, __LINE__))
 /* For what returns a pointer, NULL for out of memory. */
-#define AV_TRY_NEW(pointer, call) AV_TRY(((pointer) = (call)) ? 0 : AVERROR(ENOMEM))
+#define AV_TRY_NEW(pointer, call)  AV_TRY(((pointer) = (call)) ? 0 : AVERROR(ENOMEM))
+#define AV_PASS_NEW(pointer, call) AV_PASS(((pointer) = (call)) ? 0 : AVERROR(ENOMEM))

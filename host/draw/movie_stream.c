@@ -97,53 +97,45 @@ done:
 
 static OzStatus open_encoder(OzMovieStream *stream)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_movie_libav_load());
+    OZ_PASS(oz_movie_libav_load());
     stream->codec = (OzMovieCodec){.width = stream->image.width,
                                    .height = stream->image.height,
                                    .rate = av->av_d2q(stream->fps, 60000),
                                    .live_ticks = TICKS};
-    OZ_TRY(oz_movie_codec_choose(&stream->codec, NULL));
-    OZ_TRY(oz_movie_codec_open(&stream->codec));
-    OZ_TRY(open_format(stream));
-done:
-    return status;
+    OZ_PASS(oz_movie_codec_choose(&stream->codec, NULL));
+    OZ_PASS(oz_movie_codec_open(&stream->codec));
+    return open_format(stream);
 }
 
 /* Every packet that is ready, and with it all that the writer still holds. */
 static OzStatus drain(OzMovieStream *stream)
 {
-    OzStatus status = OZ_OK;
     AVPacket *packet = stream->codec.packet;
     for (bool any = true;;) {
-        OZ_TRY(oz_movie_codec_receive(&stream->codec, &any));
+        OZ_PASS(oz_movie_codec_receive(&stream->codec, &any));
         if (!any) {
             break;
         }
         packet->dts = packet->pts;
         packet->stream_index = 0;
-        AV_TRY(av->av_write_frame(stream->format, packet));
-        AV_TRY(av->av_write_frame(stream->format, NULL));
+        AV_PASS(av->av_write_frame(stream->format, packet));
+        AV_PASS(av->av_write_frame(stream->format, NULL));
         av->avio_flush(stream->format->pb);
-        AV_TRY(stream->format->pb->error);
+        AV_PASS(stream->format->pb->error);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus write_image(OzMovieStream *stream)
 {
-    OzStatus status = OZ_OK;
     if (!stream->format) {
-        OZ_TRY(open_encoder(stream));
+        OZ_PASS(open_encoder(stream));
         stream->first = oz_clock_now();
     }
     int64_t time = 1 + (int64_t)((oz_clock_now() - stream->first) * TICKS);
     stream->time = time > stream->time ? time : stream->time + 1;
-    OZ_TRY(oz_movie_codec_send(&stream->codec, &stream->image, stream->time));
-    OZ_TRY(drain(stream));
-done:
-    return status;
+    OZ_PASS(oz_movie_codec_send(&stream->codec, &stream->image, stream->time));
+    return drain(stream);
 }
 
 static void close_encoder(OzMovieStream *stream)

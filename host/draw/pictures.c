@@ -323,23 +323,21 @@ OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int p
 /* Loading makes the states, for these grains. */
 static OzStatus strobe_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     int64_t count = pictures->state_count;
-    OZ_TRY(oz_state_index(visit, "strobe_count", &count, 0, OZ_PICTURES_STATES));
+    OZ_PASS(oz_state_index(visit, "strobe_count", &count, 0, OZ_PICTURES_STATES));
     if (!pictures->states && count > 0) {
-        OZ_TRY(OZ_NEW(&pictures->states, OZ_PICTURES_STATES));
+        OZ_PASS(OZ_NEW(&pictures->states, OZ_PICTURES_STATES));
     }
     for (int64_t i = 0; i < count; i++) {
         if (i == pictures->state_count) {
-            OZ_TRY(oz_snapshot_create(&pictures->states[i], pictures->scene, grains));
+            OZ_PASS(oz_snapshot_create(&pictures->states[i], pictures->scene, grains));
             pictures->state_count++;
         }
         oz_state_enter_one(visit, "strobe", i);
-        OZ_TRY(oz_snapshot_state(&pictures->states[i], visit));
+        OZ_PASS(oz_snapshot_state(&pictures->states[i], visit));
         oz_state_leave(visit);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Loading takes up the movie that is there. */
@@ -356,27 +354,23 @@ done:
 
 static OzStatus caption_state(OzPictures *pictures, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_index(visit, "caption_frames", &pictures->caption_frames, 0, INT64_MAX));
-    OZ_TRY(oz_state_items(visit, "caption", "text", OZ_STATE_BYTES, pictures->caption,
-                          sizeof pictures->caption));
+    OZ_PASS(oz_state_index(visit, "caption_frames", &pictures->caption_frames, 0, INT64_MAX));
+    OZ_PASS(oz_state_items(visit, "caption", "text", OZ_STATE_BYTES, pictures->caption,
+                           sizeof pictures->caption));
     pictures->caption[sizeof pictures->caption - 1] = '\0';
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "pictures", 3));
-    OZ_TRY(oz_state_bool(visit, "has_frame", &pictures->has_frame));
-    OZ_TRY(oz_framing_state(&pictures->frame, visit));
-    OZ_TRY(caption_state(pictures, visit));
-    OZ_TRY(strobe_state(pictures, grains, visit));
-    OZ_TRY(movie_state(pictures, visit));
+    OZ_PASS(oz_state_enter(visit, "pictures", 3));
+    OZ_PASS(oz_state_bool(visit, "has_frame", &pictures->has_frame));
+    OZ_PASS(oz_framing_state(&pictures->frame, visit));
+    OZ_PASS(caption_state(pictures, visit));
+    OZ_PASS(strobe_state(pictures, grains, visit));
+    OZ_PASS(movie_state(pictures, visit));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_pictures_repeat(OzPictures *pictures)

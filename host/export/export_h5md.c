@@ -49,23 +49,19 @@ typedef struct Attribute {
 
 static OzStatus make_type(const OzHdf5 *h5, const char *text, hid_t *type)
 {
-    OzStatus status = OZ_OK;
-    OZ_H5_TRY(*type = h5->H5Tcopy(text ? *h5->H5T_C_S1_g : *h5->H5T_NATIVE_INT32_g));
+    OZ_H5_PASS(*type = h5->H5Tcopy(text ? *h5->H5T_C_S1_g : *h5->H5T_NATIVE_INT32_g));
     if (text) {
-        OZ_H5_TRY(h5->H5Tset_size(*type, strlen(text) + 1));
+        OZ_H5_PASS(h5->H5Tset_size(*type, strlen(text) + 1));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* A data space of one number, or of a row of count. */
 static OzStatus make_row(const OzHdf5 *h5, hsize_t count, hid_t *space)
 {
-    OzStatus status = OZ_OK;
-    OZ_H5_TRY(*space =
-                  count > 1 ? h5->H5Screate_simple(1, &count, NULL) : h5->H5Screate(H5S_SCALAR));
-done:
-    return status;
+    OZ_H5_PASS(*space =
+                   count > 1 ? h5->H5Screate_simple(1, &count, NULL) : h5->H5Screate(H5S_SCALAR));
+    return OZ_OK;
 }
 
 static OzStatus write_attribute(const OzHdf5 *h5, hid_t object, const Attribute *a)
@@ -184,16 +180,14 @@ static OzStatus make_times(const Writer *writer)
 static OzStatus link_times(const Writer *writer, const char *group)
 {
     static const char *const names[] = {"step", "time"};
-    OzStatus status = OZ_OK;
     char from[NAME_MOST], to[NAME_MOST + 8];
     for (int k = 0; k < 2; k++) {
         snprintf(from, sizeof from, "%s/position/%s", GRAINS, names[k]);
         snprintf(to, sizeof to, "%s/%s", group, names[k]);
-        OZ_H5_TRY(writer->h5->H5Lcreate_hard(writer->file, from, writer->file, to, H5P_DEFAULT,
-                                             H5P_DEFAULT));
+        OZ_H5_PASS(writer->h5->H5Lcreate_hard(writer->file, from, writer->file, to, H5P_DEFAULT,
+                                              H5P_DEFAULT));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Of a column: frames x grains x width where it changes, else grains x width; a width of 1 is no

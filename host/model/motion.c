@@ -162,32 +162,28 @@ void oz_motion_copy(OzScene *scene, const OzScene *from)
 
 static OzStatus shake_state(OzShake *shake, OzStateVisit *visit, const char *name)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, name, 1));
-    OZ_TRY(oz_state_double(visit, "since", "s", &shake->since, 1));
-    OZ_TRY(oz_state_double(visit, "halves", "half periods", &shake->halves, 1));
-    OZ_TRY(oz_state_double(visit, "amplitude", "m", &shake->amplitude, 1));
-    OZ_TRY(oz_state_double(visit, "frequency", "Hz", &shake->frequency, 1));
+    OZ_PASS(oz_state_enter(visit, name, 1));
+    OZ_PASS(oz_state_double(visit, "since", "s", &shake->since, 1));
+    OZ_PASS(oz_state_double(visit, "halves", "half periods", &shake->halves, 1));
+    OZ_PASS(oz_state_double(visit, "amplitude", "m", &shake->amplitude, 1));
+    OZ_PASS(oz_state_double(visit, "frequency", "Hz", &shake->frequency, 1));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     for (int w = 0; w < scene->wall_count; w++) {
         OzMotion *motion = &scene->walls[w].motion;
         oz_state_enter_one(visit, "wall", w);
-        OZ_TRY(shake_state(&motion->shake, visit, "shake"));
-        OZ_TRY(shake_state(&motion->before, visit, "before"));
-        OZ_TRY(oz_state_double(visit, "turned", "rad", &motion->turned, 1));
-        OZ_TRY(oz_state_double(visit, "turned_since", "s", &motion->turned_since, 1));
+        OZ_PASS(shake_state(&motion->shake, visit, "shake"));
+        OZ_PASS(shake_state(&motion->before, visit, "before"));
+        OZ_PASS(oz_state_double(visit, "turned", "rad", &motion->turned, 1));
+        OZ_PASS(oz_state_double(visit, "turned_since", "s", &motion->turned_since, 1));
         oz_state_leave(visit);
     }
     if (visit->is_loading) {
         derive_times(scene);
     }
-done:
-    return status;
+    return OZ_OK;
 }

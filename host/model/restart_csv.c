@@ -95,19 +95,17 @@ static OzStatus parse_number(const Reader *reader, const char *cell, double *val
 
 static OzStatus parse_row(const Reader *reader, const char *line, double row[OZ_BED_COLUMNS])
 {
-    OzStatus status = OZ_OK;
     const char *at = line;
     char cell[CELL_SIZE];
     int count = 0;
     for (; count < OZ_BED_COLUMNS && next_cell(&at, cell); count++) {
-        OZ_TRY(parse_number(reader, cell, &row[reader->place[count]]));
+        OZ_PASS(parse_number(reader, cell, &row[reader->place[count]]));
     }
     if (at || count < OZ_BED_COLUMNS) {
-        status = complain(reader, at ? "too many numbers" : "too few numbers",
-                          "20: " OZ_RESTART_CSV_HEADER);
+        return complain(reader, at ? "too many numbers" : "too few numbers",
+                        "20: " OZ_RESTART_CSV_HEADER);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus check_id(const Reader *reader, double id, int64_t count)

@@ -10,14 +10,11 @@
 
 static OzStatus create_elements(OzSnapshot *snapshot, int64_t count)
 {
-    OzStatus status = OZ_OK;
     snapshot->element_count = count;
-    OZ_TRY(OZ_NEW(&snapshot->element_position, 2 * count));
-    OZ_TRY(OZ_NEW(&snapshot->element_angle, count));
-    OZ_TRY(OZ_NEW(&snapshot->element_velocity, 2 * count));
-    OZ_TRY(OZ_NEW(&snapshot->element_angular_velocity, count));
-done:
-    return status;
+    OZ_PASS(OZ_NEW(&snapshot->element_position, 2 * count));
+    OZ_PASS(OZ_NEW(&snapshot->element_angle, count));
+    OZ_PASS(OZ_NEW(&snapshot->element_velocity, 2 * count));
+    return OZ_NEW(&snapshot->element_angular_velocity, count);
 }
 
 OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const OzGrains *grains)
@@ -81,9 +78,8 @@ static void copy_elements(OzSnapshot *copy, const OzSnapshot *snapshot)
 
 OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
     int64_t count = snapshot->count, walls = snapshot->scene->wall_count;
-    OZ_TRY(oz_snapshot_create(copy, snapshot->scene, snapshot->grains));
+    OZ_PASS(oz_snapshot_create(copy, snapshot->scene, snapshot->grains));
     copy_words(copy->position, snapshot->position, 3 * count);
     copy_words(copy->quaternion, snapshot->quaternion, 4 * count);
     copy_words(copy->axis, snapshot->axis, 3 * count);
@@ -97,8 +93,7 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy->has_ledger = snapshot->has_ledger;
     copy->ledger = snapshot->ledger;
     copy_elements(copy, snapshot);
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_snapshot_move_walls(OzSnapshot *snapshot)
@@ -178,34 +173,29 @@ void oz_snapshot_turn_axes(OzSnapshot *snapshot)
 
 static OzStatus elements_state(OzSnapshot *s, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     int64_t count = s->element_count;
-    OZ_TRY(oz_state_double(visit, "element_position", "m", s->element_position, 2 * count));
-    OZ_TRY(oz_state_double(visit, "element_angle", "rad", s->element_angle, count));
-    OZ_TRY(oz_state_double(visit, "element_velocity", "m/s", s->element_velocity, 2 * count));
-    OZ_TRY(oz_state_double(visit, "element_angular_velocity", "rad/s", s->element_angular_velocity,
-                           count));
-done:
-    return status;
+    OZ_PASS(oz_state_double(visit, "element_position", "m", s->element_position, 2 * count));
+    OZ_PASS(oz_state_double(visit, "element_angle", "rad", s->element_angle, count));
+    OZ_PASS(oz_state_double(visit, "element_velocity", "m/s", s->element_velocity, 2 * count));
+    return oz_state_double(visit, "element_angular_velocity", "rad/s", s->element_angular_velocity,
+                           count);
 }
 
 OzStatus oz_snapshot_state(OzSnapshot *s, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     int64_t walls = s->scene->wall_count;
-    OZ_TRY(oz_state_int64(visit, "step", "step", &s->step));
-    OZ_TRY(oz_state_double(visit, "time", "s", &s->time, 1));
-    OZ_TRY(oz_state_double(visit, "position", "m", s->position, 3 * s->count));
-    OZ_TRY(oz_state_double(visit, "quaternion", "none", s->quaternion, 4 * s->count));
-    OZ_TRY(oz_state_double(visit, "axis", "none", s->axis, 3 * s->count));
-    OZ_TRY(oz_state_double(visit, "velocity", "m/s", s->velocity, 3 * s->count));
-    OZ_TRY(oz_state_double(visit, "angular_velocity", "rad/s", s->angular_velocity, 3 * s->count));
-    OZ_TRY(oz_state_double(visit, "wall_offset", "m", s->wall_offset, walls));
-    OZ_TRY(oz_state_double(visit, "wall_velocity", "m/s", s->wall_velocity, walls));
-    OZ_TRY(oz_state_int64(visit, "deep_count", "none", &s->deep_count));
+    OZ_PASS(oz_state_int64(visit, "step", "step", &s->step));
+    OZ_PASS(oz_state_double(visit, "time", "s", &s->time, 1));
+    OZ_PASS(oz_state_double(visit, "position", "m", s->position, 3 * s->count));
+    OZ_PASS(oz_state_double(visit, "quaternion", "none", s->quaternion, 4 * s->count));
+    OZ_PASS(oz_state_double(visit, "axis", "none", s->axis, 3 * s->count));
+    OZ_PASS(oz_state_double(visit, "velocity", "m/s", s->velocity, 3 * s->count));
+    OZ_PASS(oz_state_double(visit, "angular_velocity", "rad/s", s->angular_velocity, 3 * s->count));
+    OZ_PASS(oz_state_double(visit, "wall_offset", "m", s->wall_offset, walls));
+    OZ_PASS(oz_state_double(visit, "wall_velocity", "m/s", s->wall_velocity, walls));
+    OZ_PASS(oz_state_int64(visit, "deep_count", "none", &s->deep_count));
     if (s->element_count > 0) {
-        OZ_TRY(elements_state(s, visit));
+        OZ_PASS(elements_state(s, visit));
     }
-done:
-    return status;
+    return OZ_OK;
 }

@@ -40,12 +40,10 @@ void oz_step_clock_change(OzStepClock *clock, int64_t step, double dt)
 
 OzStatus oz_step_clock_state(OzStepClock *clock, OzStateVisit *visit, const char *name)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, name, 1));
-    OZ_TRY(oz_state_int64(visit, "first", "step", &clock->first));
-    OZ_TRY(oz_state_double(visit, "start", "s", &clock->start, 1));
-    OZ_TRY(oz_state_double(visit, "dt", "s", &clock->dt, 1));
+    OZ_PASS(oz_state_enter(visit, name, 1));
+    OZ_PASS(oz_state_int64(visit, "first", "step", &clock->first));
+    OZ_PASS(oz_state_double(visit, "start", "s", &clock->start, 1));
+    OZ_PASS(oz_state_double(visit, "dt", "s", &clock->dt, 1));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }

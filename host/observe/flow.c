@@ -54,16 +54,14 @@ static void see_fall(OzFlow *flow)
 
 static OzStatus keep_sample(OzFlow *flow)
 {
-    OzStatus status = OZ_OK;
     if (flow->sample_count == flow->sample_capacity) {
         int64_t wanted = flow->sample_capacity ? 2 * flow->sample_capacity : 256;
-        OZ_TRY(oz_memory_grow((void **)&flow->samples, (size_t)flow->sample_capacity,
-                              (size_t)wanted, sizeof *flow->samples, "inclinations"));
+        OZ_PASS(oz_memory_grow((void **)&flow->samples, (size_t)flow->sample_capacity,
+                               (size_t)wanted, sizeof *flow->samples, "inclinations"));
         flow->sample_capacity = wanted;
     }
     flow->samples[flow->sample_count++] = (OzFlowSample){flow->surface, flow->centre};
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void average(OzFlow *flow)
@@ -85,7 +83,6 @@ static void average(OzFlow *flow)
  * cannot be told is as it was. */
 static OzStatus see_drum(OzFlow *flow, const OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
     double surface = 0, centre = 0, interval = snapshot->scene->observe.interval;
     bool even = flow->sample_count == 0 || snapshot->time - flow->sample_time > 0.99 * interval;
     flow->has_surface = oz_inclination_surface(snapshot, &surface);
@@ -94,25 +91,22 @@ static OzStatus see_drum(OzFlow *flow, const OzSnapshot *snapshot)
     flow->centre = flow->has_centre ? DEGREES * centre : flow->centre;
     if (flow->has_centre && (flow->has_surface || flow->sample_count > 0) && even) {
         see_fall(flow);
-        OZ_TRY(keep_sample(flow));
+        OZ_PASS(keep_sample(flow));
         average(flow);
         flow->sample_time = snapshot->time;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_flow_see(OzFlow *flow, const OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
     see_outflow(flow, snapshot);
     if (oz_inclination_applies(snapshot->scene)) {
-        OZ_TRY(see_drum(flow, snapshot));
+        OZ_PASS(see_drum(flow, snapshot));
     }
     flow->seen = true;
     flow->last_time = snapshot->time;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* The later half of one of a sample's values; the caller frees. */
@@ -171,48 +165,40 @@ void oz_flow_free(OzFlow *flow)
 
 static OzStatus samples_state(OzFlow *flow, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     int64_t numbers = 2 * flow->sample_count;
     _Static_assert(sizeof *flow->samples == 2 * sizeof(double), "a sample is two numbers");
-    OZ_TRY(oz_state_array(visit, "samples", "degrees, of surface and centre in turn",
-                          OZ_STATE_DOUBLE, &flow->samples, &numbers));
+    OZ_PASS(oz_state_array(visit, "samples", "degrees, of surface and centre in turn",
+                           OZ_STATE_DOUBLE, &flow->samples, &numbers));
     if (numbers % 2 != 0) {
-        status = oz_status_fail(OZ_ERR_INPUT, "state: half a sample of a drum's inclination");
-        goto done;
+        return oz_status_fail(OZ_ERR_INPUT, "state: half a sample of a drum's inclination");
     }
     flow->sample_count = numbers / 2;
     flow->sample_capacity = visit->is_loading ? numbers / 2 : flow->sample_capacity;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus outflow_state(OzFlow *flow, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_bool(visit, "seen", &flow->seen));
-    OZ_TRY(oz_state_double(visit, "last_time", "s", &flow->last_time, 1));
-    OZ_TRY(oz_state_double(visit, "out_mass", "kg", &flow->out_mass, 1));
-done:
-    return status;
+    OZ_PASS(oz_state_bool(visit, "seen", &flow->seen));
+    OZ_PASS(oz_state_double(visit, "last_time", "s", &flow->last_time, 1));
+    return oz_state_double(visit, "out_mass", "kg", &flow->out_mass, 1);
 }
 
 OzStatus oz_flow_state(OzFlow *flow, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "flow", 1));
-    OZ_TRY(outflow_state(flow, visit));
-    OZ_TRY(samples_state(flow, visit));
-    OZ_TRY(oz_state_double(visit, "sample_time", "s", &flow->sample_time, 1));
-    OZ_TRY(oz_state_double(visit, "surface", "degrees", &flow->surface, 1));
-    OZ_TRY(oz_state_double(visit, "centre", "degrees", &flow->centre, 1));
-    OZ_TRY(oz_state_double(visit, "mean", "degrees", &flow->mean, 1));
-    OZ_TRY(oz_state_double(visit, "deviation", "degrees", &flow->deviation, 1));
-    OZ_TRY(oz_state_int64(visit, "avalanche_count", "none", &flow->avalanche_count));
-    OZ_TRY(oz_state_double(visit, "avalanche_size", "degrees", &flow->avalanche_size, 1));
-    OZ_TRY(oz_state_bool(visit, "is_falling", &flow->is_falling));
-    OZ_TRY(oz_state_double(visit, "highest", "degrees", &flow->highest, 1));
-    OZ_TRY(oz_state_double(visit, "lowest", "degrees", &flow->lowest, 1));
+    OZ_PASS(oz_state_enter(visit, "flow", 1));
+    OZ_PASS(outflow_state(flow, visit));
+    OZ_PASS(samples_state(flow, visit));
+    OZ_PASS(oz_state_double(visit, "sample_time", "s", &flow->sample_time, 1));
+    OZ_PASS(oz_state_double(visit, "surface", "degrees", &flow->surface, 1));
+    OZ_PASS(oz_state_double(visit, "centre", "degrees", &flow->centre, 1));
+    OZ_PASS(oz_state_double(visit, "mean", "degrees", &flow->mean, 1));
+    OZ_PASS(oz_state_double(visit, "deviation", "degrees", &flow->deviation, 1));
+    OZ_PASS(oz_state_int64(visit, "avalanche_count", "none", &flow->avalanche_count));
+    OZ_PASS(oz_state_double(visit, "avalanche_size", "degrees", &flow->avalanche_size, 1));
+    OZ_PASS(oz_state_bool(visit, "is_falling", &flow->is_falling));
+    OZ_PASS(oz_state_double(visit, "highest", "degrees", &flow->highest, 1));
+    OZ_PASS(oz_state_double(visit, "lowest", "degrees", &flow->lowest, 1));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }

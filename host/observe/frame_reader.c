@@ -118,9 +118,8 @@ static bool grain_is_sound(const OzGrains *grains, int64_t i)
 
 static OzStatus unpack_grains(const OzFrames *frames, OzGrains *grains, OzBytes *from)
 {
-    OzStatus status = OZ_OK;
     size_t column = (size_t)frames->count * sizeof(double);
-    OZ_TRY(oz_grains_create(grains, frames->count));
+    OZ_PASS(oz_grains_create(grains, frames->count));
     oz_bytes_unpack(from, grains->diameter, column);
     oz_bytes_unpack(from, grains->length, column);
     oz_bytes_unpack(from, grains->mass, column);
@@ -129,8 +128,7 @@ static OzStatus unpack_grains(const OzFrames *frames, OzGrains *grains, OzBytes 
         oz_bytes_unpack(from, &population, sizeof population);
         grains->population[i] = population;
         if (!grain_is_sound(grains, i)) {
-            status = refuse(frames, "damaged: impossible size or mass of a grain");
-            goto done;
+            return refuse(frames, "damaged: impossible size or mass of a grain");
         }
         double mass = grains->mass[i];
         oz_grains_set_mass(grains, i,
@@ -138,19 +136,16 @@ static OzStatus unpack_grains(const OzFrames *frames, OzGrains *grains, OzBytes 
         grains->mass[i] = mass; /* the value itself, not its rounded product */
         grains->quaternion[4 * i] = 1;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus unpack_elements(const OzFrames *frames, OzGrains *grains, OzBytes *from)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_elements_create(&grains->elements, &frames->elements));
+    OZ_PASS(oz_elements_create(&grains->elements, &frames->elements));
     if (!oz_frame_elements_unpack_static(from, grains->elements)) {
-        status = refuse(frames, "damaged: impossible elements of grains or walls");
+        return refuse(frames, "damaged: impossible elements of grains or walls");
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus read_static(OzFrames *frames, OzGrains *grains)

@@ -78,16 +78,14 @@ done:
 
 OzStatus oz_frames_open_file(OzFrames **frames, const char *path, const char *mode)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(OZ_NEW(frames, 1));
-    OZ_TRY(oz_memory_text(&(*frames)->path, path));
+    OZ_PASS(OZ_NEW(frames, 1));
+    OZ_PASS(oz_memory_text(&(*frames)->path, path));
     (*frames)->file = fopen(path, mode);
     if (!(*frames)->file) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot %s %s: %s", mode[0] == 'w' ? "write" : "read",
-                                path, strerror(errno));
+        return oz_status_fail(OZ_ERR_FILE, "cannot %s %s: %s", mode[0] == 'w' ? "write" : "read",
+                              path, strerror(errno));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_frames_make_room(OzFrames *frames, size_t bytes)
@@ -138,15 +136,13 @@ OzStatus oz_frames_go_on(OzFrames **frames, const char *path, const OzScene *sce
 
 OzStatus oz_frames_state(OzFrames *frames, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "frames", 1));
-    OZ_TRY(oz_state_index(visit, "file_bytes", &frames->whole, 0, INT64_MAX));
+    OZ_PASS(oz_state_enter(visit, "frames", 1));
+    OZ_PASS(oz_state_index(visit, "file_bytes", &frames->whole, 0, INT64_MAX));
     oz_state_leave(visit);
     if (visit->is_loading) {
-        status = oz_file_go_on(frames->file, frames->whole, frames->path);
+        return oz_file_go_on(frames->file, frames->whole, frames->path);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 uint32_t oz_frames_check(uint64_t bytes, uint32_t purpose)

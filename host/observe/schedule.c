@@ -325,35 +325,31 @@ bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
 
 static OzStatus track_state(OzTrack *track, OzStateVisit *visit, const char *name, int kind)
 {
-    OzStatus status = OZ_OK;
     oz_state_enter_one(visit, name, kind);
-    OZ_TRY(oz_state_double(visit, "from", "s", &track->from, 1));
-    OZ_TRY(oz_state_double(visit, "interval", "s", &track->interval, 1));
-    OZ_TRY(oz_state_index(visit, "count", &track->count, 0, INT64_MAX));
+    OZ_PASS(oz_state_double(visit, "from", "s", &track->from, 1));
+    OZ_PASS(oz_state_double(visit, "interval", "s", &track->interval, 1));
+    OZ_PASS(oz_state_index(visit, "count", &track->count, 0, INT64_MAX));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_schedule_state(OzSchedule *s, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     int64_t snapshots = s->snapshots, kept = s->kept;
     double checkpoint = s->track[OZ_TRACK_CHECKPOINT].interval;
-    OZ_TRY(oz_state_enter(visit, "schedule", 5));
-    OZ_TRY(oz_step_clock_state(&s->clock, visit, "clock"));
+    OZ_PASS(oz_state_enter(visit, "schedule", 5));
+    OZ_PASS(oz_step_clock_state(&s->clock, visit, "clock"));
     for (int k = 0; k < OZ_TRACKS; k++) {
-        OZ_TRY(track_state(&s->track[k], visit, "track", k));
-        OZ_TRY(track_state(&s->later[k], visit, "later", k));
+        OZ_PASS(track_state(&s->track[k], visit, "track", k));
+        OZ_PASS(track_state(&s->later[k], visit, "later", k));
     }
     s->track[OZ_TRACK_CHECKPOINT].interval = checkpoint;
-    OZ_TRY(oz_state_double(visit, "turn", "s", &s->turn, 1));
-    OZ_TRY(oz_state_bool(visit, "begun", &s->begun));
-    OZ_TRY(oz_state_index(visit, "snapshots", &snapshots, 0, s->scene->snapshots.count));
-    OZ_TRY(oz_state_index(visit, "kept", &kept, 0, INT64_MAX));
+    OZ_PASS(oz_state_double(visit, "turn", "s", &s->turn, 1));
+    OZ_PASS(oz_state_bool(visit, "begun", &s->begun));
+    OZ_PASS(oz_state_index(visit, "snapshots", &snapshots, 0, s->scene->snapshots.count));
+    OZ_PASS(oz_state_index(visit, "kept", &kept, 0, INT64_MAX));
     oz_state_leave(visit);
     s->snapshots = (int)snapshots;
     s->kept = (int)earlier(kept, s->scene->checkpoint.count);
-done:
-    return status;
+    return OZ_OK;
 }

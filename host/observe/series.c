@@ -141,34 +141,29 @@ OzStatus oz_series_go_on(OzSeries **series, const char *path, const OzScene *sce
 
 static OzStatus ring_state(Ring *ring, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_index(visit, "count", &ring->count, 0, ring->capacity));
-    OZ_TRY(oz_state_index(visit, "next", &ring->next, 0, ring->capacity - 1));
-    OZ_TRY(oz_state_double(visit, "value", "as the column", ring->value, ring->capacity));
-done:
-    return status;
+    OZ_PASS(oz_state_index(visit, "count", &ring->count, 0, ring->capacity));
+    OZ_PASS(oz_state_index(visit, "next", &ring->next, 0, ring->capacity - 1));
+    return oz_state_double(visit, "value", "as the column", ring->value, ring->capacity);
 }
 
 OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "series", 1));
-    OZ_TRY(oz_state_index(visit, "file_bytes", &series->whole, 0, INT64_MAX));
-    OZ_TRY(oz_state_bool(visit, "has_start", &series->has_start));
-    OZ_TRY(oz_state_double(visit, "energy_start", "J", &series->energy_start, 1));
+    OZ_PASS(oz_state_enter(visit, "series", 1));
+    OZ_PASS(oz_state_index(visit, "file_bytes", &series->whole, 0, INT64_MAX));
+    OZ_PASS(oz_state_bool(visit, "has_start", &series->has_start));
+    OZ_PASS(oz_state_double(visit, "energy_start", "J", &series->energy_start, 1));
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         oz_state_enter_one(visit, "mean", k);
-        OZ_TRY(ring_state(&series->mean[k], visit));
+        OZ_PASS(ring_state(&series->mean[k], visit));
         oz_state_leave(visit);
     }
-    OZ_TRY(oz_surplus_state(&series->surplus, visit));
-    OZ_TRY(oz_flow_state(&series->flow, visit));
+    OZ_PASS(oz_surplus_state(&series->surplus, visit));
+    OZ_PASS(oz_flow_state(&series->flow, visit));
     oz_state_leave(visit);
     if (visit->is_loading) {
-        status = oz_file_go_on(series->file, series->whole, series->path);
+        return oz_file_go_on(series->file, series->whole, series->path);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_series_take(OzSeries *series)

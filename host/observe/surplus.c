@@ -109,12 +109,10 @@ OzStatus oz_surplus_check(OzSurplus *surplus, const OzSnapshot *snapshot)
 
 OzStatus oz_surplus_state(OzSurplus *surplus, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "surplus", 1));
-    OZ_TRY(oz_state_bool(visit, "has_start", &surplus->has_start));
-    OZ_TRY(oz_state_double(visit, "start", "J", &surplus->start, 1));
-    OZ_TRY(oz_state_double(visit, "scale", "J", &surplus->scale, 1));
+    OZ_PASS(oz_state_enter(visit, "surplus", 1));
+    OZ_PASS(oz_state_bool(visit, "has_start", &surplus->has_start));
+    OZ_PASS(oz_state_double(visit, "start", "J", &surplus->start, 1));
+    OZ_PASS(oz_state_double(visit, "scale", "J", &surplus->scale, 1));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }

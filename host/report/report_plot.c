@@ -196,7 +196,6 @@ static void send_picture(FILE *gnuplot, const char *terminal, const char *path, 
 OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzReportPoint *points,
                              int count)
 {
-    OzStatus status = OZ_OK;
     char path[1024], name[2][1024];
     if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
         oz_log_line("no pictures in %s: gnuplot is not installed", folder);
@@ -207,8 +206,8 @@ OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzRep
     }
     snprintf(name[0], sizeof name[0], "%s.png", points[0].scene);
     snprintf(name[1], sizeof name[1], "%s.svg", points[0].scene);
-    OZ_TRY(oz_folder_note(folder, name[0]));
-    OZ_TRY(oz_folder_note(folder, name[1]));
+    OZ_PASS(oz_folder_note(folder, name[0]));
+    OZ_PASS(oz_folder_note(folder, name[1]));
     FILE *gnuplot = popen("gnuplot", "w");
     if (!gnuplot) {
         return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
@@ -219,8 +218,7 @@ OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzRep
         send_picture(gnuplot, i == 0 ? "pngcairo" : "svg", path, device, points, count);
     }
     if (pclose(gnuplot) != 0) {
-        status = oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s", path);
+        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s", path);
     }
-done:
-    return status;
+    return OZ_OK;
 }

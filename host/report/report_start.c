@@ -58,23 +58,21 @@ static OzStatus find_hit(double *cycle, const OzScene *scene, const OzGrains *gr
 
 static OzStatus find_cycle(OzReportStart *start)
 {
-    OzStatus status = OZ_OK;
     OzBeamLimit limit;
     start->cycle_name = start->is_flat ? "period" : "contact";
     if (start->is_flat) {
-        OZ_TRY(oz_beam_limits_find(&limit, &start->scene, &start->grains));
+        OZ_PASS(oz_beam_limits_find(&limit, &start->scene, &start->grains));
         start->cycle = limit.rate > 0 ? 8 * atan(1) / limit.rate : 0;
     } else {
-        OZ_TRY(find_hit(&start->cycle, &start->scene, &start->grains));
+        OZ_PASS(find_hit(&start->cycle, &start->scene, &start->grains));
     }
     if (!(start->cycle > 0)) {
-        status = oz_status_fail(OZ_ERR_INPUT,
-                                "%s: nothing can touch here, any step is right; expected two "
-                                "grains, or a grain and a wall",
-                                start->scene.path);
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: nothing can touch here, any step is right; expected two "
+                              "grains, or a grain and a wall",
+                              start->scene.path);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus load(OzReportStart *start, const char *path, const OzOptions *options)

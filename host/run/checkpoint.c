@@ -26,28 +26,26 @@ void oz_checkpoint_head_free(OzCheckpointHead *head)
 
 OzStatus oz_checkpoint_head_state(OzCheckpointHead *head, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "run", 2));
-    OZ_TRY(oz_state_text(visit, "program", &head->version));
-    OZ_TRY(oz_state_text(visit, "device", &head->device));
-    OZ_TRY(oz_state_text(visit, "device_asked", &head->device_asked));
-    OZ_TRY(oz_state_text(visit, "scene_name", &head->name));
-    OZ_TRY(oz_state_text(visit, "origin", &head->origin));
-    OZ_TRY(oz_state_text(visit, "settings", &head->settings));
-    OZ_TRY(oz_state_index(visit, "first", &head->first, 0, INT64_MAX));
-    OZ_TRY(oz_state_index(visit, "count", &head->count, 1, INT32_MAX));
-    OZ_TRY(oz_state_int64(visit, "seed_first", "none", &head->seed_first));
-    OZ_TRY(oz_state_int64(visit, "seed_last", "none", &head->seed_last));
-    OZ_TRY(oz_state_int(visit, "threads", "none", &head->threads));
-    OZ_TRY(oz_state_int(visit, "own_settings", "none", &head->own_settings));
-    OZ_TRY(oz_state_bool(visit, "has_seeds", &head->has_seeds));
-    OZ_TRY(oz_state_bool(visit, "no_video", &head->no_video));
-    OZ_TRY(oz_state_bool(visit, "settles", &head->settles));
-    OZ_TRY(oz_state_int64(visit, "step", "step", &head->step));
-    OZ_TRY(oz_state_double(visit, "time", "s", &head->time, 1));
+    OZ_PASS(oz_state_enter(visit, "run", 2));
+    OZ_PASS(oz_state_text(visit, "program", &head->version));
+    OZ_PASS(oz_state_text(visit, "device", &head->device));
+    OZ_PASS(oz_state_text(visit, "device_asked", &head->device_asked));
+    OZ_PASS(oz_state_text(visit, "scene_name", &head->name));
+    OZ_PASS(oz_state_text(visit, "origin", &head->origin));
+    OZ_PASS(oz_state_text(visit, "settings", &head->settings));
+    OZ_PASS(oz_state_index(visit, "first", &head->first, 0, INT64_MAX));
+    OZ_PASS(oz_state_index(visit, "count", &head->count, 1, INT32_MAX));
+    OZ_PASS(oz_state_int64(visit, "seed_first", "none", &head->seed_first));
+    OZ_PASS(oz_state_int64(visit, "seed_last", "none", &head->seed_last));
+    OZ_PASS(oz_state_int(visit, "threads", "none", &head->threads));
+    OZ_PASS(oz_state_int(visit, "own_settings", "none", &head->own_settings));
+    OZ_PASS(oz_state_bool(visit, "has_seeds", &head->has_seeds));
+    OZ_PASS(oz_state_bool(visit, "no_video", &head->no_video));
+    OZ_PASS(oz_state_bool(visit, "settles", &head->settles));
+    OZ_PASS(oz_state_int64(visit, "step", "step", &head->step));
+    OZ_PASS(oz_state_double(visit, "time", "s", &head->time, 1));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* A plain run's own are in its scene.yaml already. */

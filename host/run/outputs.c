@@ -241,17 +241,16 @@ done:
 
 OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     bool is_open = o->is_open;
     int outcome = (int)o->outcome, loss = (int)o->loss;
-    OZ_TRY(oz_state_enter(visit, "outputs", 3));
-    OZ_TRY(identity_state(o, visit));
-    OZ_TRY(oz_state_bool(visit, "is_open", &is_open));
-    OZ_TRY(oz_state_int(visit, "outcome", "none", &outcome));
-    OZ_TRY(oz_state_int(visit, "loss", "none", &loss));
+    OZ_PASS(oz_state_enter(visit, "outputs", 3));
+    OZ_PASS(identity_state(o, visit));
+    OZ_PASS(oz_state_bool(visit, "is_open", &is_open));
+    OZ_PASS(oz_state_int(visit, "outcome", "none", &outcome));
+    OZ_PASS(oz_state_int(visit, "loss", "none", &loss));
 #define VISIT(type, member, state, close)                                                          \
     if (is_open && o->member) {                                                                    \
-        OZ_TRY(state);                                                                             \
+        OZ_PASS(state);                                                                            \
     }
     OZ_OUTPUTS_OWNERS(VISIT)
 #undef VISIT
@@ -259,10 +258,9 @@ OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
     o->outcome = (OzOutcome)outcome;
     o->loss = (OzStatus)loss;
     if (o->is_open && !is_open) {
-        OZ_TRY(oz_outputs_close(o));
+        OZ_PASS(oz_outputs_close(o));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What the scene asks for, of the frames that are stored by now. */

@@ -19,21 +19,19 @@ static void take_phases(OzWorker *worker)
 
 OzStatus oz_worker_state_visit(OzWorker *worker, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "worker", 2));
-    OZ_TRY(oz_schedule_state(worker->is_due ? &worker->before : &worker->schedule, visit));
-    OZ_TRY(oz_sim_state_visit(worker->sim, visit));
+    OZ_PASS(oz_state_enter(visit, "worker", 2));
+    OZ_PASS(oz_schedule_state(worker->is_due ? &worker->before : &worker->schedule, visit));
+    OZ_PASS(oz_sim_state_visit(worker->sim, visit));
     if (visit->is_loading) {
         take_phases(worker);
     }
     for (int64_t m = 0; m < worker->member_count; m++) {
         oz_state_enter_one(visit, "member", m);
-        OZ_TRY(oz_outputs_state(worker->members[m], visit));
+        OZ_PASS(oz_outputs_state(worker->members[m], visit));
         oz_state_leave(visit);
     }
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus check_taken(const OzWorker *worker, const char *device)

@@ -233,22 +233,20 @@ static OzStatus build(Builder *builder, OzNode **node, int depth)
 
 static OzStatus build_stream(Builder *builder, OzNode **root)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(advance(builder)); /* the stream's start */
-    OZ_TRY(advance(builder));
+    OZ_PASS(advance(builder)); /* the stream's start */
+    OZ_PASS(advance(builder));
     if (builder->event.type == YAML_STREAM_END_EVENT) {
-        goto done;
+        return OZ_OK;
     }
-    OZ_TRY(advance(builder)); /* past the document's start */
-    OZ_TRY(build(builder, root, 1));
-    OZ_TRY(advance(builder)); /* the document's end */
-    OZ_TRY(advance(builder));
+    OZ_PASS(advance(builder)); /* past the document's start */
+    OZ_PASS(build(builder, root, 1));
+    OZ_PASS(advance(builder)); /* the document's end */
+    OZ_PASS(advance(builder));
     if (builder->event.type != YAML_STREAM_END_EVENT) {
-        status = STOP(builder, line_of(builder->event.start_mark),
-                      "a second document begins here; expected one scene in a file");
+        return STOP(builder, line_of(builder->event.start_mark),
+                    "a second document begins here; expected one scene in a file");
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_document_parse(OzNode **root, const char *text, size_t length, const OzSource *source,

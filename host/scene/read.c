@@ -376,18 +376,16 @@ static OzStatus stop_at_model(const Reader *reader, const Place *place)
 
 OzStatus oz_read_scene(OzScene *scene, OzNode *root, OzFaults *faults)
 {
-    OzStatus status = OZ_OK;
     Place place = {scene, "", root, ~0u, ~0u};
     Reader reader = begin(scene, root, faults);
     oz_layers_drop(root, reader.model);
-    OZ_TRY(read_defaults(&reader, "", scene));
-    OZ_TRY(read_map(&reader, root, &place, false));
+    OZ_PASS(read_defaults(&reader, "", scene));
+    OZ_PASS(read_map(&reader, root, &place, false));
     inherit(&reader, &place);
-    OZ_TRY(read_map(&reader, root, &place, true));
+    OZ_PASS(read_map(&reader, root, &place, true));
     check_required(&reader, &place);
     if (reader.confused) {
-        status = stop_at_model(&reader, &place);
+        return stop_at_model(&reader, &place);
     }
-done:
-    return status;
+    return OZ_OK;
 }

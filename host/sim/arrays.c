@@ -67,15 +67,13 @@ void oz_arrays_free(OzArrays *arrays)
 static OzStatus copy_rows(const OzArrays *arrays, cl_mem from, size_t from_bytes, cl_mem to,
                           size_t to_bytes)
 {
-    OzStatus status = OZ_OK;
     const OzSizesHead *sizes = arrays->sizes;
     size_t rows = (size_t)sizes->regions * (size_t)sizes->members;
     size_t from_row = from_bytes / rows, to_row = to_bytes / rows;
     size_t region[3] = {from_row < to_row ? from_row : to_row, rows, 1}, origin[3] = {0, 0, 0};
-    CL_TRY(clEnqueueCopyBufferRect(arrays->device->queue, from, to, origin, origin, region,
-                                   from_row, 0, to_row, 0, 0, NULL, NULL));
-done:
-    return status;
+    CL_PASS(clEnqueueCopyBufferRect(arrays->device->queue, from, to, origin, origin, region,
+                                    from_row, 0, to_row, 0, 0, NULL, NULL));
+    return OZ_OK;
 }
 
 static OzStatus resize_field(OzArrays *arrays, int field, const void *sizes)
@@ -105,13 +103,11 @@ done:
 
 OzStatus oz_arrays_resize(OzArrays *arrays, const void *sizes)
 {
-    OzStatus status = OZ_OK;
     for (int f = 0; f < arrays->model->field_count; f++) {
-        OZ_TRY(resize_field(arrays, f, sizes));
+        OZ_PASS(resize_field(arrays, f, sizes));
     }
     memcpy(arrays->sizes, sizes, arrays->model->sizes_bytes);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_arrays_write(OzArrays *arrays, int field, int member, const void *data, size_t bytes)
@@ -168,13 +164,11 @@ done:
 
 OzStatus oz_arrays_bind(const OzArrays *arrays, cl_kernel kernel, cl_uint *next)
 {
-    OzStatus status = OZ_OK;
     cl_uint count = (cl_uint)arrays->model->field_count;
-    OZ_TRY(oz_buffers_bind(arrays->buffer, (int)count, kernel));
-    CL_TRY(clSetKernelArg(kernel, count, arrays->model->sizes_bytes, arrays->sizes));
+    OZ_PASS(oz_buffers_bind(arrays->buffer, (int)count, kernel));
+    CL_PASS(clSetKernelArg(kernel, count, arrays->model->sizes_bytes, arrays->sizes));
     *next = count + 1;
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_arrays_print(const OzModel *model, const void *switches, const void *sizes,

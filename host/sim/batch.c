@@ -21,23 +21,21 @@ static void begin_clocks(OzBatch *batch)
 
 OzStatus oz_batch_create(OzBatch *batch, const OzMember *members, int member_count)
 {
-    OzStatus status = OZ_OK;
     *batch = (OzBatch){.member_count = member_count, .launch_steps = FIRST_LAUNCH};
-    OZ_TRY(OZ_NEW(&batch->members, member_count));
-    OZ_TRY(OZ_NEW(&batch->reached, member_count));
-    OZ_TRY(OZ_NEW(&batch->clock, member_count));
-    OZ_TRY(OZ_NEW(&batch->waits, member_count));
-    OZ_TRY(OZ_NEW(&batch->stopped, member_count));
-    OZ_TRY(OZ_NEW(&batch->deep_count, member_count));
-    OZ_TRY(OZ_NEW(&batch->deep_told, member_count));
-    OZ_TRY(OZ_NEW(&batch->scenes, member_count));
+    OZ_PASS(OZ_NEW(&batch->members, member_count));
+    OZ_PASS(OZ_NEW(&batch->reached, member_count));
+    OZ_PASS(OZ_NEW(&batch->clock, member_count));
+    OZ_PASS(OZ_NEW(&batch->waits, member_count));
+    OZ_PASS(OZ_NEW(&batch->stopped, member_count));
+    OZ_PASS(OZ_NEW(&batch->deep_count, member_count));
+    OZ_PASS(OZ_NEW(&batch->deep_told, member_count));
+    OZ_PASS(OZ_NEW(&batch->scenes, member_count));
     for (int m = 0; m < member_count; m++) {
-        OZ_TRY(oz_scene_copy(&batch->scenes[m], members[m].scene));
+        OZ_PASS(oz_scene_copy(&batch->scenes[m], members[m].scene));
         batch->members[m] = (OzMember){&batch->scenes[m], members[m].grains};
     }
     begin_clocks(batch);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_batch_take_scene(OzBatch *batch, int member, const OzScene *scene)
@@ -152,33 +150,29 @@ void oz_batch_start_clock(OzBatch *batch)
 
 static OzStatus member_state(OzBatch *batch, int m, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     oz_state_enter_one(visit, "member", m);
-    OZ_TRY(oz_state_int64(visit, "reached", "step", &batch->reached[m]));
-    OZ_TRY(oz_step_clock_state(&batch->clock[m], visit, "clock"));
-    OZ_TRY(oz_state_bool(visit, "waits", &batch->waits[m]));
-    OZ_TRY(oz_state_text(visit, "stopped", &batch->stopped[m]));
-    OZ_TRY(oz_state_int64(visit, "deep_count", "none", &batch->deep_count[m]));
-    OZ_TRY(oz_state_bool(visit, "deep_told", &batch->deep_told[m]));
+    OZ_PASS(oz_state_int64(visit, "reached", "step", &batch->reached[m]));
+    OZ_PASS(oz_step_clock_state(&batch->clock[m], visit, "clock"));
+    OZ_PASS(oz_state_bool(visit, "waits", &batch->waits[m]));
+    OZ_PASS(oz_state_text(visit, "stopped", &batch->stopped[m]));
+    OZ_PASS(oz_state_int64(visit, "deep_count", "none", &batch->deep_count[m]));
+    OZ_PASS(oz_state_bool(visit, "deep_told", &batch->deep_told[m]));
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_batch_state(OzBatch *batch, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     int64_t settling = batch->settling;
-    OZ_TRY(oz_state_enter(visit, "batch", 1));
-    OZ_TRY(oz_state_int64(visit, "step", "step", &batch->step));
-    OZ_TRY(oz_state_bool(visit, "walls_still", &batch->walls_still));
-    OZ_TRY(oz_state_index(visit, "settling", &settling, OZ_SETTLING_AHEAD, OZ_SETTLING_OVER));
-    OZ_TRY(oz_state_int64(visit, "settling_last", "step", &batch->settling_last));
+    OZ_PASS(oz_state_enter(visit, "batch", 1));
+    OZ_PASS(oz_state_int64(visit, "step", "step", &batch->step));
+    OZ_PASS(oz_state_bool(visit, "walls_still", &batch->walls_still));
+    OZ_PASS(oz_state_index(visit, "settling", &settling, OZ_SETTLING_AHEAD, OZ_SETTLING_OVER));
+    OZ_PASS(oz_state_int64(visit, "settling_last", "step", &batch->settling_last));
     for (int m = 0; m < batch->member_count; m++) {
-        OZ_TRY(member_state(batch, m, visit));
+        OZ_PASS(member_state(batch, m, visit));
     }
     oz_state_leave(visit);
     batch->settling = (OzSettling)settling;
-done:
-    return status;
+    return OZ_OK;
 }

@@ -156,7 +156,6 @@ done:
 /* A stretch of the member's from what was saved. Springs that were not kept are none. */
 static OzStatus take_field(OzSim *sim, int field, int member, const OzBranchSource *source)
 {
-    OzStatus status = OZ_OK;
     const OzField *row = &sim->model->fields[field];
     size_t bytes = oz_arrays_bytes(&sim->arrays, field);
     bool wide = oz_arrays_switches(&sim->arrays)->is_double && row->widens;
@@ -177,33 +176,29 @@ static OzStatus take_field(OzSim *sim, int field, int member, const OzBranchSour
     if (saved_bytes != bytes) {
         return take_rows(sim, field, member, saved);
     }
-    OZ_TRY(oz_arrays_write(&sim->arrays, field, member, saved->data, bytes));
+    OZ_PASS(oz_arrays_write(&sim->arrays, field, member, saved->data, bytes));
     if (field == sim->model->control_field) {
         memcpy(oz_sim_control(sim, member), saved->data, bytes);
         oz_sim_control(sim, member)->crossed = 0;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_branch_take(OzSim *sim, const OzBranchSource *sources)
 {
-    OzStatus status = OZ_OK;
     int made = 0;
-    OZ_TRY(take_all_sizes(sim, sources));
+    OZ_PASS(take_all_sizes(sim, sources));
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(check_switches(sim, &sources[m]));
-        OZ_TRY(check_units(sim, m, &sources[m]));
+        OZ_PASS(check_switches(sim, &sources[m]));
+        OZ_PASS(check_units(sim, m, &sources[m]));
         for (int f = 0; f < sim->model->field_count; f++) {
-            OZ_TRY(take_field(sim, f, m, &sources[m]));
+            OZ_PASS(take_field(sim, f, m, &sources[m]));
         }
     }
-    OZ_TRY(oz_launch_write_control(sim));
-    OZ_TRY(oz_launch_steps(sim, 0, &made));
+    OZ_PASS(oz_launch_write_control(sim));
+    OZ_PASS(oz_launch_steps(sim, 0, &made));
     for (int m = 0; m < sim->batch.member_count; m++) {
         oz_sim_control(sim, m)->refreshes = oz_sim_control(sim, m)->rebuilds = 0;
     }
-    OZ_TRY(sim->model->start_ledger(sim));
-done:
-    return status;
+    return sim->model->start_ledger(sim);
 }

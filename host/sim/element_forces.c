@@ -311,14 +311,12 @@ OzStatus oz_element_forces_hold(OzElementForces *forces, const OzElementState *s
 
 OzStatus oz_element_forces_evaluate(OzElementForces *forces, const OzElementState *state)
 {
-    OzStatus status = OZ_OK;
     begin(forces);
-    OZ_TRY(add_touches(forces, state));
+    OZ_PASS(add_touches(forces, state));
     add_beams(forces, state);
     add_gravity(forces);
     find_nan(forces);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What each fault is called, two bodies following where it takes two, and what may help. */

@@ -85,16 +85,13 @@ done:
 
 OzStatus oz_element_motion_prepare(OzSim *sim, int member, int steps)
 {
-    OzStatus status = OZ_OK;
     OzElementControl *control = oz_element_control(sim, member);
     unsigned present = present_at(sim, member, sim->batch.step + 1);
     if (present != oz_element_own(sim)->present[member]) {
-        OZ_TRY(oz_element_pack_bodies(&sim->arrays, member, sim->batch.members[member].grains,
-                                      present));
+        OZ_PASS(oz_element_pack_bodies(&sim->arrays, member, sim->batch.members[member].grains,
+                                       present));
         control->truth = OZ_SPRINGS_AT_NONE; /* all lists anew */
         oz_element_own(sim)->present[member] = present;
     }
-    OZ_TRY(oz_element_motion_write_motion(sim, member, steps));
-done:
-    return status;
+    return oz_element_motion_write_motion(sim, member, steps);
 }

@@ -244,16 +244,13 @@ done:
 OzStatus oz_element_pack_start(OzArrays *arrays, int member, const OzElementParameters *parameters,
                                const OzGrains *grains, const OzElementStart *start)
 {
-    OzStatus status = OZ_OK;
     const OzUnits *units = &parameters->units;
-    OZ_TRY(write_shapes(arrays, member, units, grains->elements));
-    OZ_TRY(write_state(arrays, member, parameters, grains->elements, start));
-    OZ_TRY(write_slow_loads(arrays, member, units, grains->elements, start->touch));
-    OZ_TRY(oz_element_pack_bodies(arrays, member, grains, ~0U));
-    OZ_TRY(write_beams(arrays, member, units, grains->elements));
-    OZ_TRY(oz_element_pack_ledger(arrays, member, units, &start->power));
-done:
-    return status;
+    OZ_PASS(write_shapes(arrays, member, units, grains->elements));
+    OZ_PASS(write_state(arrays, member, parameters, grains->elements, start));
+    OZ_PASS(write_slow_loads(arrays, member, units, grains->elements, start->touch));
+    OZ_PASS(oz_element_pack_bodies(arrays, member, grains, ~0U));
+    OZ_PASS(write_beams(arrays, member, units, grains->elements));
+    return oz_element_pack_ledger(arrays, member, units, &start->power);
 }
 
 OzStatus oz_element_pack_parameters(OzArrays *arrays, int member,

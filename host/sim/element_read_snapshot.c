@@ -35,31 +35,27 @@ done:
 
 OzStatus oz_element_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
     const OzScene *scene = sim->batch.members[member].scene;
-    OZ_TRY(
+    OZ_PASS(
         oz_element_pack_state(&sim->arrays, member, oz_element_parameters(sim, member), snapshot));
     oz_wall_motion_place(snapshot->grains->elements, scene, snapshot->time, sim->batch.walls_still,
                          snapshot->element_position, snapshot->element_angle,
                          snapshot->element_velocity, snapshot->element_angular_velocity);
     oz_snapshot_join_elements(snapshot);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_element_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
     if (sim->batch.stopped[member]) {
         return OZ_OK;
     }
-    OZ_TRY(oz_element_forces_contacts(snapshot));
+    OZ_PASS(oz_element_forces_contacts(snapshot));
     if (oz_element_switches(sim)->ledger) {
-        OZ_TRY(read_ledger(sim, member, &snapshot->element_ledger));
+        OZ_PASS(read_ledger(sim, member, &snapshot->element_ledger));
         snapshot->has_ledger = true;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 double oz_element_read_snapshot_energy(const OzSnapshot *now)
@@ -76,12 +72,10 @@ double oz_element_read_snapshot_energy(const OzSnapshot *now)
 
 OzStatus oz_element_read_snapshot_start_ledger(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     static const OzElementLedger none;
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(
+        OZ_PASS(
             oz_element_pack_ledger(&sim->arrays, m, &oz_element_parameters(sim, m)->units, &none));
     }
-done:
-    return status;
+    return OZ_OK;
 }

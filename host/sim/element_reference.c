@@ -55,16 +55,14 @@ static OzElementState show(Reference *r, const double *place, const double *rate
 static OzStatus evaluate(Reference *r, Evaluate forces_of, const double *place, const double *rate,
                          double time, double *acceleration)
 {
-    OzStatus status = OZ_OK;
     OzElementState state = show(r, place, rate, time);
-    OZ_TRY(forces_of(&r->forces, &state));
+    OZ_PASS(forces_of(&r->forces, &state));
     for (int64_t i = 0; i < r->elements->free_count; i++) {
         acceleration[3 * i] = r->forces.force[2 * i] / r->elements->mass[i];
         acceleration[3 * i + 1] = r->forces.force[2 * i + 1] / r->elements->mass[i];
         acceleration[3 * i + 2] = r->forces.torque[i] / r->elements->inertia[i];
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void add_power(OzElementLedger *sum, const OzElementLedger *power, double time)
@@ -103,7 +101,6 @@ static OzStatus step_rk4(Reference *r, double *place, double *rate, double time,
 {
     static const double ahead[4] = {0, 0.5, 0.5, 1},
                         weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-    OzStatus status = OZ_OK;
     int64_t n = r->count;
     double *x = r->scratch, *v = x + n, *a = v + n, *sum_v = a + n, *sum_a = sum_v + n;
     memset(sum_v, 0, 2 * (size_t)n * sizeof(double));
@@ -116,15 +113,14 @@ static OzStatus step_rk4(Reference *r, double *place, double *rate, double time,
             move(x, place, h, v, n);
             move(v, rate, h, a, n);
         }
-        OZ_TRY(evaluate(r, oz_element_forces_evaluate, x, v, time + h, a));
+        OZ_PASS(evaluate(r, oz_element_forces_evaluate, x, v, time + h, a));
         move(sum_v, sum_v, weight[stage], v, n);
         move(sum_a, sum_a, weight[stage], a, n);
         add_power(&r->ledger, &r->forces.power, weight[stage] * dt);
     }
     move(place, place, dt, sum_v, n);
     move(rate, rate, dt, sum_a, n);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus rk4(Reference *r, double dt)
@@ -137,81 +133,72 @@ static OzStatus rk4(Reference *r, double dt)
 static OzStatus verlet_with(Reference *r, Evaluate forces_of, double *acceleration, double time,
                             double dt)
 {
-    OzStatus status = OZ_OK;
     int64_t n = r->count;
     double *ahead = r->scratch, *old = ahead + n;
     memcpy(old, acceleration, (size_t)n * sizeof(double));
     move(r->place, r->place, dt, r->rate, n);
     move(r->place, r->place, 0.5 * dt * dt, old, n);
     move(ahead, r->rate, dt, old, n);
-    OZ_TRY(evaluate(r, forces_of, r->place, ahead, time + dt, acceleration));
+    OZ_PASS(evaluate(r, forces_of, r->place, ahead, time + dt, acceleration));
     move(r->rate, r->rate, 0.5 * dt, old, n);
     move(r->rate, r->rate, 0.5 * dt, acceleration, n);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus verlet(Reference *r, double dt)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(verlet_with(r, oz_element_forces_evaluate, r->acceleration, time_of(r), dt));
+    OZ_PASS(verlet_with(r, oz_element_forces_evaluate, r->acceleration, time_of(r), dt));
     note_power(r, dt);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Half a kick by contacts, beams and gravity in substeps, the other half (Tuckerman, Berne and
  * Martyna 1992). Damping sees the kick at once, or the step would be of first order. */
 static OzStatus verlet_substeps(Reference *r, double dt)
 {
-    OzStatus status = OZ_OK;
     int64_t n = r->count, parts = r->scene->beams.substeps;
     double *ahead = r->scratch, part = dt / (double)parts;
     OzElementLedger before = r->power, touch = {0};
     move(r->rate, r->rate, 0.5 * dt, r->touch, n);
-    OZ_TRY(evaluate(r, oz_element_forces_hold, r->place, r->rate, time_of(r), r->acceleration));
+    OZ_PASS(evaluate(r, oz_element_forces_hold, r->place, r->rate, time_of(r), r->acceleration));
     for (int64_t k = 0; k < parts; k++) {
-        OZ_TRY(verlet_with(r, oz_element_forces_hold, r->acceleration,
-                           time_of(r) + (double)k * part, part));
-        OZ_TRY(oz_element_forces_check(&r->forces, r->step + 1, time_of(r) + dt));
+        OZ_PASS(verlet_with(r, oz_element_forces_hold, r->acceleration,
+                            time_of(r) + (double)k * part, part));
+        OZ_PASS(oz_element_forces_check(&r->forces, r->step + 1, time_of(r) + dt));
         add_power(&r->ledger, &r->forces.power, part);
     }
     move(ahead, r->rate, 0.5 * dt, r->touch, n);
-    OZ_TRY(evaluate(r, oz_element_forces_touch, r->place, ahead, time_of(r) + dt, r->touch));
+    OZ_PASS(evaluate(r, oz_element_forces_touch, r->place, ahead, time_of(r) + dt, r->touch));
     touch = r->forces.power;
     move(r->rate, r->rate, 0.5 * dt, r->touch, n);
     add_power(&r->ledger, &before, 0.5 * dt);
     add_power(&r->ledger, &touch, 0.5 * dt);
     r->power = touch;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus gear(Reference *r, double dt)
 {
-    OzStatus status = OZ_OK;
     for (int64_t k = 0; k < r->count; k++) {
         r->gear[k] = oz_gear_predict(r->gear[k]);
         r->place[k] = r->gear[k].value[0];
         r->rate[k] = r->gear[k].value[1] / dt;
     }
-    OZ_TRY(evaluate(r, oz_element_forces_evaluate, r->place, r->rate, time_of(r) + dt,
-                    r->acceleration));
+    OZ_PASS(evaluate(r, oz_element_forces_evaluate, r->place, r->rate, time_of(r) + dt,
+                     r->acceleration));
     note_power(r, dt);
     for (int64_t k = 0; k < r->count; k++) {
         r->gear[k] = oz_gear_correct(r->gear[k], r->acceleration[k], 0.5 * dt * dt);
         r->place[k] = r->gear[k].value[0];
         r->rate[k] = r->gear[k].value[1] / dt;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Accelerations two steps back to two steps ahead (5 x count, step k at 2 + k) of the present
  * state, which is left as it is. */
 static OzStatus look_around(Reference *r, double time, double dt, double *around)
 {
-    OzStatus status = OZ_OK;
     int64_t n = r->count;
     double *place = r->scratch + 5 * n, *rate = place + n;
     OzElementLedger ledger = r->ledger;
@@ -220,14 +207,13 @@ static OzStatus look_around(Reference *r, double time, double dt, double *around
         memcpy(rate, r->rate, (size_t)n * sizeof(double));
         for (int k = 0; k <= 2; k++) {
             double now = time + way * k * dt;
-            OZ_TRY(evaluate(r, oz_element_forces_evaluate, place, rate, now,
-                            around + (2 + way * k) * n));
-            OZ_TRY(step_rk4(r, place, rate, now, way * dt));
+            OZ_PASS(evaluate(r, oz_element_forces_evaluate, place, rate, now,
+                             around + (2 + way * k) * n));
+            OZ_PASS(step_rk4(r, place, rate, now, way * dt));
         }
     }
     r->ledger = ledger;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus derive(Reference *r, double time, double *second, double *third, double *fourth)
@@ -280,40 +266,36 @@ static OzStatus (*method_of(const Reference *r))(Reference *r, double dt)
 /* What the first step needs to know of the start. */
 static OzStatus prime(Reference *r)
 {
-    OzStatus status = OZ_OK;
     double time = time_of(r);
     if (r->scene->integrator == OZ_INTEGRATOR_GEAR4) {
-        OZ_TRY(prime_gear(r));
+        OZ_PASS(prime_gear(r));
     }
     if (method_of(r) == verlet_substeps) {
-        OZ_TRY(evaluate(r, oz_element_forces_hold, r->place, r->rate, time, r->acceleration));
-        OZ_TRY(evaluate(r, oz_element_forces_touch, r->place, r->rate, time, r->touch));
+        OZ_PASS(evaluate(r, oz_element_forces_hold, r->place, r->rate, time, r->acceleration));
+        OZ_PASS(evaluate(r, oz_element_forces_touch, r->place, r->rate, time, r->touch));
     } else {
-        OZ_TRY(evaluate(r, oz_element_forces_evaluate, r->place, r->rate, time, r->acceleration));
+        OZ_PASS(evaluate(r, oz_element_forces_evaluate, r->place, r->rate, time, r->acceleration));
     }
     r->power = r->forces.power;
     r->primed = true;
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_element_reference_advance(OzElementReference *reference, int64_t step)
 {
-    OzStatus status = OZ_OK;
     double dt = reference->clock.dt;
     if (!reference->primed && step > 0) {
-        OZ_TRY(prime(reference));
+        OZ_PASS(prime(reference));
     }
     while (reference->step < step) {
-        OZ_TRY(method_of(reference)(reference, dt));
+        OZ_PASS(method_of(reference)(reference, dt));
         reference->step++;
         reference->deep_count += reference->forces.deep_count;
         OzElementState now = show(reference, reference->place, reference->rate, time_of(reference));
         oz_element_forces_watch(&reference->forces, &now, dt);
-        OZ_TRY(oz_element_forces_check(&reference->forces, reference->step, time_of(reference)));
+        OZ_PASS(oz_element_forces_check(&reference->forces, reference->step, time_of(reference)));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_element_reference_snapshot(const OzElementReference *reference, OzSnapshot *snapshot)
@@ -340,20 +322,17 @@ OzStatus oz_element_reference_snapshot(const OzElementReference *reference, OzSn
 
 static OzStatus create_arrays(Reference *r)
 {
-    OzStatus status = OZ_OK;
     int64_t n = r->count, all = r->elements->count;
-    OZ_TRY(OZ_NEW(&r->place, n));
-    OZ_TRY(OZ_NEW(&r->rate, n));
-    OZ_TRY(OZ_NEW(&r->acceleration, n));
-    OZ_TRY(OZ_NEW(&r->touch, n));
-    OZ_TRY(OZ_NEW(&r->scratch, 8 * n));
-    OZ_TRY(OZ_NEW(&r->gear, n));
-    OZ_TRY(OZ_NEW(&r->position, 2 * all));
-    OZ_TRY(OZ_NEW(&r->angle, all));
-    OZ_TRY(OZ_NEW(&r->velocity, 2 * all));
-    OZ_TRY(OZ_NEW(&r->angular_velocity, all));
-done:
-    return status;
+    OZ_PASS(OZ_NEW(&r->place, n));
+    OZ_PASS(OZ_NEW(&r->rate, n));
+    OZ_PASS(OZ_NEW(&r->acceleration, n));
+    OZ_PASS(OZ_NEW(&r->touch, n));
+    OZ_PASS(OZ_NEW(&r->scratch, 8 * n));
+    OZ_PASS(OZ_NEW(&r->gear, n));
+    OZ_PASS(OZ_NEW(&r->position, 2 * all));
+    OZ_PASS(OZ_NEW(&r->angle, all));
+    OZ_PASS(OZ_NEW(&r->velocity, 2 * all));
+    return OZ_NEW(&r->angular_velocity, all);
 }
 
 /* Coordinates and rates from arrays of elements. */

@@ -131,17 +131,15 @@ static int by_slot_then_id(const void *one, const void *other)
 
 static OzStatus find_entries(Work *w)
 {
-    OzStatus status = OZ_OK;
     const OzParameters *p = oz_rods_parameters(w->sim, w->member);
-    OZ_TRY(oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis,
-                              2 * p->outer_most));
-    OZ_TRY(OZ_NEW(&w->entries, w->pairs.count));
+    OZ_PASS(oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis,
+                               2 * p->outer_most));
+    OZ_PASS(OZ_NEW(&w->entries, w->pairs.count));
     for (int64_t k = 0; k < w->pairs.count; k++) {
         w->entries[k] = entry_of(w, w->pairs.pair[k]);
     }
     qsort(w->entries, (size_t)w->pairs.count, sizeof *w->entries, by_slot_then_id);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static int region_of(const Work *w, Entry entry)
@@ -183,15 +181,14 @@ static void put_history(Work *w, int64_t to, int a, int b)
 
 static OzStatus write_list(Work *w)
 {
-    OzStatus status = OZ_OK;
     const OzSizes *z = sizes_of(w);
     int64_t pairs = (int64_t)z->regions * z->outer_capacity;
-    OZ_TRY(OZ_NEW(&w->a, pairs));
-    OZ_TRY(OZ_NEW(&w->b, pairs));
-    OZ_TRY(OZ_NEW(&w->count, z->regions));
-    OZ_TRY(OZ_NEW(&w->first, z->slots));
-    OZ_TRY(OZ_NEW(&w->number, z->slots));
-    OZ_TRY(oz_memory_new(&w->history, 3 * (size_t)pairs, sizeof(double), "springs"));
+    OZ_PASS(OZ_NEW(&w->a, pairs));
+    OZ_PASS(OZ_NEW(&w->b, pairs));
+    OZ_PASS(OZ_NEW(&w->count, z->regions));
+    OZ_PASS(OZ_NEW(&w->first, z->slots));
+    OZ_PASS(OZ_NEW(&w->number, z->slots));
+    OZ_PASS(oz_memory_new(&w->history, 3 * (size_t)pairs, sizeof(double), "springs"));
     for (int64_t k = 0; k < w->pairs.count; k++) {
         Entry entry = w->entries[k];
         int region = region_of(w, entry);
@@ -203,14 +200,12 @@ static OzStatus write_list(Work *w)
         }
         put_history(w, to, entry.a, entry.b);
     }
-    OZ_TRY(upload(w, OZ_FIELD_outer_a, w->a));
-    OZ_TRY(upload(w, OZ_FIELD_outer_b, w->b));
-    OZ_TRY(upload(w, OZ_FIELD_outer_count, w->count));
-    OZ_TRY(upload(w, OZ_FIELD_outer_first, w->first));
-    OZ_TRY(upload(w, OZ_FIELD_outer_number, w->number));
-    OZ_TRY(upload(w, OZ_FIELD_outer_history, w->history));
-done:
-    return status;
+    OZ_PASS(upload(w, OZ_FIELD_outer_a, w->a));
+    OZ_PASS(upload(w, OZ_FIELD_outer_b, w->b));
+    OZ_PASS(upload(w, OZ_FIELD_outer_count, w->count));
+    OZ_PASS(upload(w, OZ_FIELD_outer_first, w->first));
+    OZ_PASS(upload(w, OZ_FIELD_outer_number, w->number));
+    return upload(w, OZ_FIELD_outer_history, w->history);
 }
 
 /* The half-shaft, in the kernels' lengths, of whatever is in a slot, padding too, which nobody else
@@ -262,24 +257,22 @@ done:
 
 static OzStatus make_list(Work *w)
 {
-    OzStatus status = OZ_OK;
     OzControl *control = oz_rods_control(w->sim, w->member);
     const OzMember *member = &w->sim->batch.members[w->member];
-    OZ_TRY(oz_snapshot_create(&w->now, member->scene, member->grains));
-    OZ_TRY(
+    OZ_PASS(oz_snapshot_create(&w->now, member->scene, member->grains));
+    OZ_PASS(
         oz_pack_state(&w->sim->arrays, w->member, oz_rods_parameters(w->sim, w->member), &w->now));
-    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_id, w->member, &w->id));
-    OZ_TRY(oz_arrays_download(&w->sim->arrays, OZ_FIELD_slot_of, w->member, &w->slot_of));
-    OZ_TRY(read_springs(w));
-    OZ_TRY(find_entries(w));
-    OZ_TRY(make_room(w));
-    OZ_TRY(write_list(w));
-    OZ_TRY(write_reference(w));
+    OZ_PASS(oz_arrays_download(&w->sim->arrays, OZ_FIELD_id, w->member, &w->id));
+    OZ_PASS(oz_arrays_download(&w->sim->arrays, OZ_FIELD_slot_of, w->member, &w->slot_of));
+    OZ_PASS(read_springs(w));
+    OZ_PASS(find_entries(w));
+    OZ_PASS(make_room(w));
+    OZ_PASS(write_list(w));
+    OZ_PASS(write_reference(w));
     control->truth = OZ_SPRINGS_AT_OUTER;
     control->outer_stale = 0;
     control->rebuilds++;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void free_work(Work *w)

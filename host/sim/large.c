@@ -96,7 +96,6 @@ void oz_large_free(OzLarge *large)
 /* Puts one phase in the queue; number is the kernel's last argument. */
 static OzStatus queue_phase(OzLarge *large, OzArrays *arrays, Phase phase, int number)
 {
-    OzStatus status = OZ_OK;
     cl_kernel kernel = large->kernel[phase];
     size_t group = (size_t)oz_arrays_switches(arrays)->group, items = group;
     if (!kernel) {
@@ -105,32 +104,28 @@ static OzStatus queue_phase(OzLarge *large, OzArrays *arrays, Phase phase, int n
     if (!single[phase]) {
         items = ((size_t)oz_arrays_sizes(arrays)->regions + group - 1) / group * group;
     }
-    CL_TRY(clSetKernelArg(kernel, (cl_uint)arrays->model->field_count + 1, sizeof number, &number));
-    CL_TRY(clEnqueueNDRangeKernel(large->device->queue, kernel, 1, NULL, &items, &group, 0, NULL,
-                                  NULL));
-done:
-    return status;
+    CL_PASS(
+        clSetKernelArg(kernel, (cl_uint)arrays->model->field_count + 1, sizeof number, &number));
+    CL_PASS(clEnqueueNDRangeKernel(large->device->queue, kernel, 1, NULL, &items, &group, 0, NULL,
+                                   NULL));
+    return OZ_OK;
 }
 
 static OzStatus queue_phases(OzLarge *large, OzArrays *arrays, const Phase *phases, int count)
 {
-    OzStatus status = OZ_OK;
     for (int i = 0; i < count; i++) {
-        OZ_TRY(queue_phase(large, arrays, phases[i], 0));
+        OZ_PASS(queue_phase(large, arrays, phases[i], 0));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus queue_save(OzLarge *large, OzArrays *arrays, const OzControlHead *control)
 {
-    OzStatus status = OZ_OK;
     if (control->truth == OZ_SPRINGS_AT_OUTER) {
-        OZ_TRY(queue_phase(large, arrays, PHASE_save, 0));
-        OZ_TRY(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_SAVED));
+        OZ_PASS(queue_phase(large, arrays, PHASE_save, 0));
+        OZ_PASS(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_SAVED));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* The outer lists anew, with the grains put in the order of cells on the way. */
@@ -139,12 +134,9 @@ static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControlH
     static const Phase sort[] = {PHASE_clear,   PHASE_bin,     PHASE_scan,
                                  PHASE_fill,    PHASE_arrange, PHASE_move_out,
                                  PHASE_move_in, PHASE_search,  PHASE_restore};
-    OzStatus status = OZ_OK;
-    OZ_TRY(queue_save(large, arrays, control));
-    OZ_TRY(queue_phases(large, arrays, sort, sizeof sort / sizeof sort[0]));
-    OZ_TRY(queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_OUTER));
-done:
-    return status;
+    OZ_PASS(queue_save(large, arrays, control));
+    OZ_PASS(queue_phases(large, arrays, sort, sizeof sort / sizeof sort[0]));
+    return queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_OUTER);
 }
 
 static OzStatus queue_refresh(OzLarge *large, OzArrays *arrays)
@@ -176,126 +168,108 @@ static bool hold(const OzControlHead *control)
 /* Skins as they are used up now, and springs back to the outer lists. */
 static OzStatus harvest(OzLarge *large, OzArrays *arrays, OzControlHead *control)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(queue_phase(large, arrays, PHASE_measure, 0));
-    OZ_TRY(read_control(arrays, control));
+    OZ_PASS(queue_phase(large, arrays, PHASE_measure, 0));
+    OZ_PASS(read_control(arrays, control));
     if (control->truth == OZ_SPRINGS_AT_INNER) {
         control->truth = OZ_SPRINGS_AT_OUTER; /* measuring has harvested the springs */
-        OZ_TRY(write_control(arrays, control));
+        OZ_PASS(write_control(arrays, control));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Lists that hold, from whatever there is. *waits: the host has to make one. */
 static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControlHead *control, bool *waits)
 {
-    OzStatus status = OZ_OK;
     *waits = false;
-    OZ_TRY(harvest(large, arrays, control));
+    OZ_PASS(harvest(large, arrays, control));
     bool holds = control->truth == OZ_SPRINGS_AT_OUTER && !control->outer_stale;
     if (!holds && oz_arrays_switches(arrays)->host_lists) {
         *waits = true;
-        goto done;
+        return OZ_OK;
     }
     if (!holds) {
-        OZ_TRY(queue_rebuild(large, arrays, control));
+        OZ_PASS(queue_rebuild(large, arrays, control));
     }
-    OZ_TRY(queue_refresh(large, arrays));
+    OZ_PASS(queue_refresh(large, arrays));
     int refreshes = control->refreshes + 1, rebuilds = control->rebuilds + !holds;
-    OZ_TRY(read_control(arrays, control));
+    OZ_PASS(read_control(arrays, control));
     control->refreshes = refreshes;
     control->rebuilds = rebuilds;
-    OZ_TRY(write_control(arrays, control));
-done:
-    return status;
+    OZ_PASS(write_control(arrays, control));
+    return OZ_OK;
 }
 
 static OzStatus queue_step(OzLarge *large, OzArrays *arrays, int step)
 {
     static const Phase phases[] = {PHASE_before, PHASE_pairs, PHASE_grains, PHASE_after};
-    OzStatus status = OZ_OK;
     for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++) {
-        OZ_TRY(queue_phase(large, arrays, phases[i], step));
+        OZ_PASS(queue_phase(large, arrays, phases[i], step));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Queues about as many steps as the lists will last, and waits. */
 static OzStatus run_batch(OzLarge *large, OzArrays *arrays, OzControlHead *control, int steps)
 {
-    OzStatus status = OZ_OK;
     int first = control->step, count = (int)large->interval + 2;
     int last = first + count < steps ? first + count : steps;
     for (int step = first; step < last; step++) {
-        OZ_TRY(queue_step(large, arrays, step));
+        OZ_PASS(queue_step(large, arrays, step));
     }
-    OZ_TRY(read_control(arrays, control));
+    OZ_PASS(read_control(arrays, control));
     if (control->stale_positions != OZ_NEVER) {
         control->moved = 1; /* the step goes on with its forces once lists hold */
-        OZ_TRY(write_control(arrays, control));
+        OZ_PASS(write_control(arrays, control));
     }
     bool used_up = !hold(control);
     double lasted = control->step - first;
     large->interval = used_up ? 0.5 * (large->interval + lasted) : large->interval + 1;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus bind_all(OzLarge *large, OzArrays *arrays)
 {
-    OzStatus status = OZ_OK;
     for (int p = 0; p < PHASE_COUNT; p++) {
         cl_uint next = 0;
         if (large->kernel[p]) {
-            OZ_TRY(oz_arrays_bind(arrays, large->kernel[p], &next));
+            OZ_PASS(oz_arrays_bind(arrays, large->kernel[p], &next));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_large_steps(OzLarge *large, OzArrays *arrays, OzControlHead *control, int steps)
 {
-    OzStatus status = OZ_OK;
     bool waits = false;
-    OZ_TRY(bind_all(large, arrays));
+    OZ_PASS(bind_all(large, arrays));
     for (;;) {
         if (control->stop_bits || control->full || waits ||
             (hold(control) && control->step >= steps)) {
             break;
         }
         if (!hold(control)) {
-            OZ_TRY(renew(large, arrays, control, &waits));
+            OZ_PASS(renew(large, arrays, control, &waits));
         } else {
-            OZ_TRY(run_batch(large, arrays, control, steps));
+            OZ_PASS(run_batch(large, arrays, control, steps));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControlHead *control, bool outer)
 {
-    OzStatus status = OZ_OK;
     bool waits = false;
-    OZ_TRY(bind_all(large, arrays));
-    OZ_TRY(read_control(arrays, control));
+    OZ_PASS(bind_all(large, arrays));
+    OZ_PASS(read_control(arrays, control));
     control->outer_stale = outer;
-    OZ_TRY(write_control(arrays, control));
-    OZ_TRY(renew(large, arrays, control, &waits));
-done:
-    return status;
+    OZ_PASS(write_control(arrays, control));
+    return renew(large, arrays, control, &waits);
 }
 
 OzStatus oz_large_save_springs(OzLarge *large, OzArrays *arrays, OzControlHead *control)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(bind_all(large, arrays));
-    OZ_TRY(harvest(large, arrays, control));
-    OZ_TRY(queue_save(large, arrays, control));
-    OZ_TRY(read_control(arrays, control));
-done:
-    return status;
+    OZ_PASS(bind_all(large, arrays));
+    OZ_PASS(harvest(large, arrays, control));
+    OZ_PASS(queue_save(large, arrays, control));
+    return read_control(arrays, control);
 }

@@ -14,56 +14,48 @@
 
 OzStatus oz_launch_write_control(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(oz_arrays_write(&sim->arrays, sim->model->control_field, m, oz_sim_control(sim, m),
-                               sim->model->control_bytes));
+        OZ_PASS(oz_arrays_write(&sim->arrays, sim->model->control_field, m, oz_sim_control(sim, m),
+                                sim->model->control_bytes));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_launch_read_control(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(oz_arrays_read(&sim->arrays, sim->model->control_field, m, oz_sim_control(sim, m),
-                              sim->model->control_bytes));
+        OZ_PASS(oz_arrays_read(&sim->arrays, sim->model->control_field, m, oz_sim_control(sim, m),
+                               sim->model->control_bytes));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_launch_enqueue(OzSim *sim, cl_kernel kernel, int last)
 {
-    OzStatus status = OZ_OK;
     cl_uint next = 0;
     size_t group = (size_t)oz_arrays_switches(&sim->arrays)->group;
     size_t regions = (size_t)oz_arrays_sizes(&sim->arrays)->regions;
     size_t all = sim->large ? (regions + group - 1) / group * group
                             : group * (size_t)sim->batch.member_count;
-    OZ_TRY(oz_arrays_bind(&sim->arrays, kernel, &next));
+    OZ_PASS(oz_arrays_bind(&sim->arrays, kernel, &next));
     if (last >= 0) {
-        CL_TRY(clSetKernelArg(kernel, next, sizeof last, &last));
+        CL_PASS(clSetKernelArg(kernel, next, sizeof last, &last));
     }
-    CL_TRY(
+    CL_PASS(
         clEnqueueNDRangeKernel(sim->device->queue, kernel, 1, NULL, &all, &group, 0, NULL, NULL));
-    CL_TRY(clFinish(sim->device->queue));
-done:
-    return status;
+    CL_PASS(clFinish(sim->device->queue));
+    return OZ_OK;
 }
 
 OzStatus oz_launch_open(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     if (oz_arrays_switches(&sim->arrays)->resort) {
         return oz_large_create(&sim->large, sim->program, sim->device);
     }
     sim->advance = clCreateKernel(sim->program, "oz_advance", &code);
-    CL_TRY(code);
-done:
-    return status;
+    CL_PASS(code);
+    return OZ_OK;
 }
 
 OzStatus oz_launch_save_springs(OzSim *sim)
@@ -114,14 +106,11 @@ done:
 
 static OzStatus run(OzSim *sim, int steps)
 {
-    OzStatus status = OZ_OK;
     if (sim->large) {
         return oz_large_steps(sim->large, &sim->arrays, oz_sim_control(sim, 0), steps);
     }
-    OZ_TRY(oz_launch_enqueue(sim, sim->advance, steps));
-    OZ_TRY(oz_launch_read_control(sim));
-done:
-    return status;
+    OZ_PASS(oz_launch_enqueue(sim, sim->advance, steps));
+    return oz_launch_read_control(sim);
 }
 
 /* Whether a member has made its steps, with lists that hold: snapshots read them. */
@@ -135,10 +124,9 @@ static bool is_through(const OzSim *sim, const OzControlHead *control, int steps
 /* Repeats the launch until every member is through. */
 static OzStatus finish_launch(OzSim *sim, int steps)
 {
-    OzStatus status = OZ_OK;
     for (bool more = true; more;) {
-        OZ_TRY(oz_launch_write_control(sim));
-        OZ_TRY(run(sim, steps));
+        OZ_PASS(oz_launch_write_control(sim));
+        OZ_PASS(run(sim, steps));
         sim->batch.counts.launches++;
         bool full = false;
         more = false;
@@ -148,30 +136,27 @@ static OzStatus finish_launch(OzSim *sim, int steps)
             more |= !control->stop_bits && !is_through(sim, control, steps);
         }
         if (full) {
-            OZ_TRY(grow_lists(sim));
+            OZ_PASS(grow_lists(sim));
         } else if (more && sim->model->supply) {
-            OZ_TRY(sim->model->supply(sim));
+            OZ_PASS(sim->model->supply(sim));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* A member that does not go on is at the launch's end already. */
 static OzStatus begin_launch(OzSim *sim, int steps)
 {
-    OzStatus status = OZ_OK;
     for (int m = 0; m < sim->batch.member_count; m++) {
         OzControlHead *control = oz_sim_control(sim, m);
         control->deep_count = control->deep_depth = control->deep_kinds = 0;
         control->deep_step = control->deep_index = OZ_NEVER;
         control->step = oz_batch_goes_on(&sim->batch, m) ? 0 : steps;
         if (oz_batch_goes_on(&sim->batch, m)) {
-            OZ_TRY(sim->model->prepare(sim, m, steps));
+            OZ_PASS(sim->model->prepare(sim, m, steps));
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Deep contacts of a member that has not counted the launch's steps yet. The kernels' unit at a
@@ -210,7 +195,6 @@ static OzStatus tell_stop(OzSim *sim, int member)
  * OZ_ERR_BLOWUP when none is left. */
 static OzStatus end_launch(OzSim *sim, int steps)
 {
-    OzStatus status = OZ_OK;
     int most = 0;
     for (int m = 0; m < sim->batch.member_count; m++) {
         const OzControlHead *control = oz_sim_control(sim, m);
@@ -221,12 +205,10 @@ static OzStatus end_launch(OzSim *sim, int steps)
         note_deep(sim, m);
         oz_batch_count(&sim->batch, m, own, &most);
         if (control->stop_bits) {
-            OZ_TRY(tell_stop(sim, m));
+            OZ_PASS(tell_stop(sim, m));
         }
     }
-    status = oz_batch_end_launch(&sim->batch, steps, most);
-done:
-    return status;
+    return oz_batch_end_launch(&sim->batch, steps, most);
 }
 
 OzStatus oz_launch_steps(OzSim *sim, int64_t wanted, int *made)

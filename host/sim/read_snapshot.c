@@ -5,7 +5,6 @@
 
 OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts)
 {
-    OzStatus status = OZ_OK;
     snapshot->step = sim->batch.reached[member];
     snapshot->time = oz_batch_time(&sim->batch, member, snapshot->step);
     snapshot->deep_count = sim->batch.deep_count[member];
@@ -13,10 +12,9 @@ OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot,
     snapshot->contacts.count = 0;
     snapshot->has_ledger = false;
     oz_snapshot_move_walls(snapshot);
-    OZ_TRY(sim->model->unpack(sim, member, snapshot));
+    OZ_PASS(sim->model->unpack(sim, member, snapshot));
     if (contacts) {
-        OZ_TRY(sim->model->contacts(sim, member, snapshot));
+        OZ_PASS(sim->model->contacts(sim, member, snapshot));
     }
-done:
-    return status;
+    return OZ_OK;
 }

@@ -68,16 +68,14 @@ static void write_places(const OzReference *r, double *position, double *axis)
 
 static OzStatus renew_list(OzReference *r)
 {
-    OzStatus status = OZ_OK;
     bool renewed;
     write_places(r, r->position, r->axis);
-    OZ_TRY(oz_pair_list_renew(&r->near, &renewed, r->grains, r->position, r->axis));
+    OZ_PASS(oz_pair_list_renew(&r->near, &renewed, r->grains, r->position, r->axis));
     if (renewed) {
         free(r->pair_force);
-        OZ_TRY(OZ_NEW(&r->pair_force, r->near.pairs.count));
+        OZ_PASS(OZ_NEW(&r->pair_force, r->near.pairs.count));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void move_before(OzReference *r, double dt)
@@ -206,9 +204,8 @@ static void note_ledger(OzReference *r, double dt)
 
 static OzStatus make_step(OzReference *r, double dt)
 {
-    OzStatus status = OZ_OK;
     move_before(r, dt);
-    OZ_TRY(renew_list(r));
+    OZ_PASS(renew_list(r));
     touch_pairs(r, dt);
     gather_pairs(r);
     touch_walls(r, dt);
@@ -216,25 +213,21 @@ static OzStatus make_step(OzReference *r, double dt)
     if (r->physics.switches.ledger) {
         note_ledger(r, dt);
     }
-    OZ_TRY(oz_reference_guard_check(r, dt));
-done:
-    return status;
+    return oz_reference_guard_check(r, dt);
 }
 
 OzStatus oz_reference_advance(OzReference *reference, int64_t step)
 {
-    OzStatus status = OZ_OK;
     dialect = reference->physics.switches;
     if (!reference->primed && dialect.moves_before && step > 0) {
-        OZ_TRY(make_step(reference, 0));
+        OZ_PASS(make_step(reference, 0));
     }
     reference->primed = true;
     while (reference->step < step) {
-        OZ_TRY(make_step(reference, reference->physics.parameters.dt));
+        OZ_PASS(make_step(reference, reference->physics.parameters.dt));
         reference->step++;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void copy_state(const OzReference *r, OzSnapshot *s)
@@ -292,18 +285,15 @@ OzStatus oz_reference_snapshot(const OzReference *reference, OzSnapshot *snapsho
 
 static OzStatus create_arrays(OzReference *r)
 {
-    OzStatus status = OZ_OK;
     int64_t count = r->count, ends = count * r->wall_ends;
-    OZ_TRY(OZ_NEW(&r->shape, count));
-    OZ_TRY(OZ_NEW(&r->body, count));
-    OZ_TRY(OZ_NEW(&r->seen, count));
-    OZ_TRY(OZ_NEW(&r->load, count));
-    OZ_TRY(OZ_NEW(&r->position, 3 * count));
-    OZ_TRY(OZ_NEW(&r->axis, 3 * count));
-    OZ_TRY(OZ_NEW(&r->wall_force, ends));
-    OZ_TRY(OZ_NEW(&r->wall_history, ends));
-done:
-    return status;
+    OZ_PASS(OZ_NEW(&r->shape, count));
+    OZ_PASS(OZ_NEW(&r->body, count));
+    OZ_PASS(OZ_NEW(&r->seen, count));
+    OZ_PASS(OZ_NEW(&r->load, count));
+    OZ_PASS(OZ_NEW(&r->position, 3 * count));
+    OZ_PASS(OZ_NEW(&r->axis, 3 * count));
+    OZ_PASS(OZ_NEW(&r->wall_force, ends));
+    return OZ_NEW(&r->wall_history, ends);
 }
 
 OzStatus oz_reference_create(OzReference **reference, const OzScene *scene, const OzGrains *grains)

@@ -51,7 +51,6 @@ static int64_t first_judgement(const OzScene *scene, const OzGrains *grains)
  * are. */
 static OzStatus judge(const OzRelax *rest, double *worst, int *going)
 {
-    OzStatus status = OZ_OK;
     OzBatch *batch = rest->batch;
     *worst = 0;
     *going = 0;
@@ -61,14 +60,13 @@ static OzStatus judge(const OzRelax *rest, double *worst, int *going)
         if (!oz_batch_goes_on(batch, m)) {
             continue;
         }
-        OZ_TRY(energy_ratio(rest, m, &ratio));
+        OZ_PASS(energy_ratio(rest, m, &ratio));
         bool old_enough = batch->step >= first_judgement(member->scene, member->grains);
         batch->waits[m] = old_enough && ratio < member->scene->settle.threshold;
         *worst = ratio > *worst ? ratio : *worst;
         *going += !batch->waits[m];
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus advance(const OzRelax *rest, int64_t step)
@@ -94,7 +92,6 @@ static int count_going(const OzBatch *batch)
  * same bits on any. */
 static OzStatus run_part(const OzRelax *rest, bool judging, OzSettleWatch watch, void *context)
 {
-    OzStatus status = OZ_OK;
     const OzBatch *batch = rest->batch;
     const OzScene *scene = batch->members[0].scene;
     double worst = 0;
@@ -102,20 +99,19 @@ static OzStatus run_part(const OzRelax *rest, bool judging, OzSettleWatch watch,
     int64_t last = batch->settling_last;
     while (batch->step < last && going > 0) {
         int64_t next = batch->step + rest->judge_steps;
-        OZ_TRY(advance(rest, next < last ? next : last));
+        OZ_PASS(advance(rest, next < last ? next : last));
         if (judging) {
-            OZ_TRY(judge(rest, &worst, &going));
+            OZ_PASS(judge(rest, &worst, &going));
         }
         if (watch) {
-            OZ_TRY(watch(context, oz_batch_time(batch, 0, batch->step), worst));
+            OZ_PASS(watch(context, oz_batch_time(batch, 0, batch->step), worst));
         }
     }
     if (judging && going > 0 && scene->settle.threshold > 0) {
         oz_log_line("settling: kinetic energy still %.3g N m g d after %.3g s (threshold %.3g)",
                     worst, scene->settle.time_max, scene->settle.threshold);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static void begin_part(OzBatch *batch, OzSettling part, double time)
@@ -126,21 +122,18 @@ static void begin_part(OzBatch *batch, OzSettling part, double time)
 
 static OzStatus damp(const OzRelax *rest, OzSettleWatch watch, void *context)
 {
-    OzStatus status = OZ_OK;
     OzBatch *batch = rest->batch;
     const OzSettle *settle = &batch->members[0].scene->settle;
-    OZ_TRY(rest->set_drag(rest->sim, settle->drag));
-    OZ_TRY(run_part(rest, true, watch, context));
-    OZ_TRY(rest->set_drag(rest->sim, 0));
+    OZ_PASS(rest->set_drag(rest->sim, settle->drag));
+    OZ_PASS(run_part(rest, true, watch, context));
+    OZ_PASS(rest->set_drag(rest->sim, 0));
     memset(batch->waits, 0, (size_t)batch->member_count * sizeof *batch->waits);
     begin_part(batch, OZ_SETTLING_RESTS, settle->rest_time);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch, void *context)
 {
-    OzStatus status = OZ_OK;
     OzBatch *batch = rest->batch;
     const OzScene *scene = batch->members[0].scene;
     *seconds = 0;
@@ -153,13 +146,11 @@ OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch,
         return OZ_OK;
     }
     if (batch->settling == OZ_SETTLING_DAMPS) {
-        OZ_TRY(damp(rest, watch, context));
+        OZ_PASS(damp(rest, watch, context));
     }
-    OZ_TRY(run_part(rest, false, watch, context));
+    OZ_PASS(run_part(rest, false, watch, context));
     *seconds = oz_batch_time(batch, 0, batch->step);
     oz_batch_start_clock(batch);
     batch->settling = OZ_SETTLING_OVER;
-    OZ_TRY(rest->start_ledger(rest->sim));
-done:
-    return status;
+    return rest->start_ledger(rest->sim);
 }

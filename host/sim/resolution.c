@@ -115,11 +115,10 @@ static double coarse_digit(const OzParameters *parameters, const OzGrains *grain
 
 static OzStatus find(OzResolution *r, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
     OzParameters parameters;
     int order[OZ_WALLS_MAX];
     Pace pace = pace_of(scene, grains);
-    OZ_TRY(oz_constants_fill(&parameters, order, scene, grains));
+    OZ_PASS(oz_constants_fill(&parameters, order, scene, grains));
     *r = (OzResolution){.overlap = INFINITY, .gain = INFINITY, .speed = pace.most};
     r->rests = gravity_matters(&pace, scene);
     r->digit = coarse_digit(&parameters, grains);
@@ -130,8 +129,7 @@ static OzStatus find(OzResolution *r, const OzScene *scene, const OzGrains *grai
     if (r->rests) {
         r->gain = pace.gravity * scene->step;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Whether every wall's overlap can be had with all digits. */
@@ -157,13 +155,11 @@ bool oz_resolution_is_fine(const OzScene *scene, const OzGrains *grains)
 
 OzStatus oz_resolution_find(OzResolution *resolution, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(find(resolution, scene, grains));
+    OZ_PASS(find(resolution, scene, grains));
     if (resolution->overlap < OZ_RESOLUTION_ENOUGH * resolution->digit && walls_are_fine(scene)) {
         resolution->digit /= finer;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static const char *overlap_name(const OzResolution *r)
@@ -173,12 +169,11 @@ static const char *overlap_name(const OzResolution *r)
 
 OzStatus oz_resolution_print(FILE *file, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
     OzResolution r;
     if (scene->precision != OZ_PRECISION_FLOAT) {
         return OZ_OK;
     }
-    OZ_TRY(oz_resolution_find(&r, scene, grains));
+    OZ_PASS(oz_resolution_find(&r, scene, grains));
     fprintf(file, "  resolution       float tells overlaps of %.3g m apart", r.digit);
     if (isfinite(r.overlap)) {
         fprintf(file, "; %s: %.3g m, %.3g of these", overlap_name(&r), r.overlap,
@@ -192,8 +187,7 @@ OzStatus oz_resolution_print(FILE *file, const OzScene *scene, const OzGrains *g
                 "in a step\n",
                 r.speed, r.speed_digit, r.gain / r.speed_digit);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What float makes of a scene, in words; false where it has digits enough. */
@@ -218,21 +212,19 @@ static bool describe(char *text, size_t size, const OzResolution *r, double leas
 
 OzStatus oz_resolution_judge(const OzScene *scene, const OzGrains *grains, bool force)
 {
-    OzStatus status = OZ_OK;
     OzResolution r;
     char text[256];
     if (scene->precision != OZ_PRECISION_FLOAT || grains->count == 0) {
         return OZ_OK;
     }
-    OZ_TRY(oz_resolution_find(&r, scene, grains));
+    OZ_PASS(oz_resolution_find(&r, scene, grains));
     if (describe(text, sizeof text, &r, OZ_RESOLUTION_LEAST, OZ_RESOLUTION_GAIN_LEAST) && !force) {
-        status = oz_status_fail(OZ_ERR_INPUT,
-                                "%s: precision: float cannot hold this scene: %s; expected "
-                                "precision: double, softer contacts, or --force",
-                                scene->path, text);
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: precision: float cannot hold this scene: %s; expected "
+                              "precision: double, softer contacts, or --force",
+                              scene->path, text);
     } else if (describe(text, sizeof text, &r, OZ_RESOLUTION_ENOUGH, OZ_RESOLUTION_GAIN_ENOUGH)) {
         oz_log_line("warning: precision: float is coarse here: %s; precision: double is not", text);
     }
-done:
-    return status;
+    return OZ_OK;
 }

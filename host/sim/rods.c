@@ -85,16 +85,13 @@ static bool fits(const OzMember *a, const OzMember *b, const void *switches)
 
 static OzStatus open(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     OzRods *own = NULL;
     OzParameters parameters;
     const OzMember *first = &sim->batch.members[0];
-    OZ_TRY(OZ_NEW(&own, 1));
+    OZ_PASS(OZ_NEW(&own, 1));
     sim->own = own;
-    OZ_TRY(OZ_NEW(&own->spring_start, sim->batch.member_count));
-    OZ_TRY(oz_constants_fill(&parameters, own->wall_order, first->scene, first->grains));
-done:
-    return status;
+    OZ_PASS(OZ_NEW(&own->spring_start, sim->batch.member_count));
+    return oz_constants_fill(&parameters, own->wall_order, first->scene, first->grains);
 }
 
 static void close(OzSim *sim)
@@ -108,21 +105,18 @@ static void close(OzSim *sim)
 
 static OzStatus start(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     int made = 0;
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(oz_pack_start(&sim->arrays, m, oz_rods_parameters(sim, m),
-                             sim->batch.members[m].grains));
+        OZ_PASS(oz_pack_start(&sim->arrays, m, oz_rods_parameters(sim, m),
+                              sim->batch.members[m].grains));
         *oz_rods_control(sim, m) = (OzControl){.stale_step = OZ_NEVER,
                                                .stale_positions = OZ_NEVER,
                                                .stop_step = OZ_NEVER,
                                                .stop_index = OZ_NEVER,
                                                .truth = OZ_SPRINGS_AT_NONE};
     }
-    OZ_TRY(oz_sim_write_parameters(sim));
-    OZ_TRY(oz_launch_steps(sim, 0, &made));
-done:
-    return status;
+    OZ_PASS(oz_sim_write_parameters(sim));
+    return oz_launch_steps(sim, 0, &made);
 }
 
 static OzStatus write_parameters(OzSim *sim, int member)
@@ -133,7 +127,6 @@ static OzStatus write_parameters(OzSim *sim, int member)
 /* velocity-verlet needs the first accelerations: forces at the start, over no time. */
 static OzStatus prime(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     int made = 0;
     if (!oz_rods_switches(sim)->moves_before || oz_rods_own(sim)->primed) {
         return OZ_OK;
@@ -142,8 +135,8 @@ static OzStatus prime(OzSim *sim)
     for (int m = 0; m < sim->batch.member_count; m++) {
         oz_rods_parameters(sim, m)->dt = 0;
     }
-    OZ_TRY(oz_sim_write_parameters(sim));
-    OZ_TRY(oz_launch_steps(sim, 1, &made));
+    OZ_PASS(oz_sim_write_parameters(sim));
+    OZ_PASS(oz_launch_steps(sim, 1, &made));
     sim->batch.step -= 1;
     sim->batch.counts.steps -= 1;
     oz_rods_own(sim)->primed = true;
@@ -151,9 +144,7 @@ static OzStatus prime(OzSim *sim)
         sim->batch.reached[m] -= 1;
         oz_rods_parameters(sim, m)->dt = step;
     }
-    OZ_TRY(oz_sim_write_parameters(sim));
-done:
-    return status;
+    return oz_sim_write_parameters(sim);
 }
 
 static void put_motion(double words[OZ_MOTION], const OzMotion *motion, double time,
@@ -192,12 +183,9 @@ done:
 
 static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     OzRods *own = oz_rods_own(sim);
-    OZ_TRY(oz_state_bool(visit, "primed", &own->primed));
-    OZ_TRY(oz_state_double(visit, "spring_start", "J", own->spring_start, sim->batch.member_count));
-done:
-    return status;
+    OZ_PASS(oz_state_bool(visit, "primed", &own->primed));
+    return oz_state_double(visit, "spring_start", "J", own->spring_start, sim->batch.member_count);
 }
 
 /* Accelerations are kept by integrators that move first alone. */

@@ -111,20 +111,18 @@ OzStatus oz_rods_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapsho
 
 OzStatus oz_rods_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
 {
-    OzStatus status = OZ_OK;
     if (oz_rods_control(sim, member)->truth != OZ_SPRINGS_AT_INNER) {
         return OZ_OK;
     }
-    OZ_TRY(find_all(sim, member, snapshot));
+    OZ_PASS(find_all(sim, member, snapshot));
     snapshot->has_contacts = true;
     OzContactSums sums = oz_contact_list_sum(&snapshot->contacts);
     snapshot->ledger.elastic = sums.energy;
     if (oz_rods_switches(sim)->ledger) {
-        OZ_TRY(read_ledger(sim, member, sums.spring_energy, &snapshot->ledger));
+        OZ_PASS(read_ledger(sim, member, sums.spring_energy, &snapshot->ledger));
         snapshot->has_ledger = true;
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 double oz_rods_read_snapshot_energy(const OzSnapshot *now)

@@ -24,12 +24,10 @@ OzControlHead *oz_sim_control(const OzSim *sim, int member)
 
 OzStatus oz_sim_write_parameters(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(sim->model->write_parameters(sim, m));
+        OZ_PASS(sim->model->write_parameters(sim, m));
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* One member's layout into what all share. */
@@ -78,7 +76,6 @@ done:
 /* The program, and the device's idea of the shared structs against ours. */
 static OzStatus build(OzSim *sim, const char *source_dir)
 {
-    OzStatus status = OZ_OK;
     char options[1024];
     const OzModel *model = sim->model;
     const OzSwitchesHead *switches = oz_arrays_switches(&sim->arrays);
@@ -87,31 +84,26 @@ static OzStatus build(OzSim *sim, const char *source_dir)
                              .sizes = model->sizes_bytes,
                              .lanes = switches->lanes,
                              .is_double = switches->is_double != 0};
-    OZ_TRY(oz_device_check_double(sim->device, switches->is_double || switches->ledger));
+    OZ_PASS(oz_device_check_double(sim->device, switches->is_double || switches->ledger));
     oz_model_options(model, switches, options, sizeof options);
-    OZ_TRY(oz_program_build(&sim->program, sim->device, source_dir, model->program(switches),
-                            options));
-    OZ_TRY(oz_launch_open(sim));
-    OZ_TRY(model->open(sim));
-    OZ_TRY(oz_program_check(sim->program, sim->device, &layout));
-done:
-    return status;
+    OZ_PASS(oz_program_build(&sim->program, sim->device, source_dir, model->program(switches),
+                             options));
+    OZ_PASS(oz_launch_open(sim));
+    OZ_PASS(model->open(sim));
+    return oz_program_check(sim->program, sim->device, &layout);
 }
 
 static OzStatus create(OzSim *sim, const OzMember *members, int member_count,
                        const char *source_dir, const OzSim *running)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_batch_create(&sim->batch, members, member_count));
-    OZ_TRY(oz_memory_new(&sim->parameters, (size_t)member_count, sim->model->parameters_bytes,
-                         "parameters"));
-    OZ_TRY(oz_memory_new(&sim->control, (size_t)member_count, sim->model->control_bytes,
-                         "control words"));
-    OZ_TRY(choose_layout(sim, running));
-    OZ_TRY(build(sim, source_dir));
-    OZ_TRY(sim->model->start(sim));
-done:
-    return status;
+    OZ_PASS(oz_batch_create(&sim->batch, members, member_count));
+    OZ_PASS(oz_memory_new(&sim->parameters, (size_t)member_count, sim->model->parameters_bytes,
+                          "parameters"));
+    OZ_PASS(oz_memory_new(&sim->control, (size_t)member_count, sim->model->control_bytes,
+                          "control words"));
+    OZ_PASS(choose_layout(sim, running));
+    OZ_PASS(build(sim, source_dir));
+    return sim->model->start(sim);
 }
 
 OzStatus oz_sim_create(OzSim **sim, const OzDevice *device, const OzMember *members,
@@ -160,22 +152,20 @@ void oz_sim_free(OzSim *sim)
 
 OzStatus oz_sim_launch(OzSim *sim, int64_t step)
 {
-    OzStatus status = OZ_OK;
     int made = 0;
     if (sim->model->prime) {
-        OZ_TRY(sim->model->prime(sim));
+        OZ_PASS(sim->model->prime(sim));
     }
     if (sim->batch.step >= step || sim->is_empty) {
         oz_batch_skip(&sim->batch, step);
-        goto done;
+        return OZ_OK;
     }
     int steps = oz_batch_launch_steps(&sim->batch, step);
     double start = oz_clock_now();
-    OZ_TRY(oz_launch_steps(sim, steps, &made));
+    OZ_PASS(oz_launch_steps(sim, steps, &made));
     oz_batch_note_launch(&sim->batch, made, oz_clock_now() - start,
                          oz_arrays_sizes(&sim->arrays)->motion_steps);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_sim_advance(OzSim *sim, int64_t step)

@@ -16,23 +16,20 @@ typedef enum Way { WHOLE, FITTING } Way;
 /* Words must mean what they meant: the program is the same. */
 static OzStatus switches_state(OzSim *sim, OzStateVisit *visit, Way way)
 {
-    OzStatus status = OZ_OK;
     const int *own = sim->arrays.switches;
-    OZ_TRY(oz_state_enter(visit, "switches", 1));
+    OZ_PASS(oz_state_enter(visit, "switches", 1));
     for (int k = -1; k < sim->model->switch_count; k++) {
         const char *name = k < 0 ? "DOUBLE" : sim->model->switches[k].name;
         int value = own[k + 1];
-        OZ_TRY(oz_state_int(visit, name, "none", &value));
+        OZ_PASS(oz_state_int(visit, name, "none", &value));
         if (value != own[k + 1] && way == WHOLE) {
-            status = oz_status_fail(OZ_ERR_INPUT,
-                                    "state: the kernel switch %s was %d and is %d in this run",
-                                    name, value, own[k + 1]);
-            goto done;
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "state: the kernel switch %s was %d and is %d in this run", name,
+                                  value, own[k + 1]);
         }
     }
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* Takes the capacities of lists in which springs were saved. */
@@ -124,33 +121,29 @@ done:
 /* What a word of the arrays is worth. */
 static OzStatus units_state(OzSim *sim, int member, OzStateVisit *visit)
 {
-    OzStatus status = OZ_OK;
     OzUnits *own = &oz_sim_parameters(sim, member)->units, saved = *own;
-    OZ_TRY(oz_state_double(visit, "unit_length", "m", &saved.length, 1));
-    OZ_TRY(oz_state_double(visit, "unit_time", "s", &saved.time, 1));
-    OZ_TRY(oz_state_double(visit, "unit_mass", "kg", &saved.mass, 1));
+    OZ_PASS(oz_state_double(visit, "unit_length", "m", &saved.length, 1));
+    OZ_PASS(oz_state_double(visit, "unit_time", "s", &saved.time, 1));
+    OZ_PASS(oz_state_double(visit, "unit_mass", "kg", &saved.mass, 1));
     if (saved.length != own->length || saved.time != own->time || saved.mass != own->mass) {
-        status = oz_status_fail(OZ_ERR_INPUT,
-                                "state: %s: saved in other units of length, time or "
-                                "mass",
-                                sim->batch.members[member].scene->path);
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "state: %s: saved in other units of length, time or "
+                              "mass",
+                              sim->batch.members[member].scene->path);
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus member_state(OzSim *sim, int member, OzStateVisit *visit, Way way)
 {
-    OzStatus status = OZ_OK;
     oz_state_enter_one(visit, "member", member);
-    OZ_TRY(units_state(sim, member, visit));
-    OZ_TRY(oz_motion_state(&sim->batch.scenes[member], visit));
+    OZ_PASS(units_state(sim, member, visit));
+    OZ_PASS(oz_motion_state(&sim->batch.scenes[member], visit));
     for (int f = 0; f < sim->model->field_count; f++) {
-        OZ_TRY(field_state(sim, f, member, visit, way));
+        OZ_PASS(field_state(sim, f, member, visit, way));
     }
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_sim_state_save_springs(OzSim *sim)
@@ -173,23 +166,21 @@ OzStatus oz_sim_state_renew(OzSim *sim)
 
 static OzStatus visit_all(OzSim *sim, OzStateVisit *visit, Way way)
 {
-    OzStatus status = OZ_OK;
-    OZ_TRY(oz_state_enter(visit, "sim", 2));
-    OZ_TRY(switches_state(sim, visit, way));
-    OZ_TRY(sizes_state(sim, visit, way));
-    OZ_TRY(oz_batch_state(&sim->batch, visit));
+    OZ_PASS(oz_state_enter(visit, "sim", 2));
+    OZ_PASS(switches_state(sim, visit, way));
+    OZ_PASS(sizes_state(sim, visit, way));
+    OZ_PASS(oz_batch_state(&sim->batch, visit));
     if (!visit->is_loading) {
-        OZ_TRY(oz_sim_state_save_springs(sim));
+        OZ_PASS(oz_sim_state_save_springs(sim));
     }
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(member_state(sim, m, visit, way));
+        OZ_PASS(member_state(sim, m, visit, way));
     }
     if (sim->model->state) {
-        OZ_TRY(sim->model->state(sim, visit));
+        OZ_PASS(sim->model->state(sim, visit));
     }
     oz_state_leave(visit);
-done:
-    return status;
+    return OZ_OK;
 }
 
 OzStatus oz_sim_state_visit(OzSim *sim, OzStateVisit *visit)

@@ -19,44 +19,37 @@ static OzStatus time_kernel(OzSim *sim, cl_program program, const char *name, do
 /* A step of no length, walls where the bed meets them. */
 static OzStatus stand_still(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     oz_rods_parameters(sim, 0)->dt = 0;
-    OZ_TRY(oz_sim_write_parameters(sim));
-    OZ_TRY(oz_rods_move_walls(sim, 0, 1));
-done:
-    return status;
+    OZ_PASS(oz_sim_write_parameters(sim));
+    return oz_rods_move_walls(sim, 0, 1);
 }
 
 /* Seconds of making the lists of a large scene anew. */
 static OzStatus time_renewal(OzSim *sim, bool outer, double *seconds)
 {
-    OzStatus status = OZ_OK;
     double times[OZ_TIMING_LAUNCHES];
     for (int k = 0; k < OZ_TIMING_LAUNCHES; k++) {
         double start = oz_timing_clock(sim->device);
-        OZ_TRY(
+        OZ_PASS(
             oz_large_renew(sim->large, &sim->arrays, oz_sim_control(sim, 0), outer));
         times[k] = oz_timing_clock(sim->device) - start;
     }
     *seconds = oz_timing_median(times);
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus time_lists(OzStageTiming *phases, OzSim *sim, cl_program program)
 {
-    OzStatus status = OZ_OK;
     double rebuilt = NAN;
     if (sim->large) {
-        OZ_TRY(time_renewal(sim, false, &phases->refresh));
-        OZ_TRY(time_renewal(sim, true, &rebuilt));
+        OZ_PASS(time_renewal(sim, false, &phases->refresh));
+        OZ_PASS(time_renewal(sim, true, &rebuilt));
     } else {
-        OZ_TRY(time_kernel(sim, program, "oz_repeat_refresh", &phases->refresh));
-        OZ_TRY(time_kernel(sim, program, "oz_repeat_rebuild", &rebuilt));
+        OZ_PASS(time_kernel(sim, program, "oz_repeat_refresh", &phases->refresh));
+        OZ_PASS(time_kernel(sim, program, "oz_repeat_rebuild", &rebuilt));
     }
     phases->rebuild = rebuilt - phases->refresh;
-done:
-    return status;
+    return OZ_OK;
 }
 
 /* What is measured, and with which programs. */
@@ -67,16 +60,13 @@ typedef struct Job {
 
 static OzStatus time_all(Job *job, OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     OzStageTiming *phases = job->phases;
     double walled = NAN;
-    OZ_TRY(time_kernel(sim, job->whole, "oz_repeat_pairs", &phases->pairs));
-    OZ_TRY(time_kernel(sim, job->whole, "oz_repeat_grains", &walled));
-    OZ_TRY(time_kernel(sim, job->free_of_walls, "oz_repeat_grains", &phases->grains));
+    OZ_PASS(time_kernel(sim, job->whole, "oz_repeat_pairs", &phases->pairs));
+    OZ_PASS(time_kernel(sim, job->whole, "oz_repeat_grains", &walled));
+    OZ_PASS(time_kernel(sim, job->free_of_walls, "oz_repeat_grains", &phases->grains));
     phases->walls = walled - phases->grains;
-    OZ_TRY(time_lists(phases, sim, job->whole));
-done:
-    return status;
+    return time_lists(phases, sim, job->whole);
 }
 
 /* Times everything on a bed that stands still: repeated parts leave what no step would. Walls'

@@ -41,13 +41,12 @@ static OzVec3 load(const double *x)
 
 static OzStatus add(Bed *bed, const OzContactValues *values, double mass, Spring spring)
 {
-    OzStatus status = OZ_OK;
     OzContactConstants c = oz_calibrate_contact(bed->now->scene, values);
     bool sticks = values->friction > 0;
     if (bed->count == bed->capacity) {
         size_t capacity = 2 * bed->capacity + 64;
-        OZ_TRY(oz_memory_grow((void **)&bed->springs, bed->capacity, capacity, sizeof(Spring),
-                              "springs"));
+        OZ_PASS(oz_memory_grow((void **)&bed->springs, bed->capacity, capacity, sizeof(Spring),
+                               "springs"));
         bed->capacity = capacity;
     }
     spring.stiffness = mass * c.stiffness;
@@ -55,8 +54,7 @@ static OzStatus add(Bed *bed, const OzContactValues *values, double mass, Spring
     spring.tangential = sticks ? mass * c.tangential_stiffness : 0;
     spring.tangential_damping = sticks ? mass * c.tangential_damping : 0;
     bed->springs[bed->count++] = spring;
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
@@ -82,7 +80,6 @@ static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
 
 static OzStatus add_walls(Bed *bed, int64_t i)
 {
-    OzStatus status = OZ_OK;
     const OzGrains *g = bed->now->grains;
     double radius = 0.5 * g->diameter[i];
     for (int w = 0; w < bed->now->scene->wall_count; w++) {
@@ -95,12 +92,11 @@ static OzStatus add_walls(Bed *bed, int64_t i)
             if (oz_wall_shape_distance(wall, bed->now->wall_offset[w], at, normal) < radius) {
                 Spring spring = {.a = i, .b = -1, .normal = oz_scale(load(normal), -1)};
                 spring.arm_a = oz_along(arm, radius, spring.normal);
-                OZ_TRY(add(bed, &wall->contact, g->mass[i], spring));
+                OZ_PASS(add(bed, &wall->contact, g->mass[i], spring));
             }
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 static OzStatus find_springs(Bed *bed)

@@ -102,21 +102,19 @@ done:
 
 OzStatus oz_take_over_swap(OzSim *sim, OzSim *running, const OzScene *const *next)
 {
-    OzStatus status = OZ_OK;
     int count = running->batch.member_count;
     const OzSwitchesHead *now = oz_arrays_switches(&sim->arrays);
     const OzSwitchesHead *before = oz_arrays_switches(&running->arrays);
-    OZ_TRY(oz_sim_state_move(sim, running));
+    OZ_PASS(oz_sim_state_move(sim, running));
     for (int m = 0; m < count; m++) {
         const OzScene *scene = sim->batch.stopped[m] ? running->batch.members[m].scene : next[m];
-        OZ_TRY(oz_batch_take_scene(&sim->batch, m, scene));
+        OZ_PASS(oz_batch_take_scene(&sim->batch, m, scene));
     }
     sim->batch.counts = running->batch.counts;
     sim->batch.launch_steps = running->batch.launch_steps;
-    OZ_TRY(oz_sim_state_renew(sim));
+    OZ_PASS(oz_sim_state_renew(sim));
     if (now->ledger && !before->ledger) {
-        OZ_TRY(sim->model->start_ledger(sim));
+        OZ_PASS(sim->model->start_ledger(sim));
     }
-done:
-    return status;
+    return OZ_OK;
 }

@@ -63,7 +63,6 @@ static void copy_beams(OzElements *to, const OzElements *from, int64_t first_bea
 /* Without gravity, the floor's free side being y > 0. */
 static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grains, int64_t grain)
 {
-    OzStatus status = OZ_OK;
     const OzElements *from = grains->elements;
     int64_t first = from->first[grain], count = from->first[grain + 1] - first, first_beam;
     OzElementCounts counts = {.grains = 1, .walls = 1, .free_elements = count, .wall_elements = 1};
@@ -74,8 +73,8 @@ static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grain
     t->scene.wall_count = 1;
     t->scene.observe.ledger = false;
     counts.beams = beams_of(from, grain, &first_beam);
-    OZ_TRY(oz_grains_create(&t->grains, 1));
-    OZ_TRY(oz_elements_create(&t->grains.elements, &counts));
+    OZ_PASS(oz_grains_create(&t->grains, 1));
+    OZ_PASS(oz_elements_create(&t->grains.elements, &counts));
     t->grains.diameter[0] = size;
     t->grains.mass[0] = grains->mass[grain];
     t->grains.inertia[0] = t->grains.inertia_axis[0] = grains->inertia[grain];
@@ -86,9 +85,7 @@ static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grain
     copy_elements(to, from, first, count);
     copy_beams(to, from, first_beam, (int)first);
     double corners[6] = {-20 * size, 0, 0, -4 * size, 20 * size, 0};
-    OZ_TRY(oz_elements_set_triangle(to, count, corners, 0));
-done:
-    return status;
+    return oz_elements_set_triangle(to, count, corners, 0);
 }
 
 /* Turns the grain as it starts in its scene by an angle and puts it just above the floor, falling.
@@ -215,7 +212,6 @@ double oz_trial_speed(const OzScene *scene, const OzGrains *grains)
 
 OzStatus oz_trial_worst(OzTrial *worst, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
     double speed = oz_trial_speed(scene, grains);
     *worst = (OzTrial){.grain = -1, .speed = speed};
     for (int p = 0; p < scene->population_count; p++) {
@@ -228,14 +224,13 @@ OzStatus oz_trial_worst(OzTrial *worst, const OzScene *scene, const OzGrains *gr
             }
         }
         if (heavy >= 0) {
-            OZ_TRY(oz_trial_hit(&trial, scene, grains, heavy, speed));
+            OZ_PASS(oz_trial_hit(&trial, scene, grains, heavy, speed));
             bool worse = trial.deep > worst->deep || fmax(trial.bend, 2 * trial.stretch) >
                                                          fmax(worst->bend, 2 * worst->stretch);
             *worst = worse ? trial : *worst;
         }
     }
-done:
-    return status;
+    return OZ_OK;
 }
 
 void oz_trial_advise(char *text, size_t size, const OzTrial *trial, const OzScene *scene)

@@ -53,16 +53,14 @@ static bool fits(const OzMember *a, const OzMember *b, const void *switches)
 
 static OzStatus open(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     cl_int code = CL_SUCCESS;
     OzTrigrains *own = NULL;
-    OZ_TRY(OZ_NEW(&own, 1));
+    OZ_PASS(OZ_NEW(&own, 1));
     sim->own = own;
-    OZ_TRY(OZ_NEW(&own->present, sim->batch.member_count));
+    OZ_PASS(OZ_NEW(&own->present, sim->batch.member_count));
     own->begin = clCreateKernel(sim->program, "oz_begin", &code);
-    CL_TRY(code);
-done:
-    return status;
+    CL_PASS(code);
+    return OZ_OK;
 }
 
 static void close(OzSim *sim)
@@ -80,19 +78,16 @@ static void close(OzSim *sim)
 /* The start, and the records of elements and walls. */
 static OzStatus start(OzSim *sim)
 {
-    OzStatus status = OZ_OK;
     sim->batch.walls_still = sim->batch.members[0].scene->settle.present;
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(oz_element_upload_member(sim, m));
+        OZ_PASS(oz_element_upload_member(sim, m));
     }
-    OZ_TRY(oz_sim_write_parameters(sim));
+    OZ_PASS(oz_sim_write_parameters(sim));
     for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(oz_element_motion_write_motion(sim, m, 0));
+        OZ_PASS(oz_element_motion_write_motion(sim, m, 0));
     }
-    OZ_TRY(oz_launch_write_control(sim));
-    OZ_TRY(oz_launch_enqueue(sim, oz_element_own(sim)->begin, -1));
-done:
-    return status;
+    OZ_PASS(oz_launch_write_control(sim));
+    return oz_launch_enqueue(sim, oz_element_own(sim)->begin, -1);
 }
 
 static OzStatus write_parameters(OzSim *sim, int member)
