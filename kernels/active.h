@@ -1,8 +1,7 @@
 /* Items that a sieve picks from blocks of lanes, kept until they fill blocks again: what costs much
  * is then done for full blocks of those that need it. A load that spans two stores still under way
  * waits for both, so picks are kept for several blocks before they are read. OpenCL C only. */
-#ifndef OZ_KERNELS_ACTIVE_H
-#define OZ_KERNELS_ACTIVE_H
+#pragma once
 
 #include "kernels/lanes.h"
 
@@ -67,5 +66,3 @@ OZ_INLINE void oz_active_drop_word(scalar *word, int due)
 {
     OZ_LANES_STORE(OZ_LANES_LOAD(word + due), word);
 }
-
-#endif

@@ -10,8 +10,7 @@
  * which is not `last`;
  * OZ_STEP_AFTER, oz_step_after(w, step): what is left to do when all have moved;
  * OZ_STEP_SORTS: large scenes put bodies in the order of cells (resort.h). OpenCL C only. */
-#ifndef OZ_KERNELS_ADVANCE_H
-#define OZ_KERNELS_ADVANCE_H
+#pragma once
 
 #include "kernels/lists.h"
 
@@ -284,7 +283,5 @@ OZ_ADVANCE_KERNEL oz_advance(OZ_WORK_ARGUMENTS, int last)
         w.control->moved = moved;
     }
 }
-
-#endif
 
 #endif

@@ -4,8 +4,7 @@
  * that forces are the gradient of one energy and momentum and angular momentum are conserved.
  * The includer says by OZ_DAMPING_SHEAR whether bending's damping moments are balanced by a shear
  * force (1), which conserves angular momentum, or stand alone (0), as in the paper. */
-#ifndef OZ_KERNELS_BEAM_H
-#define OZ_KERNELS_BEAM_H
+#pragma once
 
 #include "kernels/element_law.h"
 #include "kernels/turn.h"
@@ -72,5 +71,3 @@ OZ_INLINE OzBeamForce oz_beam_force(OzBeamConstants constants, OzBeamEnd a, OzBe
                           : damping * (rate_a * a.angular_velocity + rate_b * b.angular_velocity);
     return f;
 }
-
-#endif

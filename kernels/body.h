@@ -3,8 +3,7 @@
  * `spin` holds the angular momentum in the world frame (switch OZ_GYROSCOPIC 1: the full Euler
  * equations; constant in a free drift) or the angular velocity (0: the equation of Pournin et al.
  * 2005, eq. 9, without the gyroscopic term). */
-#ifndef OZ_KERNELS_BODY_H
-#define OZ_KERNELS_BODY_H
+#pragma once
 
 #include "kernels/vec3.h"
 
@@ -109,5 +108,3 @@ OZ_INLINE void oz_body_turn(OzBody *body, OzVec3 spin, OzShape shape, real dt)
     OzQuaternion about_spin = oz_quaternion_times(oz_quaternion_turn(turned_by), before);
     oz_quaternion_move(&body->turn, &body->turn_rest, oz_quaternion_add(change, about_spin));
 }
-
-#endif

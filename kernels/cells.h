@@ -4,8 +4,7 @@
  * element_near.h says: OZ_NEAR_SLOTS(w) slots may hold one, oz_near_listed of them do; its place in
  * OZ_DIMENSIONS words of kind place_kind, in OZ_NEAR_UNIT(w) m; its reach, m; OZ_NEAR_IS_LARGE(w,
  * slot). OpenCL C only. */
-#ifndef OZ_KERNELS_CELLS_H
-#define OZ_KERNELS_CELLS_H
+#pragma once
 
 #include "kernels/member.h"
 
@@ -141,5 +140,3 @@ OZ_INLINE void oz_cells_arrange(OzWork *w)
     }
 #endif
 }
-
-#endif

@@ -2,8 +2,7 @@
  * (half-shaft zero), parallel, anti-parallel and collinear shafts, crossing shafts.
  * The paper's D = ac - b^2 and bd - ae are taken as products of cross products (Lagrange's identity):
  * the same numbers, but without the cancellation that ruins them for nearly parallel shafts. */
-#ifndef OZ_KERNELS_CLOSEST_H
-#define OZ_KERNELS_CLOSEST_H
+#pragma once
 
 #include "kernels/vec3.h"
 
@@ -47,5 +46,3 @@ OZ_INLINE OzClosest oz_closest_spheres(void)
     OzClosest at = {REAL(0.0), REAL(0.0)};
     return at;
 }
-
-#endif

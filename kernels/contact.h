@@ -1,7 +1,6 @@
 /* What two touching bodies know of their contact, what a law answers, and how the tangential spring is
  * carried along. Vectors point from body a to body b; a wall is always body a. */
-#ifndef OZ_KERNELS_CONTACT_H
-#define OZ_KERNELS_CONTACT_H
+#pragma once
 
 #include "kernels/vec3.h"
 
@@ -61,5 +60,3 @@ OZ_INLINE OzVec3 oz_contact_turn(OzVec3 stretch, OzVec3 normal)
     real grow = REAL(1.0) + REAL(0.5) * off * off / oz_larger(length2, REAL(OZ_TINY * OZ_TINY));
     return oz_scale(oz_along(stretch, -off, normal), grow);
 }
-
-#endif

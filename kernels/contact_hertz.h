@@ -1,8 +1,7 @@
 /* `law: hertz` as Poeschel & Buchholtz (1995, eqs. 10, 11, 13) use it: f_n = Y xi^(3/2) + m* gamma_n dxi/dt
  * and, after Haff & Werner (1986), the tangential force m* gamma_t v_t without memory, limited by Coulomb
  * friction. Constants: stiffness Y, N/m^(3/2); damping gamma_n and tangential_damping gamma_t, 1/s; friction. */
-#ifndef OZ_KERNELS_CONTACT_HERTZ_H
-#define OZ_KERNELS_CONTACT_HERTZ_H
+#pragma once
 
 #include "kernels/contact.h"
 
@@ -17,5 +16,3 @@ OZ_INLINE OzResponse oz_contact_hertz(OzContact c, OzLawConstants law)
     out.tangential_damping = c.mass * law.tangential_damping;
     return out;
 }
-
-#endif

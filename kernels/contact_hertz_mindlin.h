@@ -6,8 +6,7 @@
  * is loaded while stretched gains what it loses unloaded the same way.
  * Constants: stiffness 4/3 E*, Pa; damping alpha, 1; tangential_stiffness 8 G*, Pa; tangential_damping: c_t
  * over the normal dashpot's constant, 1; friction. */
-#ifndef OZ_KERNELS_CONTACT_HERTZ_MINDLIN_H
-#define OZ_KERNELS_CONTACT_HERTZ_MINDLIN_H
+#pragma once
 
 #include "kernels/contact.h"
 
@@ -28,5 +27,3 @@ OZ_INLINE OzResponse oz_contact_hertz_mindlin(OzContact c, OzLawConstants law)
     out.tangential_damping = law.tangential_damping * damping;
     return out;
 }
-
-#endif

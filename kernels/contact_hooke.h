@@ -7,8 +7,7 @@
  * OZ_AT_CONTACT (`restitution_at: contact`): the oscillator's mass is the one that the contact feels, m_c
  * = lightness^2 m, and c_n is scaled by sqrt(m_c/m), so that its damping ratio and with it the restitution
  * stay what was asked; k_n is kept. */
-#ifndef OZ_KERNELS_CONTACT_HOOKE_H
-#define OZ_KERNELS_CONTACT_HOOKE_H
+#pragma once
 
 #include "kernels/contact.h"
 
@@ -31,5 +30,3 @@ OZ_INLINE OzResponse oz_contact_hooke(OzContact c, OzLawConstants law)
     out.tangential_damping = c.mass * law.tangential_damping;
     return out;
 }
-
-#endif

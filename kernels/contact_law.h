@@ -2,8 +2,7 @@
  * Switches (constant on a device): OZ_LAW_ID (the law's row in laws.h), OZ_ATTRACTION_CLAMP (f_n >= 0),
  * OZ_FRICTION, OZ_HISTORY (a tangential spring exists), OZ_SLIP_SCALE (P: the force alone is limited and the
  * spring grows on; otherwise the spring is cut back to what the sliding contact carries). */
-#ifndef OZ_KERNELS_CONTACT_LAW_H
-#define OZ_KERNELS_CONTACT_LAW_H
+#pragma once
 
 #include "kernels/contact_hertz.h"
 #include "kernels/contact_hertz_mindlin.h"
@@ -88,5 +87,3 @@ OZ_INLINE OzContactForce oz_contact_force(OzContact c, OzLawConstants law, OzVec
     out.tangential_stiffness = response.tangential_stiffness;
     return out;
 }
-
-#endif

@@ -16,8 +16,7 @@
  * the points: a spring at each would be carried from one material point to another as ends change places and
  * weights come and go, and would need three times the memory; what is lost is friction's couple against
  * turning about the normal. */
-#ifndef OZ_KERNELS_CONTACT_LINE_H
-#define OZ_KERNELS_CONTACT_LINE_H
+#pragma once
 
 #include "kernels/grain.h"
 
@@ -141,5 +140,3 @@ OZ_INLINE OzLine oz_line_sum(OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants 
     sum.torque_b = oz_along(sum.torque_b, -couple, across);
     return sum;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* The guard of contacts' depth. Contacts deeper than guards.overlap.warn are counted; one deeper than
  * guards.overlap.stop, or whose shafts meet, stops the run. OpenCL C only. */
-#ifndef OZ_KERNELS_DEEP_H
-#define OZ_KERNELS_DEEP_H
+#pragma once
 
 #include "kernels/work.h"
 
@@ -59,5 +58,3 @@ OZ_INLINE int oz_deep_guard(OzWork *w, OzDeep deep, const int *slots, int step)
     }
     return found;
 }
-
-#endif

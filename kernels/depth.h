@@ -2,8 +2,7 @@
  * of two grains, at a wall half of the grain's radius. So the depth at which the shafts of two equal
  * grains meet is 2, and so is that at which a shaft lies in a wall, which acts like the grain's mirror
  * image. With NaN every comparison is false. */
-#ifndef OZ_KERNELS_DEPTH_H
-#define OZ_KERNELS_DEPTH_H
+#pragma once
 
 #include "kernels/real.h"
 
@@ -20,5 +19,3 @@ OZ_INLINE mask oz_depth_meets(real overlap, real rate, real reach, scalar dt)
 {
     return !(overlap + oz_larger(rate, REAL(0.0)) * REAL(dt) < reach);
 }
-
-#endif

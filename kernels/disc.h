@@ -2,8 +2,7 @@
  * the power 3/2) and a dashpot along the normal, and a tangential dashpot without memory, limited
  * by Coulomb friction (Poeschel and Buchholtz 1995, eqs. 9-13, after Haff and Werner 1986).
  * Damping is per kg of effective mass; so is the linear spring. */
-#ifndef OZ_KERNELS_DISC_H
-#define OZ_KERNELS_DISC_H
+#pragma once
 
 #include "kernels/element_law.h"
 #include "kernels/triangle.h"
@@ -91,5 +90,3 @@ OZ_INLINE OzDiscForce oz_disc_force(OzDiscPlace place, OzVec2 velocity, real mas
     f.power_tangential = f.touching ? drag * sliding : REAL(0.0);
     return f;
 }
-
-#endif

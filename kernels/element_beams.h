@@ -1,6 +1,5 @@
 /* Beams, a block of lanes at a time. OpenCL C only. */
-#ifndef OZ_KERNELS_ELEMENT_BEAMS_H
-#define OZ_KERNELS_ELEMENT_BEAMS_H
+#pragma once
 
 #include "kernels/beam.h"
 #include "kernels/element_sums.h"
@@ -52,5 +51,3 @@ OZ_INLINE void oz_element_beams_pull(OzWork *w, int step, OzElementSums *sums)
         oz_lanes_store4(w->beam_force + (size_t)first * OZ_ELEMENT_LOAD, OZ_ELEMENT_LOAD, 0, words);
     }
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Contacts: the inner list's pairs are classified, those that touch are closed up, and forces are
  * computed for these alone, a block of lanes at a time. OpenCL C only. */
-#ifndef OZ_KERNELS_ELEMENT_CONTACTS_H
-#define OZ_KERNELS_ELEMENT_CONTACTS_H
+#pragma once
 
 #include "kernels/disc.h"
 #include "kernels/element_near.h"
@@ -223,5 +222,3 @@ OZ_INLINE void oz_element_contacts_push(OzWork *w, int region, int step, OzEleme
         oz_lanes_store4(w->pair_force + (size_t)first * OZ_ELEMENT_LOAD, OZ_ELEMENT_LOAD, 0, words);
     }
 }
-
-#endif

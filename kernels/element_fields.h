@@ -7,8 +7,7 @@
  * of each region's pairs, which outlive larger capacities; SCRATCH,
  * written before it is read by the host at each launch or by each step. Loads are zero between
  * steps. */
-#ifndef OZ_KERNELS_ELEMENT_FIELDS_H
-#define OZ_KERNELS_ELEMENT_FIELDS_H
+#pragma once
 
 /* Words of a block's state: x, y and angle, each with its scaled derivatives. */
 #define OZ_ELEMENT_STATE (3 * OZ_ORDER)
@@ -58,5 +57,3 @@
 
 /* A beam's words: length at rest, and at either end the angle at rest. */
 enum { OZ_BEAM_REST = 3 };
-
-#endif

@@ -1,7 +1,6 @@
 /* The constants of what acts on elements: triangles' overlaps, discs' contacts, beams; and how far
  * beams may go. Scalars only. */
-#ifndef OZ_KERNELS_ELEMENT_LAW_H
-#define OZ_KERNELS_ELEMENT_LAW_H
+#pragma once
 
 #include "kernels/real.h"
 
@@ -26,5 +25,3 @@ typedef struct OzDiscLaw {
     scalar tangential_damping; /* 1/s                                                  */
     scalar friction;
 } OzDiscLaw;
-
-#endif

@@ -1,7 +1,6 @@
 /* The structs and word layouts that the kernels of trigrains and the host share. Slots: the free
  * elements by id, padded to whole blocks of lanes, then the elements of walls by id, padded too. */
-#ifndef OZ_KERNELS_ELEMENT_LAYOUT_H
-#define OZ_KERNELS_ELEMENT_LAYOUT_H
+#pragma once
 
 #include "kernels/element_law.h"
 #include "kernels/head.h"
@@ -106,5 +105,3 @@ enum {
     OZ_ELEMENT_LEDGER,
     OZ_ELEMENT_LEDGER_WORDS = 2 * OZ_ELEMENT_LEDGER
 };
-
-#endif

@@ -2,8 +2,7 @@
  * of contacts first. One work-item hands each result to both elements; many work-items gather, each
  * for its own elements, in the same order. Loads are zero before: who uses them up clears them.
  * OpenCL C only. */
-#ifndef OZ_KERNELS_ELEMENT_LOADS_H
-#define OZ_KERNELS_ELEMENT_LOADS_H
+#pragma once
 
 #include "kernels/element_work.h"
 
@@ -93,7 +92,5 @@ OZ_INLINE void oz_element_loads_beams_of(OzWork *w, global scalar4 *loads, int i
 
 OZ_ELEMENT_LOADS(contacts)
 OZ_ELEMENT_LOADS(beams)
-
-#endif
 
 #endif

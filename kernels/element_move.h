@@ -2,8 +2,7 @@
  * a coordinate and its derivatives times dt^n / n!. Velocity-verlet is the same scheme with two
  * derivatives: its velocity is predicted with the old acceleration for forces that depend on it.
  * OpenCL C only. */
-#ifndef OZ_KERNELS_ELEMENT_MOVE_H
-#define OZ_KERNELS_ELEMENT_MOVE_H
+#pragma once
 
 #include "kernels/element_near.h"
 #include "kernels/gear.h"
@@ -257,5 +256,3 @@ OZ_INLINE void oz_element_move_correct(OzWork *w, int step, int goes_on)
         oz_element_move_store(w, block, q);
     }
 }
-
-#endif

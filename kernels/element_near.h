@@ -1,8 +1,7 @@
 /* What the grid and the lists want to know of elements: where one is and how far it reaches, which
  * pairs may touch (a cheap test that is never wrong about pairs that do), what has moved. OpenCL C
  * only. */
-#ifndef OZ_KERNELS_ELEMENT_NEAR_H
-#define OZ_KERNELS_ELEMENT_NEAR_H
+#pragma once
 
 #include "kernels/element_work.h"
 
@@ -128,5 +127,3 @@ OZ_INLINE mask oz_near_stays(const OzWork *w, global const real *reference, OzPo
 }
 
 #define oz_near_fresh(w, begin, count) ((void)0)
-
-#endif

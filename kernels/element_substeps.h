@@ -2,8 +2,7 @@
  * OZ_SUBSTEPS parts, then the other half of the kick (Tuckerman, Berne and Martyna 1992). The state
  * holds x, v dt and the acceleration of beams and gravity times dt^2 / 2; what contacts do is kept
  * in slow_load from one step to the next. OpenCL C only. */
-#ifndef OZ_KERNELS_ELEMENT_SUBSTEPS_H
-#define OZ_KERNELS_ELEMENT_SUBSTEPS_H
+#pragma once
 
 #include "kernels/element_beams.h"
 #include "kernels/element_loads.h"
@@ -159,5 +158,3 @@ OZ_INLINE void oz_element_substeps_end(OzWork *w, int step)
         oz_element_move_store(w, block, q);
     }
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Energy that a launch's steps add up, by mechanism: in lanes while a step runs, then into the
  * member's ledger. OpenCL C only. */
-#ifndef OZ_KERNELS_ELEMENT_SUMS_H
-#define OZ_KERNELS_ELEMENT_SUMS_H
+#pragma once
 
 #include "kernels/element_work.h"
 
@@ -50,6 +49,4 @@ OZ_INLINE void oz_element_sums_add_part(OzWork *w, const OzElementSums *sums, sc
         row[k] += oz_element_sums_of(sums, k) * w->parameters->dt * part;
     }
 }
-#endif
-
 #endif

@@ -2,8 +2,7 @@
  * gear4, 3 velocity-verlet), OZ_MOVING (some wall moves), OZ_DISCS and OZ_BEAMS (the scene has
  * any), OZ_SUBSTEPS, OZ_LEDGER, OZ_FORCE_POINT, OZ_DAMPING_SHEAR. The law of discs is no switch: it
  * is a number in the parameters, of its own for each wall. */
-#ifndef OZ_KERNELS_ELEMENT_WORK_H
-#define OZ_KERNELS_ELEMENT_WORK_H
+#pragma once
 
 #include "kernels/element_fields.h"
 #include "kernels/element_layout.h"
@@ -69,5 +68,3 @@ OZ_INLINE void oz_element_work_label(const OzWork *w, const int *slots, real *ra
     *radius = words[0];
     *inverse_mass = words[1];
 }
-
-#endif

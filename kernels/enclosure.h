@@ -1,7 +1,6 @@
 /* Forces between grains and walls. Few grains touch a wall: a sieve picks the ends that do, wall by
  * wall, and the contact law gets full blocks of them, one end a lane. OpenCL C only. */
-#ifndef OZ_KERNELS_ENCLOSURE_H
-#define OZ_KERNELS_ENCLOSURE_H
+#pragma once
 
 #include "kernels/grains.h"
 
@@ -209,7 +208,5 @@ OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
         oz_enclosure_side_region(w, &sides[k], region, step);
     }
 }
-
-#endif
 
 #endif

@@ -7,8 +7,7 @@
  * two, ROWS those of each region's pairs, which outlive larger capacities; SCRATCH, written before it is read by the host at each launch or by each step. Springs of
  * pairs outlive the lists in the saved_ arrays alone, where oz_save_springs puts them (springs.h);
  * others are LIST. */
-#ifndef OZ_KERNELS_FIELDS_H
-#define OZ_KERNELS_FIELDS_H
+#pragma once
 
 #define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
 
@@ -76,5 +75,3 @@ enum { OZ_CONTACT_LEDGER = 15 };
       SCRATCH)                                                                                     \
     X(real, wall_ledger, OZ_LEDGER ? z.blocks *OZ_WALL_ENDS *OZ_CONTACT_LEDGER : 0, SCRATCH)       \
     X(scalar, spare, OZ_RESORT ? z.slots *OZ_SPARE : 0, SCRATCH)
-
-#endif

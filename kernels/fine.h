@@ -4,8 +4,7 @@
  * lost. Here differences of places are taken in integers, remainders are counted in, and the
  * rounding of sums and products is carried along as a second number (Dekker 1971; Knuth's sum of
  * two). All lengths are in units of a place. */
-#ifndef OZ_KERNELS_FINE_H
-#define OZ_KERNELS_FINE_H
+#pragma once
 
 #include "kernels/vec3.h"
 
@@ -163,5 +162,3 @@ OZ_INLINE OzFineVec3 oz_fine_end(OzFineGrain grain, real sign, OzFixedPosition f
     }
     return end;
 }
-
-#endif

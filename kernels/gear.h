@@ -1,8 +1,7 @@
 /* Gear's predictor-corrector with five values (Gear 1966), of fourth order for forces that depend on
  * velocity: for one coordinate x the values are d^k x / dt^k  dt^k / k!, k = 0..4. The start must
  * hold correct third and fourth derivatives: zeros make it second order. */
-#ifndef OZ_KERNELS_GEAR_H
-#define OZ_KERNELS_GEAR_H
+#pragma once
 
 #include "kernels/real.h"
 
@@ -41,5 +40,3 @@ OZ_INLINE OzGear oz_gear_start(real position, real velocity, real acceleration, 
                     fourth * dt * dt * dt * dt * REAL(1.0 / 24)}};
     return gear;
 }
-
-#endif

@@ -2,8 +2,7 @@
  * OZ_EQUAL 1: all grains are alike; OZ_SURFACES 1: each force acts on its own grain's surface
  * (Pournin et al. 2005; breaks angular momentum), 0: both in the middle of the overlap;
  * OZ_AT_CONTACT: whether a contact's lightness is needed; OZ_FINE: overlaps as fine.h has them. */
-#ifndef OZ_KERNELS_GRAIN_H
-#define OZ_KERNELS_GRAIN_H
+#pragma once
 
 #include "kernels/closest.h"
 #include "kernels/contact_law.h"
@@ -74,5 +73,3 @@ OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClose
     }
     return contact;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Grains in memory and in motion: their arrays, the integrator under the loads of pairs and walls,
  * the guards. One grain a lane. OpenCL C only. */
-#ifndef OZ_KERNELS_GRAINS_H
-#define OZ_KERNELS_GRAINS_H
+#pragma once
 
 #include "kernels/loads.h"
 
@@ -140,5 +139,3 @@ OZ_INLINE void oz_grains_guard(OzWork *w, int block, OzBody body, OzShape shape,
         oz_work_stop_lanes(w, number & !slow, OZ_STOP_FAST, step, slots);
     }
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* What the shared structs of every model begin with, so that one driver serves them all. A device
  * kernel writes the sizes of the whole structs at start and the host compares them with its own. */
-#ifndef OZ_KERNELS_HEAD_H
-#define OZ_KERNELS_HEAD_H
+#pragma once
 
 #include "kernels/units.h"
 
@@ -82,6 +81,4 @@ typedef struct __attribute__((may_alias)) OzSizesHead {
 typedef struct __attribute__((may_alias)) OzControlHead {
     OZ_CONTROL_HEAD
 } OzControlHead;
-#endif
-
 #endif

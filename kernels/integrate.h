@@ -1,7 +1,6 @@
 /* The integrator of this program (OZ_INTEGRATOR_ID, its row in the list), a constant on a device: the others' moves
  * are left out there. OZ_MOVES_BEFORE: places move before the forces. */
-#ifndef OZ_KERNELS_INTEGRATE_H
-#define OZ_KERNELS_INTEGRATE_H
+#pragma once
 
 #include "kernels/integrate_euler.h"
 #include "kernels/integrate_symplectic_euler.h"
@@ -66,5 +65,3 @@ OZ_INLINE scalar oz_integrate_share(void)
     return OZ_INTEGRATORS(OZ_INTEGRATE_ROW) 0;
 #undef OZ_INTEGRATE_ROW
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* Explicit Euler, the "forward Euler" of Pournin et al. (2005): places move with the old
  * velocities. First order; the tangential spring enters the force before it is advanced (share 0);
  * gains energy in every contact (restitution comes out too high). */
-#ifndef OZ_KERNELS_INTEGRATE_EULER_H
-#define OZ_KERNELS_INTEGRATE_EULER_H
+#pragma once
 
 #include "kernels/body.h"
 
@@ -16,5 +15,3 @@ OZ_INLINE void oz_euler_after(OzBody *body, OzShape shape, OzLoad load, real dt,
     body->velocity = oz_along(body->velocity, dt * shape.inverse_mass, load.force);
     body->spin = oz_body_kick_spin(body->spin, load.torque, u, shape, dt);
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* Symplectic Euler: velocities first, then places with the new velocities. First order in position
  * and velocity, without secular drift of energy for a spring. Tangential springs are advanced
  * before the force (share 1): the velocity seen is the one that moved the grain here. */
-#ifndef OZ_KERNELS_INTEGRATE_SYMPLECTIC_EULER_H
-#define OZ_KERNELS_INTEGRATE_SYMPLECTIC_EULER_H
+#pragma once
 
 #include "kernels/body.h"
 
@@ -16,5 +15,3 @@ OZ_INLINE void oz_symplectic_euler_after(OzBody *body, OzShape shape, OzLoad loa
                            inverse_unit);
     oz_body_turn(body, body->spin, shape, dt);
 }
-
-#endif

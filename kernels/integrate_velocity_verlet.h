@@ -3,8 +3,7 @@
  * mid-step; forces then see v + a dt after:  v += (a_old + a_new) dt/2 Tangential springs by the
  * trapezoidal rule (share 1/2). A first force evaluation with dt = 0 gives the first acceleration.
  */
-#ifndef OZ_KERNELS_INTEGRATE_VELOCITY_VERLET_H
-#define OZ_KERNELS_INTEGRATE_VELOCITY_VERLET_H
+#pragma once
 
 #include "kernels/body.h"
 
@@ -42,5 +41,3 @@ OZ_INLINE void oz_velocity_verlet_after(OzBody *body, OzShape shape, OzLoad load
     body->acceleration = acceleration;
     body->torque = load.torque;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* THE list of integrators. Scene choices, `-D OZ_INTEGRATOR_ID`, the kernels' and the reference's moves and the
  * host's predictions are made of it: a row whose functions do not exist does not compile. Names alone: host/scene
  * reads it too. */
-#ifndef OZ_KERNELS_INTEGRATORS_H
-#define OZ_KERNELS_INTEGRATORS_H
+#pragma once
 
 /* X(NAME, name, choice, choice of trigrains, share, first), a row each:
  *   choice  in a scene of rods; that of trigrains, which have moves of their own, is "" where they have none
@@ -27,5 +26,3 @@ typedef enum OzIntegrator {
     OZ_INTEGRATORS(OZ_INTEGRATORS_ID) OZ_TRIGRAINS_INTEGRATORS(OZ_INTEGRATORS_FLAT_ID)
     OZ_INTEGRATORS_END
 } OzIntegrator;
-
-#endif

@@ -1,8 +1,7 @@
 /* Moving numbers between arrays of records and lanes (OpenCL C only). A record's words are fetched four
  * at a time and turned by 4 x 4 blocks, which serves every width from 4 lanes on; one lane is a plain
  * copy. */
-#ifndef OZ_KERNELS_LANES_H
-#define OZ_KERNELS_LANES_H
+#pragma once
 
 #include "kernels/vec3.h"
 
@@ -242,5 +241,3 @@ OZ_INLINE int oz_lanes_compact(int *to, index values, mask hits)
     oz_lanes_close_up(to, values, bits);
     return popcount(bits);
 }
-
-#endif

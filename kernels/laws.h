@@ -1,8 +1,7 @@
 /* THE list of contact laws. Scene choices, `-D OZ_LAW_ID`, the law of kernels and of the reference,
  * constants, units and the predicted hit are made of it: a row whose functions do not exist does
  * not compile. Names alone: host/scene reads it too. */
-#ifndef OZ_KERNELS_LAWS_H
-#define OZ_KERNELS_LAWS_H
+#pragma once
 
 /* X(NAME, name, choice, linear, stiffness, damping), a row each:
  *   linear     1: the force grows with the overlap itself, and a hit's duration and restitution are
@@ -19,5 +18,3 @@
 
 #define OZ_LAWS_ID(NAME, name, choice, linear, stiffness, damping) OZ_LAW_##NAME,
 typedef enum OzLaw { OZ_LAWS(OZ_LAWS_ID) OZ_LAWS_END } OzLaw;
-
-#endif

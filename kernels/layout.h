@@ -1,8 +1,7 @@
 /* What host and device agree on: parameters, sizes, control words and where words lie in records. A
  * device kernel writes the sizes of these structs at start and the host compares them with its own.
  */
-#ifndef OZ_KERNELS_LAYOUT_H
-#define OZ_KERNELS_LAYOUT_H
+#pragma once
 
 #include "kernels/contact.h"
 #include "kernels/head.h"
@@ -105,5 +104,3 @@ enum {
 /* Words of a block's reference: place and half-shaft when a list was made, and the grain's skin in
  * that list: how far it may move before the list must be made again. */
 enum { OZ_REFERENCE_SKIN = 6, OZ_REFERENCE = 7 };
-
-#endif

@@ -2,8 +2,7 @@
  * taken with the mean of the velocities before and after it, added up in double. What the
  * tangential springs were given and do not hold any more is friction; the host subtracts. Only
  * compiled when a scene asks for it. */
-#ifndef OZ_KERNELS_LEDGER_H
-#define OZ_KERNELS_LEDGER_H
+#pragma once
 
 #include "kernels/lists.h"
 #include "kernels/motion.h"
@@ -118,5 +117,3 @@ OZ_INLINE void oz_ledger_region(OzWork *w, int region, int step)
     oz_ledger_walls(w, region, step);
 #endif
 }
-
-#endif

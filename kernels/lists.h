@@ -7,8 +7,7 @@
  * says, so that the host can enlarge it and repeat: no pair is dropped. Both lists are ordered by
  * first slot, then by the second's id: whatever the skins, touching pairs come in the same order.
  * OpenCL C only. */
-#ifndef OZ_KERNELS_LISTS_H
-#define OZ_KERNELS_LISTS_H
+#pragma once
 
 #include "kernels/cells.h"
 #include "kernels/springs.h"
@@ -391,5 +390,3 @@ OZ_INLINE void oz_lists_order(OzWork *w)
     }
 #endif
 }
-
-#endif

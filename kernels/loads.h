@@ -1,7 +1,6 @@
 /* Force and torque on each grain, kept slot by slot while pairs and walls add theirs: always in the
  * same order, whatever the lists look like. OpenCL C only. */
-#ifndef OZ_KERNELS_LOADS_H
-#define OZ_KERNELS_LOADS_H
+#pragma once
 
 #include "kernels/pairs.h"
 
@@ -108,5 +107,3 @@ OZ_INLINE OzLoad oz_loads_of(const OzWork *w, int block)
     OzLoad load = {oz_vec3(force[0], force[1], force[2]), oz_vec3(torque[0], torque[1], torque[2])};
     return load;
 }
-
-#endif

@@ -6,8 +6,7 @@
  * does a member's whole launch and needs neither barriers nor atomics; otherwise the work-group's
  * size. OZ_RESORT 1: a large scene, phase by phase over many work-groups. Pair lists are kept by
  * region, a run of slots. */
-#ifndef OZ_KERNELS_MEMBER_H
-#define OZ_KERNELS_MEMBER_H
+#pragma once
 
 #include "kernels/head.h"
 #include "kernels/lanes.h"
@@ -146,5 +145,3 @@ kernel void oz_layout(global int *sizes)
     sizes[3] = (int)sizeof(scalar);
     sizes[4] = OZ_LANES;
 }
-
-#endif

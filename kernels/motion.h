@@ -1,7 +1,6 @@
 /* The part of a step after the forces between grains: what a region's grains feel, and where they go. OpenCL C
  * only. */
-#ifndef OZ_KERNELS_MOTION_H
-#define OZ_KERNELS_MOTION_H
+#pragma once
 
 #include "kernels/enclosure.h"
 #include "kernels/near.h"
@@ -76,6 +75,4 @@ OZ_INLINE void oz_motion_before_region(OzWork *w, int region, int step)
         oz_motion_before_block(w, block, step);
     }
 }
-#endif
-
 #endif

@@ -1,7 +1,6 @@
 /* What the grid and the lists want to know of grains: where one is and how far it reaches, which
  * pairs are near, what has moved. OpenCL C only. */
-#ifndef OZ_KERNELS_NEAR_H
-#define OZ_KERNELS_NEAR_H
+#pragma once
 
 #include "kernels/grains.h"
 
@@ -135,5 +134,3 @@ OZ_INLINE void oz_near_fresh(OzWork *w, int begin, int count)
         w->pair_active[p / OZ_LANES] = -1;
     }
 }
-
-#endif

@@ -3,8 +3,7 @@
  * OpenCL C only. Where one work-item does a whole member it adds a pair's force to both grains'
  * loads at once; otherwise it keeps the forces of a region's picked pairs closed up, and the grains
  * gather theirs (loads.h). */
-#ifndef OZ_KERNELS_PAIRS_H
-#define OZ_KERNELS_PAIRS_H
+#pragma once
 
 #include "kernels/active.h"
 #include "kernels/deep.h"
@@ -341,5 +340,3 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
         pairs.kept += due;
     }
 }
-
-#endif

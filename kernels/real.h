@@ -5,8 +5,7 @@
  * Rules for code in this dialect: literals through REAL(), choices by (condition) ? a : b, which is
  * componentwise on vectors, conditions combined with & and |, no early return, no loop over lanes.
  */
-#ifndef OZ_KERNELS_REAL_H
-#define OZ_KERNELS_REAL_H
+#pragma once
 
 #define OZ_PASTE_(a, b) a##b
 #define OZ_PASTE(a, b)  OZ_PASTE_(a, b)
@@ -140,6 +139,4 @@ OZ_INLINE real oz_inverse_root(real x)
 {
     return REAL(1.0) / sqrt(x);
 }
-#endif
-
 #endif

@@ -1,8 +1,7 @@
 /* Putting grains into the order of the grid's cells, so that neighbours in space are neighbours in
  * memory: large scenes spend most of their time waiting for memory otherwise. Out to the spare
  * array in the new order, then back. OpenCL C only. */
-#ifndef OZ_KERNELS_RESORT_H
-#define OZ_KERNELS_RESORT_H
+#pragma once
 
 #include "kernels/near.h"
 #include "kernels/lists.h"
@@ -77,5 +76,3 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
     }
     oz_resort_records(w, region);
 }
-
-#endif

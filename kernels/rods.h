@@ -2,8 +2,7 @@
  * wall (Pournin et al. 2005, sec. 3). Switches: OZ_ROUND 1: all grains are spheres; OZ_LINE 1:
  * nearly parallel shafts touch as contact_line.h says, 0: at their closest points; those of
  * grain.h. */
-#ifndef OZ_KERNELS_RODS_H
-#define OZ_KERNELS_RODS_H
+#pragma once
 
 #include "kernels/contact_line.h"
 #include "kernels/depth.h"
@@ -122,5 +121,3 @@ OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance 
     }
     return oz_contact_force(*contact, law, history, dt, share);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Tangential springs on their way through a rebuild of the lists: inner -> outer -> saved by ids -> outer -> inner
  * (control->truth says where they are). OpenCL C only. */
-#ifndef OZ_KERNELS_SPRINGS_H
-#define OZ_KERNELS_SPRINGS_H
+#pragma once
 
 #include "kernels/member.h"
 
@@ -73,5 +72,3 @@ OZ_INLINE void oz_springs_restore(OzWork *w, int region)
     }
 #endif
 }
-
-#endif

@@ -10,8 +10,7 @@
  * The push does not jump where kinds change from none to i, i to ii and i to iv.
  * Under OZ_FORCE_POINT 0 the force acts at the overlap's centroid, which for kind i makes it the
  * gradient of the integral of depth; under 1 in the middle between crossings, as in the paper. */
-#ifndef OZ_KERNELS_TRIANGLE_H
-#define OZ_KERNELS_TRIANGLE_H
+#pragma once
 
 #include "kernels/vec2.h"
 
@@ -254,5 +253,3 @@ OZ_INLINE OzOverlap oz_triangle_overlap(const OzTriangle *a, const OzTriangle *b
     o.energy = crosses ? o.energy : REAL(0.0);
     return o;
 }
-
-#endif

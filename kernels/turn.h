@@ -1,8 +1,7 @@
 /* Cosine and sine of any angle, and the angle between two directions, on lanes: devices' own are taken lane by lane on
  * some drivers, and need not give one lane what they give eight. Polynomials are summed by halves, which leaves a
  * processor more to do at a time than Horner's one after the other. */
-#ifndef OZ_KERNELS_TURN_H
-#define OZ_KERNELS_TURN_H
+#pragma once
 
 #include "kernels/vec2.h"
 
@@ -81,5 +80,3 @@ OZ_INLINE real oz_turn_between(OzVec2 from, OzVec2 to, real length)
     s = along > REAL(0.0) ? s : (up > REAL(0.0) ? REAL(0.6) : REAL(-0.6));
     return REAL(2.0) * oz_turn_arc(s);
 }
-
-#endif

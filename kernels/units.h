@@ -1,6 +1,5 @@
 /* What one of the kernels' lengths, times and masses is. */
-#ifndef OZ_KERNELS_UNITS_H
-#define OZ_KERNELS_UNITS_H
+#pragma once
 
 #include "kernels/real.h"
 
@@ -11,5 +10,3 @@ typedef struct OzUnits {
     scalar time;   /* s  */
     scalar mass;   /* kg; of trigrains, a metre deep */
 } OzUnits;
-
-#endif

@@ -1,6 +1,5 @@
 /* Vectors of two lanes-wide numbers, in the plane of grains made of triangles. */
-#ifndef OZ_KERNELS_VEC2_H
-#define OZ_KERNELS_VEC2_H
+#pragma once
 
 #include "kernels/real.h"
 
@@ -68,5 +67,3 @@ OZ_INLINE real oz_length2(OzVec2 a)
 {
     return sqrt(oz_dot2(a, a));
 }
-
-#endif

@@ -2,8 +2,7 @@
  * exact. In single precision a place is a 32-bit integer count of length_unit with a carried
  * remainder, so that overlaps keep their digits far from the origin and slow grains do not stall at
  * small steps; in double it is the coordinate itself. A quaternion carries a remainder too. */
-#ifndef OZ_KERNELS_VEC3_H
-#define OZ_KERNELS_VEC3_H
+#pragma once
 
 #include "kernels/real.h"
 
@@ -195,7 +194,5 @@ OZ_INLINE void oz_quaternion_move(OzQuaternion *turn, OzQuaternion *rest, OzQuat
     oz_quaternion_move_one(&turn->z, &rest->z, change.z);
     oz_quaternion_move_one(&turn->w, &rest->w, change.w);
 }
-
-#endif
 
 #endif

@@ -1,7 +1,6 @@
 /* The distance of any wall. Switch OZ_WALL_KINDS: how many walls of each kind the scene has, five bits a kind, a
  * constant on a device: kinds that it lacks are left out there. */
-#ifndef OZ_KERNELS_WALL_H
-#define OZ_KERNELS_WALL_H
+#pragma once
 
 #include "kernels/wall_cylinder.h"
 #include "kernels/wall_plane.h"
@@ -56,6 +55,4 @@ OZ_INLINE real oz_wall_overlap(OzFineVec3 end, OzWallShape wall, OzFine rise, re
 #undef OZ_WALL_ROW
     return REAL(0.0);
 }
-#endif
-
 #endif

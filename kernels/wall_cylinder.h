@@ -1,6 +1,5 @@
 /* The inside of an upright cylinder of `radius` about the z axis. */
-#ifndef OZ_KERNELS_WALL_CYLINDER_H
-#define OZ_KERNELS_WALL_CYLINDER_H
+#pragma once
 
 #include "kernels/wall_shape.h"
 
@@ -26,6 +25,4 @@ OZ_INLINE real oz_wall_cylinder_fine(OzFineVec3 end, OzWallShape wall, OzFine ri
     sum = oz_fine_add_square(sum, end.y);
     return -oz_fine_nearer(sum, room);
 }
-#endif
-
 #endif

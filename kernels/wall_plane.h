@@ -1,6 +1,5 @@
 /* A plane: `normal` into the free side. */
-#ifndef OZ_KERNELS_WALL_PLANE_H
-#define OZ_KERNELS_WALL_PLANE_H
+#pragma once
 
 #include "kernels/wall_shape.h"
 
@@ -27,6 +26,4 @@ OZ_INLINE real oz_wall_plane_fine(OzFineVec3 end, OzWallShape wall, OzFine rise,
     sum = oz_fine_add(sum, -radius);
     return -(sum.high + sum.low);
 }
-#endif
-
 #endif

@@ -1,7 +1,6 @@
 /* A wall as its distance reads it, and what the distance answers. A wall touches the cap at an end of a shaft (Pournin
  * et al. 2005, sec. 3.2): two contacts for a rod lying flat, one for a sphere. */
-#ifndef OZ_KERNELS_WALL_SHAPE_H
-#define OZ_KERNELS_WALL_SHAPE_H
+#pragma once
 
 #include "kernels/vec3.h"
 #if OZ_FINE
@@ -24,5 +23,3 @@ typedef struct OzWallDistance {
     real overlap; /* m, of the cap and the wall */
 #endif
 } OzWallDistance;
-
-#endif

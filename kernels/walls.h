@@ -1,8 +1,7 @@
 /* THE list of walls. Scene choices, the kernels' and the host's distances, the room for grains and
  * pictures are made of it: a row whose functions do not exist does not compile. Names alone:
  * host/scene reads it too. */
-#ifndef OZ_KERNELS_WALLS_H
-#define OZ_KERNELS_WALLS_H
+#pragma once
 
 /* X(NAME, name, choice, fine), a row each, of rods' walls:
  *   fine   1: kernels/wall_<name>.h has oz_wall_<name>_fine, too: the overlap of light contacts
@@ -34,5 +33,3 @@
 typedef enum OzWallKind {
     OZ_WALLS(OZ_WALLS_ID) OZ_TRIGRAINS_WALLS(OZ_WALLS_FLAT_ID) OZ_WALLS_END
 } OzWallKind;
-
-#endif

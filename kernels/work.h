@@ -1,6 +1,5 @@
 /* Grains in the kernels' memory. OpenCL C only. */
-#ifndef OZ_KERNELS_WORK_H
-#define OZ_KERNELS_WORK_H
+#pragma once
 
 #include "kernels/fields.h"
 #include "kernels/integrate.h"
@@ -120,6 +119,4 @@ OZ_INLINE void oz_work_clear_loads(OzWork *w, int region)
         words[k] = REAL(0.0);
     }
 }
-#endif
-
 #endif

@@ -1,6 +1,5 @@
 /* Which columns of series.csv a scene with grains leaves empty in every row, and why. */
-#ifndef OZ_COMMAND_INSPECT_COLUMNS_H
-#define OZ_COMMAND_INSPECT_COLUMNS_H
+#pragma once
 
 #include "model/grains.h"
 
@@ -11,5 +10,3 @@
  * are not named, nor those that fill only when something happens (the size of the last avalanche).
  */
 void oz_inspect_columns_print(FILE *file, const OzScene *scene, const OzGrains *grains);
-
-#endif

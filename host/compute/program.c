@@ -31,12 +31,13 @@ static bool seen_before(const Flat *flat, const char *name)
 
 static OzStatus add_file(Flat *flat, const char *name, int depth);
 
-/* One line of a file: an include of ours is replaced, anything else is copied. */
+/* One line of a file: an include of ours is replaced, anything else is copied. "#pragma once" is
+ * done by then, and compilers warn of it in what is not included. */
 static OzStatus add_line(Flat *flat, const char *file, int number, const char *line, int depth)
 {
     char included[256];
     if (sscanf(line, " #include \"%255[^\"]\"", included) != 1) {
-        fprintf(flat->out, "%s\n", line);
+        fprintf(flat->out, "%s\n", strcmp(line, "#pragma once") == 0 ? "" : line);
         return OZ_OK;
     }
     OzStatus status = OZ_OK;

@@ -1,7 +1,6 @@
 /* The state at one moment, by grain id: the only bridge from the simulation to everything that
  * looks at it (observables, pictures, files). A snapshot can be written by hand in a test. */
-#ifndef OZ_MODEL_SNAPSHOT_H
-#define OZ_MODEL_SNAPSHOT_H
+#pragma once
 
 #include "base/state.h"
 #include "model/contact_list.h"
@@ -87,5 +86,3 @@ void oz_snapshot_turn_axes(OzSnapshot *snapshot);
 /* Saves or loads (base/state.h) all but scene, grains and what was found about contacts. The
  * snapshot has been made for scene and grains. */
 OzStatus oz_snapshot_state(OzSnapshot *snapshot, OzStateVisit *visit);
-
-#endif

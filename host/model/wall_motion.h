@@ -1,7 +1,6 @@
 /* Where the walls of trigrains are at a time: bodies of elements that move as a whole, up and down
  * or about their point, until they are taken away. */
-#ifndef OZ_MODEL_WALL_MOTION_H
-#define OZ_MODEL_WALL_MOTION_H
+#pragma once
 
 #include "model/elements.h"
 #include "scene/scene.h"
@@ -25,5 +24,3 @@ OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest);
 void oz_wall_motion_place(const OzElements *elements, const OzScene *scene, double time,
                           bool at_rest, double *position, double *angle, double *velocity,
                           double *angular_velocity);
-
-#endif

@@ -1,6 +1,5 @@
 /* Energies of flat grains, summed over their elements, J a metre deep. */
-#ifndef OZ_OBSERVE_ELEMENT_ENERGY_H
-#define OZ_OBSERVE_ELEMENT_ENERGY_H
+#pragma once
 
 #include "model/snapshot.h"
 
@@ -13,5 +12,3 @@ double oz_element_energy_stored(const OzSnapshot *snapshot);
 
 /* Dissipated since time 0 by every mechanism; known with the ledger. */
 double oz_element_energy_lost(const OzSnapshot *snapshot);
-
-#endif

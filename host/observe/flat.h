@@ -1,7 +1,6 @@
 /* The values of flat grains' columns, for THE list in observe/observables.c: each as OzColumn asks.
  * Where one serves several columns, the index of the observation tells them apart. */
-#ifndef OZ_OBSERVE_FLAT_H
-#define OZ_OBSERVE_FLAT_H
+#pragma once
 
 #include "observe/observables.h"
 
@@ -35,5 +34,3 @@ bool oz_flat_outflow(const OzObservation *observation, double *value);
 
 /* index: 0 surface, 1 centre, 2 mean, 3 deviation, 4 avalanches, 5 the size of the last. */
 bool oz_flat_inclination(const OzObservation *observation, double *value);
-
-#endif

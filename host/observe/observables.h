@@ -1,7 +1,6 @@
 /* THE list of observables: the columns of series.csv, `orzo keys --columns` and the README's table
  * are this list. A new observable is one function and one row. */
-#ifndef OZ_OBSERVE_OBSERVABLES_H
-#define OZ_OBSERVE_OBSERVABLES_H
+#pragma once
 
 #include "observe/flow.h"
 #include "observe/measure.h"
@@ -84,5 +83,3 @@ double oz_observables_energy(const OzSnapshot *snapshot);
 
 /* What of it is dissipated, friction too, J; 0 without a ledger. */
 double oz_observables_lost(const OzSnapshot *snapshot);
-
-#endif

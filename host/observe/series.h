@@ -1,6 +1,5 @@
 /* series.csv: one row per interval from THE list of observables. */
-#ifndef OZ_OBSERVE_SERIES_H
-#define OZ_OBSERVE_SERIES_H
+#pragma once
 
 #include "base/state.h"
 #include "observe/observables.h"
@@ -51,5 +50,3 @@ OzStatus oz_series_write_spectrum(const OzSeries *series, const char *path);
 
 /* Closes; NULL is fine. */
 OzStatus oz_series_free(OzSeries *series);
-
-#endif

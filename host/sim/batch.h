@@ -1,7 +1,6 @@
 /* The members of a simulation and how far they have come: what both models' simulations keep of
  * steps, of members that wait or that a guard stopped, and of how long launches are. */
-#ifndef OZ_SIM_BATCH_H
-#define OZ_SIM_BATCH_H
+#pragma once
 
 #include "base/state.h"
 #include "model/step_clock.h"
@@ -79,5 +78,3 @@ void oz_batch_start_clock(OzBatch *batch);
 
 /* Saves or loads (base/state.h) how far members have come and what was said of them. */
 OzStatus oz_batch_state(OzBatch *batch, OzStateVisit *visit);
-
-#endif

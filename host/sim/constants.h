@@ -1,7 +1,6 @@
 /* Scene and grains as the numbers that kernels and the host reference share: the parameter struct,
  * in double. Compiles the physics headers for the host. */
-#ifndef OZ_SIM_CONSTANTS_H
-#define OZ_SIM_CONSTANTS_H
+#pragma once
 
 #define OZ_HOST
 #include "kernels/layout.h"
@@ -24,5 +23,3 @@ OzStatus oz_constants_refill(OzParameters *parameters, int wall_order[OZ_WALLS_M
 /* The law of the scene's contacts of given values (of two grains: the scene's; of a wall: its own),
  * calibrated where the scene asks for it. */
 OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values);
-
-#endif

@@ -1,6 +1,5 @@
 /* Trigrains' fields on the device, from the one list in kernels/element_fields.h. */
-#ifndef OZ_SIM_ELEMENT_FIELDS_H
-#define OZ_SIM_ELEMENT_FIELDS_H
+#pragma once
 
 #define OZ_HOST
 #include "kernels/element_fields.h"
@@ -33,5 +32,3 @@ static inline const OzElementSizes *oz_element_fields_sizes(const OzArrays *arra
 {
     return arrays->sizes;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* All forces between elements at one state, in double on the host: contacts of triangles and discs
  * with grains and walls, beams, gravity. Serves the reference simulation, and the contacts and
  * beams of snapshots wherever they come from. */
-#ifndef OZ_SIM_ELEMENT_FORCES_H
-#define OZ_SIM_ELEMENT_FORCES_H
+#pragma once
 
 #include "model/snapshot.h"
 #include "sim/element_laws.h"
@@ -65,5 +64,3 @@ OzStatus oz_element_forces_check(const OzElementForces *forces, int64_t step, do
 
 /* Fills the snapshot's contacts and beams from its state, and has_contacts. */
 OzStatus oz_element_forces_contacts(OzSnapshot *snapshot);
-
-#endif

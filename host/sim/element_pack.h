@@ -1,6 +1,5 @@
 /* Elements between the host's arrays by id and the device's words by slot and lane. */
-#ifndef OZ_SIM_ELEMENT_PACK_H
-#define OZ_SIM_ELEMENT_PACK_H
+#pragma once
 
 #include "model/snapshot.h"
 #include "sim/element_fields.h"
@@ -38,5 +37,3 @@ OzStatus oz_element_pack_adopt(OzArrays *arrays, const OzArrays *from, int membe
 /* Reads the free elements' state into snapshot. */
 OzStatus oz_element_pack_state(const OzArrays *arrays, int member,
                                const OzElementParameters *parameters, OzSnapshot *snapshot);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a snapshot knows of trigrains. */
-#ifndef OZ_SIM_ELEMENT_READ_SNAPSHOT_H
-#define OZ_SIM_ELEMENT_READ_SNAPSHOT_H
+#pragma once
 
 #include "sim/model.h"
 
@@ -11,5 +10,3 @@ OzStatus oz_element_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snap
 OzStatus oz_element_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snapshot);
 double oz_element_read_snapshot_energy(const OzSnapshot *now);
 OzStatus oz_element_read_snapshot_start_ledger(OzSim *sim);
-
-#endif

@@ -3,8 +3,7 @@
  * derivatives), velocity-verlet (velocities predicted for damping; beams in substeps), rk4. For
  * tests and for errors against a known answer; one thread, no settling: step 0 is the grains' state
  * as given. */
-#ifndef OZ_SIM_ELEMENT_REFERENCE_H
-#define OZ_SIM_ELEMENT_REFERENCE_H
+#pragma once
 
 #include "model/snapshot.h"
 
@@ -32,5 +31,3 @@ void oz_element_reference_free(OzElementReference *reference);
  * differences of fourth order over two scene steps of rk4 either way. */
 OzStatus oz_element_reference_start_derivatives(const OzSnapshot *snapshot, bool at_rest,
                                                 double *second, double *third, double *fourth);
-
-#endif

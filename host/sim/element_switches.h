@@ -1,7 +1,6 @@
 /* What a scene of trigrains needs of its kernels: THE list of switches. Each becomes -D
  * OZ_<NAME>=<value>; those that are off are what `orzo check` says was left out. */
-#ifndef OZ_SIM_ELEMENT_SWITCHES_H
-#define OZ_SIM_ELEMENT_SWITCHES_H
+#pragma once
 
 #include "compute/device.h"
 #include "model/grains.h"
@@ -35,5 +34,3 @@ typedef struct OzElementSwitches {
  * substeps have too many phases for that. */
 OzElementSwitches oz_element_switches_derive(const OzScene *scene, const OzGrains *grains,
                                              const OzDevice *device);
-
-#endif

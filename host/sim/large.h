@@ -1,7 +1,6 @@
 /* Large scenes: a step is a few kernels over all regions, many steps are queued without waiting,
  * and the lists are made anew when the device says so. */
-#ifndef OZ_SIM_LARGE_H
-#define OZ_SIM_LARGE_H
+#pragma once
 
 #include "sim/arrays.h"
 #include "sim/model.h"
@@ -26,5 +25,3 @@ OzStatus oz_large_save_springs(OzLarge *large, OzArrays *arrays, OzControlHead *
 /* The inner lists anew, and first the outer ones and the order of grains if asked, whether they
  * hold or not: for timing. The lists must have been made once. */
 OzStatus oz_large_renew(OzLarge *large, OzArrays *arrays, OzControlHead *control, bool outer);
-
-#endif

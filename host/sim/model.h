@@ -2,8 +2,7 @@
  * rods or trigrains. THE list of models is in sim/models.c. Switches, sizes, parameters and
  * control words are structs of the model's own, handed about as void pointers; they begin with the
  * words of kernels/head.h, which are all that the driver looks at. */
-#ifndef OZ_SIM_MODEL_H
-#define OZ_SIM_MODEL_H
+#pragma once
 
 #define OZ_HOST
 #include "base/state.h"
@@ -163,5 +162,3 @@ typedef struct OzModelLayout {
 OzStatus oz_model_layout(OzModelLayout *layout, const OzModel *model, const OzMember *member,
                          const OzDevice *device, const void *running);
 void oz_model_layout_free(OzModelLayout *layout);
-
-#endif

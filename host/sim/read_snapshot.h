@@ -1,6 +1,5 @@
 /* Snapshots of a simulation. */
-#ifndef OZ_SIM_READ_SNAPSHOT_H
-#define OZ_SIM_READ_SNAPSHOT_H
+#pragma once
 
 #include "model/snapshot.h"
 #include "sim/sim.h"
@@ -10,5 +9,3 @@
  * downloaded, or the host looks for all contacts). They are left out when the run was stopped by a
  * guard. */
 OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts);
-
-#endif

@@ -1,7 +1,6 @@
 /* What the reference's own files know of it. For .c files that set the dialect before they call any
  * physics. */
-#ifndef OZ_SIM_REFERENCE_PRIVATE_H
-#define OZ_SIM_REFERENCE_PRIVATE_H
+#pragma once
 
 #include "model/step_clock.h"
 #include "sim/dialect.h"
@@ -39,5 +38,3 @@ struct OzReference {
     OzWork work;
     int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */
 };
-
-#endif

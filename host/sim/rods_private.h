@@ -1,7 +1,6 @@
 /* What the files of rods' simulation share among themselves: what the driver keeps for them, as
  * what it is. */
-#ifndef OZ_SIM_RODS_PRIVATE_H
-#define OZ_SIM_RODS_PRIVATE_H
+#pragma once
 
 #include "sim/rods_fields.h"
 #include "sim/sim_private.h"
@@ -42,5 +41,3 @@ static inline OzParameters *oz_rods_parameters(const OzSim *sim, int member)
  * sizes.motion_steps) from the present one on, and for their end; all the present one's while the
  * step has no length. */
 OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a snapshot knows of rods. */
-#ifndef OZ_SIM_RODS_READ_SNAPSHOT_H
-#define OZ_SIM_RODS_READ_SNAPSHOT_H
+#pragma once
 
 #include "sim/model.h"
 
@@ -10,5 +9,3 @@ OzStatus oz_rods_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapsho
 OzStatus oz_rods_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snapshot);
 double oz_rods_read_snapshot_energy(const OzSnapshot *now);
 OzStatus oz_rods_read_snapshot_start_ledger(OzSim *sim);
-
-#endif

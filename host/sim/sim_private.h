@@ -1,6 +1,5 @@
 /* What the files of the simulation share among themselves. */
-#ifndef OZ_SIM_SIM_PRIVATE_H
-#define OZ_SIM_SIM_PRIVATE_H
+#pragma once
 
 #include "sim/arrays.h"
 #include "sim/batch.h"
@@ -32,5 +31,3 @@ OzStatus oz_sim_create_after(OzSim **sim, const OzDevice *device, const OzMember
 
 /* Uploads all members' parameters. */
 OzStatus oz_sim_write_parameters(OzSim *sim);
-
-#endif

@@ -1,7 +1,6 @@
 /* What a scene needs of its kernels: THE list of switches. Each becomes -D OZ_<NAME>=<value>; those
  * that are off are what `orzo check` says was left out. */
-#ifndef OZ_SIM_SWITCHES_H
-#define OZ_SIM_SWITCHES_H
+#pragma once
 
 #include "compute/device.h"
 #include "model/grains.h"
@@ -44,5 +43,3 @@ typedef struct OzSwitches {
 
 /* The switches of a scene on a device. */
 OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, const OzDevice *device);
-
-#endif
