@@ -74,8 +74,7 @@ refuses columns host/observe/observables.c lowest
 
 # A law: hooke's, whose dashpot acts while the overlap grows.
 cat >kernels/contact_brake.h <<'CODE'
-#ifndef OZ_KERNELS_CONTACT_BRAKE_H
-#define OZ_KERNELS_CONTACT_BRAKE_H
+#pragma once
 #include "kernels/contact_hooke.h"
 OZ_INLINE OzResponse oz_contact_brake(OzContact c, OzLawConstants law)
 {
@@ -83,7 +82,6 @@ OZ_INLINE OzResponse oz_contact_brake(OzContact c, OzLawConstants law)
     out.dashpot = c.rate > REAL(0.0) ? out.dashpot : REAL(0.0);
     return out;
 }
-#endif
 CODE
 echo '#include "kernels/contact_brake.h"' | put before kernels/contact_law.h '#include "kernels/contact_hertz.h"'
 put before host/model/contact.c '#define ROW(NAME' <<'CODE'
@@ -102,8 +100,7 @@ sed -i 's/\.laws = HOOKE/.laws = BRAKE | HOOKE/' host/scene/rows.c
 
 # An integrator: places move with the mean of the old velocity and the new one, exact in free fall.
 cat >kernels/integrate_mean_euler.h <<'CODE'
-#ifndef OZ_KERNELS_INTEGRATE_MEAN_EULER_H
-#define OZ_KERNELS_INTEGRATE_MEAN_EULER_H
+#pragma once
 #include "kernels/body.h"
 OZ_INLINE void oz_mean_euler_after(OzBody *body, OzShape shape, OzLoad load, real dt, scalar inverse_unit)
 {
@@ -114,7 +111,6 @@ OZ_INLINE void oz_mean_euler_after(OzBody *body, OzShape shape, OzLoad load, rea
                            oz_scale(oz_add(before, body->velocity), REAL(0.5) * dt), inverse_unit);
     oz_body_turn(body, body->spin, shape, dt);
 }
-#endif
 CODE
 echo '#include "kernels/integrate_mean_euler.h"' | put before kernels/integrate.h '#include "kernels/integrate_s'
 put before host/model/predict.c 'static const struct {' <<'CODE'
@@ -147,8 +143,7 @@ CODE
 
 # A wall: the inside of an upright cone, its tip below.
 cat >kernels/wall_cone.h <<'CODE'
-#ifndef OZ_KERNELS_WALL_CONE_H
-#define OZ_KERNELS_WALL_CONE_H
+#pragma once
 #include "kernels/wall_shape.h"
 OZ_INLINE OzWallDistance oz_wall_cone(OzVec3 from, OzWallShape wall)
 {
@@ -160,7 +155,6 @@ OZ_INLINE OzWallDistance oz_wall_cone(OzVec3 from, OzWallShape wall)
     at.distance = sine * from.z - cosine * r2 * out;
     return at;
 }
-#endif
 CODE
 echo '#include "kernels/wall_cone.h"' | put before kernels/wall.h '#include "kernels/wall_cylinder.h"'
 put before host/scene/wall_shape.c 'OzWallShape oz_wall_shape_of' <<'CODE'
