@@ -7,7 +7,7 @@
 #include "kernels/head.h"
 #include "kernels/wall_shape.h"
 
-enum { OZ_WALLS_MAX = 16 }; /* the most walls of a scene: OzParameters has an entry for each */
+enum { OZ_WALLS_MAX = 31 }; /* the most sides of walls: OzParameters has an entry for each */
 
 /* A wall as kernels see it. They come in the order of their kinds. */
 typedef struct OzWallParameters {

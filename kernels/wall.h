@@ -4,6 +4,8 @@
 
 #include "kernels/wall_cylinder.h"
 #include "kernels/wall_plane.h"
+#include "kernels/wall_sphere.h"
+#include "kernels/wall_tube.h"
 #include "kernels/walls.h"
 
 #define OZ_WALL_COUNT_OF(NAME)  (OZ_WALL_KINDS >> 5 * OZ_WALL_##NAME & 31)

@@ -11,8 +11,9 @@
 typedef struct OzWallShape {
     scalar kind;      /* OZ_WALL_...                                                */
     scalar point[3];  /* where distances are measured from; on a device in a place's units, else m */
-    scalar normal[3]; /* numbers without a unit: of a plane the unit vector into the free side */
+    scalar normal[3]; /* a unit vector: of a plane into the free side, of a tube along its axis     */
     scalar radius;    /* m                                                          */
+    scalar side;      /* 1: grains are inside a tube or sphere; -1: outside         */
 } OzWallShape;
 
 /* Where a cap's centre stands against a wall. */

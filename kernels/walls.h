@@ -8,12 +8,20 @@
  * with all digits that places carry; 0: precision: float refuses scenes that need it
  * kernels/wall_<name>.h has oz_wall_<name>(from, wall) and is included by wall.h;
  * host/scene/wall_shape.c fills the numbers that it reads (shape_<name>); host/model/fill_region.c
- * bounds the room for grains placed at random (bound_by_<name>). The keys of a wall name it under
+ * bounds the room for grains placed at random (bound_by_<name>). An empty
+ * choice is for sides of other walls alone: a cylinder that is not upright about the origin is a
+ * tube. The keys of a wall name it under
  * `.kinds` in host/scene/rows.c. Pictures show kinds without a drawing of their own
  * (host/draw/container.c) by level lines, found by distance. */
 #define OZ_WALLS(X)                                                                                \
     X(PLANE, plane, "plane", 1)                                                                    \
-    X(CYLINDER, cylinder, "cylinder", 1)
+    X(CYLINDER, cylinder, "cylinder", 1)                                                           \
+    X(TUBE, tube, "", 0)                                                                           \
+    X(SPHERE, sphere, "sphere", 0)
+
+/* X(NAME, name, choice), of rods' walls that are made of several of these, as a box is of planes:
+ * host/scene/wall_shape.c makes them (sides_<name>), host/model/fill_region.c as above. */
+#define OZ_COMPOUND_WALLS(X) X(BOX, box, "box")
 
 /* X(NAME, name, choice, rank), of trigrains: a smooth straight wall from one point to another; a
  * toothed floor of a width about a point; two slopes with an opening between them, and upright
@@ -29,7 +37,9 @@
     X(VESSEL, vessel, "vessel", 2)
 
 #define OZ_WALLS_ID(NAME, name, choice, fine)      OZ_WALL_##NAME,
+#define OZ_WALLS_COMPOUND_ID(NAME, name, choice)   OZ_WALL_##NAME,
 #define OZ_WALLS_FLAT_ID(NAME, name, choice, rank) OZ_WALL_##NAME,
 typedef enum OzWallKind {
-    OZ_WALLS(OZ_WALLS_ID) OZ_TRIGRAINS_WALLS(OZ_WALLS_FLAT_ID) OZ_WALLS_END
+    OZ_WALLS(OZ_WALLS_ID) OZ_COMPOUND_WALLS(OZ_WALLS_COMPOUND_ID)
+        OZ_TRIGRAINS_WALLS(OZ_WALLS_FLAT_ID) OZ_WALLS_END
 } OzWallKind;

@@ -9,6 +9,7 @@
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
 #include "sim/sim.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,7 +55,7 @@ void oz_bench_bed_free(OzBenchBed *bed)
 static OzWall *find_cylinder(OzScene *scene)
 {
     for (int w = 0; w < scene->wall_count; w++) {
-        if (scene->walls[w].kind == OZ_WALL_CYLINDER) {
+        if (oz_wall_shape_is_upright(&scene->walls[w])) {
             return &scene->walls[w];
         }
     }

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "observe/final.h"
+#include "scene/wall_shape.h"
 
 #include <libgen.h>
 #include <math.h>
@@ -65,7 +66,7 @@ static double find_number(const char *line, const char *key)
 static double container_of(const OzScene *scene)
 {
     for (int w = 0; w < scene->wall_count; w++) {
-        if (scene->walls[w].kind == OZ_WALL_CYLINDER) {
+        if (oz_wall_shape_is_upright(&scene->walls[w])) {
             return scene->walls[w].diameter;
         }
     }

@@ -3,6 +3,7 @@
 #include "command/inspect_columns.h"
 
 #include "observe/series.h"
+#include "scene/wall_shape.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -14,7 +15,7 @@ static bool lacks_density(const OzScene *scene, const OzGrains *grains)
     bool floor = false, cylinder = false;
     for (int w = 0; w < scene->wall_count; w++) {
         floor |= scene->walls[w].kind == OZ_WALL_PLANE && scene->walls[w].normal[2] == 1;
-        cylinder |= scene->walls[w].kind == OZ_WALL_CYLINDER;
+        cylinder |= oz_wall_shape_is_upright(&scene->walls[w]);
     }
     return !floor || !cylinder;
 }

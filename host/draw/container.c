@@ -3,6 +3,7 @@
 
 #include "draw/framing.h"
 #include "draw/wall_levels.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -347,7 +348,7 @@ static double narrowest_radius(const OzScene *scene)
     double radius = 0;
     for (int w = 0; w < scene->wall_count; w++) {
         double own = 0.5 * scene->walls[w].diameter;
-        if (scene->walls[w].kind == OZ_WALL_CYLINDER && (radius <= 0 || own < radius)) {
+        if (oz_wall_shape_is_upright(&scene->walls[w]) && (radius <= 0 || own < radius)) {
             radius = own;
         }
     }
@@ -381,10 +382,10 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
         oz_mesh_clear(meshes[i]);
     }
     for (int w = 0; w < snapshot->scene->wall_count; w++) {
-        OzWallKind kind = snapshot->scene->walls[w].kind;
-        if (kind == OZ_WALL_PLANE) {
+        const OzWall *wall = &snapshot->scene->walls[w];
+        if (wall->kind == OZ_WALL_PLANE) {
             add_plane(container, &scope, w);
-        } else if (kind != OZ_WALL_CYLINDER) {
+        } else if (!oz_wall_shape_is_upright(wall)) {
             add_levels(container, &scope, w);
         }
     }

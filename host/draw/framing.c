@@ -2,6 +2,7 @@
 #include "draw/framing.h"
 
 #include "draw/plane.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 
@@ -53,7 +54,7 @@ static double cylinder_radius(const OzScene *scene)
 {
     double radius = INFINITY;
     for (int w = 0; w < scene->wall_count; w++) {
-        if (scene->walls[w].kind == OZ_WALL_CYLINDER) {
+        if (oz_wall_shape_is_upright(&scene->walls[w])) {
             radius = fmin(radius, 0.5 * scene->walls[w].diameter);
         }
     }

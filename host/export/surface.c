@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "model/wall_motion.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -165,7 +166,7 @@ OzStatus oz_surface_add_walls(OzSurface *s, const OzSnapshot *now)
         const OzWall *wall = &now->scene->walls[w];
         if (wall->kind == OZ_WALL_PLANE) {
             OZ_PASS(add_plane(s, wall, now->wall_offset[w], &ball, w));
-        } else if (wall->kind == OZ_WALL_CYLINDER) {
+        } else if (oz_wall_shape_is_upright(wall)) {
             OZ_PASS(add_cylinder(s, wall, &ball, w));
         }
     }

@@ -25,7 +25,7 @@ typedef enum OzContactKind {
  */
 typedef struct OzContactEntry {
     int32_t a, b;           /* grains, a < b; b = -1 - i at wall i of the scene                  */
-    int32_t part_a, part_b; /* trigrains: the elements; rods: 0, at walls part_a is the end      */
+    int32_t part_a, part_b; /* trigrains: the elements; rods: 0, at walls part_a tells side and end      */
     OzContactKind kind;
     bool slips;           /* the tangential force is all that friction lets it be              */
     double point[3];      /* m, where the force acts; triangles: near the overlap's centroid   */

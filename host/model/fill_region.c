@@ -22,20 +22,58 @@ static void bound_by_plane(OzFillRegion *fill_region, const OzWall *wall)
     }
 }
 
-static void bound_by_cylinder(OzFillRegion *fill_region, const OzWall *wall)
+static void bound_between(OzFillRegion *fill_region, int k, double low, double high)
+{
+    fill_region->low[k] = fmax(fill_region->low[k], low);
+    fill_region->high[k] = fmin(fill_region->high[k], high);
+    fill_region->walled_low[k] = fill_region->walled_high[k] = true;
+}
+
+/* A round body about its axis: within its radius across, and its length along; endless, it bounds
+ * what lies across alone. */
+static void bound_by_tube(OzFillRegion *fill_region, const OzWall *wall)
 {
     double radius = 0.5 * wall->diameter;
-    fill_region->radius = fmin(fill_region->radius, radius);
-    for (int k = 0; k < 2; k++) {
-        fill_region->low[k] = fmax(fill_region->low[k], -radius);
-        fill_region->high[k] = fmin(fill_region->high[k], radius);
-        fill_region->walled_low[k] = fill_region->walled_high[k] = true;
+    for (int k = 0; k < 3; k++) {
+        double along = wall->axis[k], reach = radius * sqrt(fmax(0, 1 - along * along));
+        double far = wall->point[k] + along * wall->length;
+        if (wall->length > 0 || fabs(along) < sqrt(1 - across)) {
+            bound_between(fill_region, k, fmin(wall->point[k], far) - reach,
+                          fmax(wall->point[k], far) + reach);
+        }
     }
 }
 
-#define ROW(NAME, name, choice, fine) [OZ_WALL_##NAME] = bound_by_##name,
-static void (*const bounds[])(OzFillRegion *fill_region, const OzWall *wall) = {OZ_WALLS(ROW)};
+static void bound_by_cylinder(OzFillRegion *fill_region, const OzWall *wall)
+{
+    bound_by_tube(fill_region, wall);
+    if (oz_wall_shape_is_upright(wall)) {
+        fill_region->radius = fmin(fill_region->radius, 0.5 * wall->diameter);
+    }
+}
+
+static void bound_by_sphere(OzFillRegion *fill_region, const OzWall *wall)
+{
+    double radius = 0.5 * wall->diameter;
+    for (int k = 0; k < 3; k++) {
+        bound_between(fill_region, k, wall->point[k] - radius, wall->point[k] + radius);
+    }
+}
+
+static void bound_by_box(OzFillRegion *fill_region, const OzWall *wall)
+{
+    for (int k = 0; k < 3; k++) {
+        double low = wall->point[k] - (k == 2 ? 0 : wall->size[k] / 2);
+        bound_between(fill_region, k, low, low + wall->size[k]);
+    }
+}
+
+#define ROW(NAME, name, choice, fine)    [OZ_WALL_##NAME] = bound_by_##name,
+#define COMPOUND_ROW(NAME, name, choice) [OZ_WALL_##NAME] = bound_by_##name,
+static void (*const bounds[])(OzFillRegion *fill_region,
+                              const OzWall *wall) = {OZ_WALLS(ROW) OZ_COMPOUND_WALLS(COMPOUND_ROW)};
 #undef ROW
+#undef COMPOUND_ROW
 
 static bool walled(const OzFillRegion *fill_region, int k)
 {

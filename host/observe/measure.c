@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "observe/clip.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -30,7 +31,7 @@ static void find_container(OzMeasure *measure, const OzScene *scene)
         if (measure->floor < 0 && is_floor(wall)) {
             measure->floor = w;
         }
-        if (measure->area == 0 && wall->kind == OZ_WALL_CYLINDER) {
+        if (measure->area == 0 && oz_wall_shape_is_upright(wall)) {
             measure->area = PI / 4 * wall->diameter * wall->diameter;
         }
     }

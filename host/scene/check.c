@@ -78,6 +78,9 @@ static void derive_walls(Checker *checker)
         if (wall->kind == OZ_WALL_PLANE && scene->model == OZ_MODEL_RODS) {
             make_unit(checker, wall->normal, "walls", i, "normal");
         }
+        if (wall->kind == OZ_WALL_CYLINDER) {
+            make_unit(checker, wall->axis, "walls", i, "axis");
+        }
         derive_motion(checker, &wall->motion, i);
         if (wall->motion.present && wall->motion.frequency > 0 && scene->period == 0) {
             scene->period = 1 / wall->motion.frequency;

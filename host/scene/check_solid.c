@@ -14,7 +14,7 @@ static double cylinder_of(const OzScene *scene)
     double least = INFINITY;
     for (int i = 0; i < scene->wall_count; i++) {
         const OzWall *wall = &scene->walls[i];
-        if (wall->kind == OZ_WALL_CYLINDER && wall->diameter > 0) {
+        if (oz_wall_shape_is_upright(wall) && wall->diameter > 0) {
             least = fmin(least, wall->diameter);
         }
     }
@@ -91,8 +91,34 @@ static void check_singles(const OzScene *scene, OzNode *root, OzFaults *faults)
     }
 }
 
+/* Each wall's own values. */
+static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    for (int i = 0; i < scene->wall_count; i++) {
+        const OzWall *wall = &scene->walls[i];
+        char path[64];
+        bool is_cylinder = wall->kind == OZ_WALL_CYLINDER, is_long = wall->length > 0;
+        snprintf(path, sizeof path, "walls.%d.%s", i, is_long ? "length" : "ends");
+        if (is_cylinder && is_long != (wall->ends == OZ_ENDS_CLOSED)) {
+            oz_tree_fault(root, faults, path,
+                          is_long
+                              ? "a cylinder of a length with open ends; expected ends: closed "
+                                "with it, or no length"
+                              : "closed ends of an endless cylinder; expected a length with it");
+        }
+        for (int k = 0; wall->kind == OZ_WALL_BOX && k < 3; k++) {
+            snprintf(path, sizeof path, "walls.%d.size", i);
+            if (!(wall->size[k] > 0)) {
+                oz_tree_fault(root, faults, path, "%s has a side of %g m; expected more than 0",
+                              path, wall->size[k]);
+            }
+        }
+    }
+}
+
 void oz_check_solid_scene(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
+    check_walls(scene, root, faults);
     check_room(scene, root, faults);
     check_singles(scene, root, faults);
 }

@@ -42,9 +42,15 @@ static const char *const CALIBRATIONS[] = {
     [OZ_CALIBRATION_NONE] = "none", [OZ_CALIBRATION_DISCRETE] = "discrete", NULL};
 #define OZ_CHOICES_WALL(NAME, name, choice, fine)      choice,
 #define OZ_CHOICES_NO_WALL(NAME, name, choice, fine)   "",
+#define OZ_CHOICES_COMPOUND(NAME, name, choice)        choice,
+#define OZ_CHOICES_NO_COMPOUND(NAME, name, choice)     "",
 #define OZ_CHOICES_FLAT_WALL(NAME, name, choice, rank) choice,
-static const char *const WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_WALL) NULL};
+static const char *const WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_WALL)
+                                             OZ_COMPOUND_WALLS(OZ_CHOICES_COMPOUND) NULL};
+static const char *const ENDS[] = {
+    [OZ_ENDS_OPEN] = "open", [OZ_ENDS_CLOSED] = "closed", NULL};
 static const char *const FLAT_WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_NO_WALL)
+                                                  OZ_COMPOUND_WALLS(OZ_CHOICES_NO_COMPOUND)
                                                   OZ_TRIGRAINS_WALLS(OZ_CHOICES_FLAT_WALL) NULL};
 static const char *const GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
                                           [OZ_GRAINS_LATTICE] = "lattice",

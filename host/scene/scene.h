@@ -94,10 +94,16 @@ typedef struct OzMotion {
     double turned, turned_since; /* rad, s: its angle at a time, and that time; zero as loaded  */
 } OzMotion;
 
+typedef enum OzWallEnds { OZ_ENDS_OPEN, OZ_ENDS_CLOSED } OzWallEnds;
+
 typedef struct OzWall {
     OzWallKind kind;
     double point[3], normal[3]; /* plane: normal is a unit vector into the free side       */
-    double diameter;            /* cylinder: side wall only, axis z through the origin; drum  */
+    double diameter;            /* m, cylinder, sphere, drum                                  */
+    double axis[3];             /* cylinder: a unit vector along its axis, through point      */
+    double length;              /* m, cylinder: from point along axis; 0: endless             */
+    OzWallEnds ends;            /* cylinder with a length                                     */
+    double size[3];             /* m, box: its bottom's middle is point                       */
     double from[2], to[2];      /* m, segment: the free side lies to the left on the way      */
     double width, height;       /* m, floor, hopper (inner, at the top), vessel (inner)       */
     double opening;             /* m, hopper                                                  */

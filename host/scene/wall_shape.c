@@ -1,6 +1,8 @@
 /* Shapes of rods' walls. */
 #include "scene/wall_shape.h"
 
+#include <math.h>
+
 #define OZ_WALL_KINDS (-1)
 
 #include "kernels/wall.h"
@@ -13,35 +15,119 @@ static void shape_plane(OzWallShape *shape, const OzWall *wall)
     }
 }
 
-static void shape_cylinder(OzWallShape *shape, const OzWall *wall)
+static void shape_tube(OzWallShape *shape, const OzWall *wall)
 {
+    for (int c = 0; c < 3; c++) {
+        shape->point[c] = wall->point[c];
+        shape->normal[c] = wall->axis[c];
+    }
     shape->radius = wall->diameter / 2;
+    shape->side = 1;
 }
 
-OzWallShape oz_wall_shape_of(const OzWall *wall)
+static void shape_cylinder(OzWallShape *shape, const OzWall *wall)
+{
+    if (oz_wall_shape_is_upright(wall)) {
+        shape->radius = wall->diameter / 2;
+    } else {
+        shape->kind = OZ_WALL_TUBE;
+        shape_tube(shape, wall);
+    }
+}
+
+static void shape_sphere(OzWallShape *shape, const OzWall *wall)
+{
+    for (int c = 0; c < 3; c++) {
+        shape->point[c] = wall->point[c];
+    }
+    shape->radius = wall->diameter / 2;
+    shape->side = 1;
+}
+
+/* A plane through a point that lies `along` from another one, in the direction of normal. */
+static OzWallShape plane(const double point[3], double along, const double normal[3], double sign)
+{
+    OzWallShape shape = {.kind = OZ_WALL_PLANE};
+    for (int c = 0; c < 3; c++) {
+        shape.point[c] = point[c] + along * normal[c];
+        shape.normal[c] = sign * normal[c];
+    }
+    return shape;
+}
+
+static int sides_box(OzWallShape *sides, const OzWall *wall)
+{
+    for (int k = 0; k < 3; k++) {
+        const double axis[3] = {k == 0, k == 1, k == 2};
+        double low = k == 2 ? 0 : -wall->size[k] / 2;
+        sides[2 * k] = plane(wall->point, low, axis, 1);
+        sides[2 * k + 1] = plane(wall->point, low + wall->size[k], axis, -1);
+    }
+    return 6;
+}
+
+bool oz_wall_shape_is_upright(const OzWall *wall)
+{
+    return wall->kind == OZ_WALL_CYLINDER && fabs(wall->axis[2]) == 1 && wall->point[0] == 0 &&
+           wall->point[1] == 0;
+}
+
+/* The one side of a wall that is no compound of several. */
+static int shape_of(OzWallShape *side, const OzWall *wall)
 {
 #define ROW(NAME, name, choice, fine) [OZ_WALL_##NAME] = shape_##name,
     static void (*const shapes[OZ_WALLS_END])(OzWallShape * shape,
                                               const OzWall *wall) = {OZ_WALLS(ROW)};
 #undef ROW
-    OzWallShape shape = {.kind = wall->kind};
-    if (shapes[wall->kind]) {
-        shapes[wall->kind](&shape, wall);
+    *side = (OzWallShape){.kind = wall->kind};
+    if (!shapes[wall->kind]) {
+        return 0;
     }
-    return shape;
+    shapes[wall->kind](side, wall);
+    return 1;
 }
 
-double oz_wall_shape_distance(const OzWall *wall, double offset, const double point[3],
-                              double normal[3])
+int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX])
 {
-    OzWallShape shape = oz_wall_shape_of(wall);
-    OzVec3 from = oz_vec3(point[0] - shape.point[0], point[1] - shape.point[1],
-                          point[2] - (shape.point[2] + offset));
-    OzWallDistance at = oz_wall_distance(from, shape);
+#define ROW(NAME, name, choice) [OZ_WALL_##NAME] = sides_##name,
+    static int (*const compounds[OZ_WALLS_END])(OzWallShape * sides,
+                                                const OzWall *wall) = {OZ_COMPOUND_WALLS(ROW)};
+#undef ROW
+    if (compounds[wall->kind]) {
+        return compounds[wall->kind](sides, wall);
+    }
+    int count = shape_of(sides, wall);
+    if (count > 0 && wall->length > 0) { /* a cylinder with closed ends */
+        sides[count++] = plane(wall->point, 0, wall->axis, 1);
+        sides[count++] = plane(wall->point, wall->length, wall->axis, -1);
+    }
+    return count;
+}
+
+double oz_wall_shape_side_distance(const OzWallShape *side, double offset, const double point[3],
+                                   double normal[3])
+{
+    OzVec3 from = oz_vec3(point[0] - side->point[0], point[1] - side->point[1],
+                          point[2] - (side->point[2] + offset));
+    OzWallDistance at = oz_wall_distance(from, *side);
     if (normal) {
         normal[0] = at.normal.x;
         normal[1] = at.normal.y;
         normal[2] = at.normal.z;
     }
     return at.distance;
+}
+
+double oz_wall_shape_distance(const OzWall *wall, double offset, const double point[3],
+                              double normal[3])
+{
+    OzWallShape sides[OZ_WALL_SIDES_MAX];
+    int count = oz_wall_shape_sides(wall, sides), nearest = 0;
+    double least = INFINITY;
+    for (int k = 0; k < count; k++) {
+        double distance = oz_wall_shape_side_distance(&sides[k], offset, point, NULL);
+        nearest = distance < least ? k : nearest;
+        least = fmin(distance, least);
+    }
+    return count > 0 ? oz_wall_shape_side_distance(&sides[nearest], offset, point, normal) : least;
 }

@@ -7,10 +7,21 @@
 #include "kernels/wall_shape.h"
 #include "scene/scene.h"
 
-/* The wall at rest, in m. Walls of trigrains have none: all is zero but the kind. */
-OzWallShape oz_wall_shape_of(const OzWall *wall);
+enum { OZ_WALL_SIDES_MAX = 6 };
 
-/* Distance of a point from the wall, m, > 0 on the free side; offset: m, by which the wall has
- * moved up. normal, unless NULL, receives the unit vector into the free side. */
+/* The wall at rest, in m, as the sides it is made of: most walls are their only side, a box has
+ * six. Returns how many. Walls of trigrains have none. */
+int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]);
+
+/* Whether it is a cylinder about the z axis: that kernels know for itself, that pictures look into
+ * and in which density is defined. */
+bool oz_wall_shape_is_upright(const OzWall *wall);
+
+/* Distance of a point from the wall's nearest side, m, > 0 on the free side; offset: m, by which the
+ * wall has moved up. normal, unless NULL, receives the unit vector into the free side. */
 double oz_wall_shape_distance(const OzWall *wall, double offset, const double point[3],
                               double normal[3]);
+
+/* The same of one side. */
+double oz_wall_shape_side_distance(const OzWallShape *side, double offset, const double point[3],
+                                   double normal[3]);

@@ -3,6 +3,7 @@
 
 #include "model/calibrate.h"
 #include "scene/wall_shape.h"
+#include "sim/sides.h"
 #include "sim/units.h"
 
 #include <string.h>
@@ -31,10 +32,12 @@ static double extent(const OzScene *scene, const OzGrains *grains)
         far = larger(far, fabs(grains->position[i]));
     }
     for (int w = 0; w < scene->wall_count; w++) {
-        OzWallShape shape = oz_wall_shape_of(&scene->walls[w]);
-        far = larger(far, shape.radius);
-        for (int c = 0; c < 3; c++) {
-            far = larger(far, fabs(shape.point[c]));
+        OzWallShape sides[OZ_WALL_SIDES_MAX];
+        for (int k = oz_wall_shape_sides(&scene->walls[w], sides) - 1; k >= 0; k--) {
+            far = larger(far, sides[k].radius);
+            for (int c = 0; c < 3; c++) {
+                far = larger(far, fabs(sides[k].point[c]));
+            }
         }
     }
     return far;
@@ -62,9 +65,10 @@ static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *
         scene->path, far, far / smallest);
 }
 
-static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *from, double unit)
+static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *from,
+                      const OzWallShape *side, double unit)
 {
-    to->shape = oz_wall_shape_of(from);
+    to->shape = *side;
     for (int c = 0; c < 3; c++) {
         double units = to->shape.point[c] / unit;
         to->shape.point[c] = unit < 1 ? round(units) : units;
@@ -74,15 +78,12 @@ static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *
 
 static int fill_walls(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene)
 {
-    int count = 0;
-    for (int kind = 0; kind < OZ_WALLS_END; kind++) {
-        for (int w = 0; w < scene->wall_count && count < OZ_WALLS_MAX; w++) {
-            if ((int)scene->walls[w].kind == kind) {
-                fill_wall(&parameters->wall[count], scene, &scene->walls[w],
-                          parameters->length_unit);
-                wall_order[count++] = w;
-            }
-        }
+    OzWallSide sides[OZ_WALLS_MAX];
+    int count = oz_sides_list(sides, scene);
+    for (int k = 0; k < count; k++) {
+        fill_wall(&parameters->wall[k], scene, &scene->walls[sides[k].wall], &sides[k].shape,
+                  parameters->length_unit);
+        wall_order[k] = sides[k].wall;
     }
     return count;
 }
@@ -154,10 +155,7 @@ OzStatus oz_constants_refill(OzParameters *parameters, int wall_order[OZ_WALLS_M
                              const OzParameters *running)
 {
     OzParameters filled = {.dt = 0};
-    if (scene->wall_count > OZ_WALLS_MAX) {
-        return oz_status_fail(OZ_ERR_INPUT, "%s: %d walls, at most %d", scene->path,
-                              scene->wall_count, OZ_WALLS_MAX);
-    }
+    OZ_PASS(oz_sides_check(scene));
     OZ_PASS(running ? keep_units(&filled, scene, grains, running)
                     : choose_units(&filled, scene, grains));
     fill_rest(&filled, wall_order, scene, grains);

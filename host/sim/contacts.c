@@ -111,7 +111,8 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end
     if (!found.contact.touching) {
         return OZ_OK;
     }
-    OzContactEntry entry = {.a = (int32_t)grain, .b = -1 - scene_wall, .part_a = end};
+    OzContactEntry entry = {
+        .a = (int32_t)grain, .b = -1 - scene_wall, .part_a = wall * physics->ends + end};
     double friction = physics->parameters.wall[wall].law.friction;
     entry.spring_energy = has_spring ? spring_energy(contacts, &found, friction) : 0;
     fill(&entry, &found, -1, one, arm); /* to the kernels a wall is a */

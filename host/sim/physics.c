@@ -1,5 +1,6 @@
 /* Deriving what the host's physics needs from a scene. */
 #include "sim/dialect.h"
+#include "sim/sides.h"
 
 static const double shares[] = {
 #define SHARE(NAME, name, choice, flat_choice, share, first) [OZ_INTEGRATOR_##NAME] = share,
@@ -14,7 +15,7 @@ OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGra
         .float_lanes = 1, .double_lanes = 1, .group = 1, .small_most = OZ_DEVICE_SMALL_MOST};
     in_double.precision = OZ_PRECISION_DOUBLE;
     physics->switches = oz_switches_derive(&in_double, grains, &none);
-    physics->wall_count = scene->wall_count;
+    physics->wall_count = oz_sides_list((OzWallSide[OZ_WALLS_MAX]){{0}}, scene);
     physics->ends = physics->switches.round ? 1 : 2;
     physics->share = shares[scene->integrator];
     return oz_constants_fill(&physics->parameters, physics->wall_order, &in_double, grains);

@@ -6,6 +6,7 @@
 #include "model/hertz.h"
 #include "model/motion.h"
 #include "sim/constants.h"
+#include "sim/sides.h"
 
 #include <math.h>
 
@@ -138,8 +139,10 @@ static bool walls_are_fine(const OzScene *scene)
 #define ROW(NAME, name, choice, fine) [OZ_WALL_##NAME] = fine,
     static const bool is_fine[OZ_WALLS_END] = {OZ_WALLS(ROW)};
 #undef ROW
-    for (int w = 0; w < scene->wall_count; w++) {
-        if (!is_fine[scene->walls[w].kind]) {
+    OzWallSide sides[OZ_WALLS_MAX];
+    int count = oz_sides_list(sides, scene);
+    for (int k = 0; k < count && k < OZ_WALLS_MAX; k++) {
+        if (!is_fine[(int)sides[k].shape.kind]) {
             return false;
         }
     }

@@ -11,6 +11,7 @@
 #include "sim/rods_read_snapshot.h"
 #include "sim/sizes.h"
 #include "sim/units.h"
+#include "sim/sides.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -67,12 +68,14 @@ static OzStatus fill(void *parameters, const OzScene *scene, const OzGrains *gra
 /* Walls are numbered by kind in the kernels, one numbering for all members. */
 static bool same_walls(const OzScene *a, const OzScene *b)
 {
-    for (int w = 0; w < a->wall_count && w < b->wall_count; w++) {
-        if (a->walls[w].kind != b->walls[w].kind) {
+    OzWallSide one[OZ_WALLS_MAX], other[OZ_WALLS_MAX];
+    int count = oz_sides_list(one, a), other_count = oz_sides_list(other, b);
+    for (int k = 0; k < count && k < other_count && k < OZ_WALLS_MAX; k++) {
+        if (one[k].shape.kind != other[k].shape.kind || one[k].wall != other[k].wall) {
             return false;
         }
     }
-    return a->wall_count == b->wall_count;
+    return count == other_count;
 }
 
 /* A size and a way of making lists that one work-group a scene can do. */

@@ -9,6 +9,7 @@
 #include "scene/wall_shape.h"
 #include "sim/dialect.h"
 #include "sim/sort_axis.h"
+#include "sim/sides.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,14 +83,18 @@ static OzStatus add_walls(Bed *bed, int64_t i)
 {
     const OzGrains *g = bed->now->grains;
     double radius = 0.5 * g->diameter[i];
-    for (int w = 0; w < bed->now->scene->wall_count; w++) {
+    OzWallSide sides[OZ_WALLS_MAX];
+    int count = oz_sides_list(sides, bed->now->scene);
+    for (int k = 0; k < count; k++) {
+        int w = sides[k].wall;
         for (int end = 0; end < (g->length[i] > 0 ? 2 : 1); end++) {
             OzVec3 arm = oz_scale(load(&bed->now->axis[3 * i]), (end ? -0.5 : 0.5) * g->length[i]);
             OzVec3 point = oz_along(load(&bed->now->position[3 * i]), 1, arm);
             const OzWall *wall = &bed->now->scene->walls[w];
             const double at[3] = {point.x, point.y, point.z};
             double normal[3];
-            if (oz_wall_shape_distance(wall, bed->now->wall_offset[w], at, normal) < radius) {
+            if (oz_wall_shape_side_distance(&sides[k].shape, bed->now->wall_offset[w], at, normal) <
+                radius) {
                 Spring spring = {.a = i, .b = -1, .normal = oz_scale(load(normal), -1)};
                 spring.arm_a = oz_along(arm, radius, spring.normal);
                 OZ_PASS(add(bed, &wall->contact, g->mass[i], spring));

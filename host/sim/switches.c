@@ -3,6 +3,7 @@
 
 #include "model/contact.h"
 #include "sim/resolution.h"
+#include "sim/sides.h"
 
 #include <string.h>
 
@@ -45,9 +46,10 @@ _Static_assert(0 OZ_WALLS(ONE) <= 6, "five bits a kind of wall fill an int");
  * that. */
 static int kinds_of_walls(const OzScene *scene)
 {
-    int kinds = 0;
-    for (int w = 0; w < scene->wall_count && w < 31; w++) {
-        kinds += 1 << 5 * (int)scene->walls[w].kind;
+    OzWallSide sides[OZ_WALLS_MAX];
+    int kinds = 0, count = oz_sides_list(sides, scene);
+    for (int k = 0; k < count && k < OZ_WALLS_MAX; k++) {
+        kinds += 1 << 5 * (int)sides[k].shape.kind;
     }
     return kinds;
 }
@@ -90,7 +92,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.at_contact = scene->contact.restitution_at == OZ_RESTITUTION_CONTACT && !s.round;
     s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
     s.fine = oz_resolution_is_fine(scene, grains);
-    s.walls = scene->wall_count;
+    s.walls = oz_sides_list((OzWallSide[OZ_WALLS_MAX]){{0}}, scene);
     s.wall_kinds = kinds_of_walls(scene);
     s.ledger = scene->observe.ledger;
     s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
