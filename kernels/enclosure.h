@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/grains.h"
+#include "kernels/wall_drive.h"
 
 #if OZ_WALL_COUNT > 0
 
@@ -24,8 +25,9 @@ typedef struct OzSide {
     OzWallShape shape;
     fixed_position_kind point[3]; /* the shape's                             */
     scalar unit;
-    scalar offset, speed;   /* m, m/s along z, of the wall             */
+    scalar offset, speed;   /* m, m/s of the wall along its direction: z without OZ_FREE_MOTION */
     scalar rise, rise_rest; /* units: the offset with all its digits   */
+    scalar rate;            /* rad/s                                   */
 } OzSide;
 
 OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
@@ -49,19 +51,56 @@ OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
         side.speed = w->motion[OZ_MOTION * at + OZ_M_SPEED];
         side.rise = w->motion[OZ_MOTION * at + OZ_M_RISE];
         side.rise_rest = w->motion[OZ_MOTION * at + OZ_M_RISE_REST];
+        side.rate = w->motion[OZ_MOTION * at + OZ_M_RATE];
     }
     return side;
 }
 
-OZ_INLINE OzWallDistance oz_enclosure_distance(OzFixedPosition position_, OzVec3 end,
-                                               const OzSide *side)
+/* How the side's wall moves. */
+OZ_INLINE OzWallDrive oz_enclosure_drive(const OzWork *w, const OzSide *side)
+{
+    OzWallDrive drive;
+    const OzWallParameters wall = w->parameters->wall[side->wall];
+    drive.direction =
+        oz_vec3(REAL(wall.direction[0]), REAL(wall.direction[1]), REAL(wall.direction[2]));
+    drive.axis = oz_vec3(REAL(wall.axis[0]), REAL(wall.axis[1]), REAL(wall.axis[2]));
+    drive.offset = REAL(side->offset);
+    drive.speed = REAL(side->speed);
+    drive.rate = REAL(side->rate);
+    return drive;
+}
+
+/* A place on a grain, `end` from its centre, seen from the wall's point, where that is now. */
+OZ_INLINE OzVec3 oz_enclosure_from(const OzWork *w, OzFixedPosition position_, OzVec3 end,
+                                   const OzSide *side)
 {
     scalar unit = side->unit;
     OzVec3 from = oz_vec3(oz_fixed_position_to_real(position_.x - side->point[0]) * unit + end.x,
                           oz_fixed_position_to_real(position_.y - side->point[1]) * unit + end.y,
                           oz_fixed_position_to_real(position_.z - side->point[2]) * unit + end.z -
-                              side->offset);
-    return oz_wall_distance(from, side->shape);
+                              (OZ_FREE_MOTION ? 0 : side->offset));
+    if (OZ_FREE_MOTION) {
+        OzWallDrive drive = oz_enclosure_drive(w, side);
+        from = oz_along(from, -drive.offset, drive.direction);
+    }
+    return from;
+}
+
+OZ_INLINE OzWallDistance oz_enclosure_distance(const OzWork *w, OzFixedPosition position_,
+                                               OzVec3 end, const OzSide *side)
+{
+    return oz_wall_distance(oz_enclosure_from(w, position_, end, side), side->shape);
+}
+
+/* The wall's velocity where it touches a grain, arm from the grain's centre. */
+OZ_INLINE OzVec3 oz_enclosure_velocity(const OzWork *w, OzFixedPosition position_, OzVec3 arm,
+                                       const OzSide *side)
+{
+    if (!OZ_FREE_MOTION) {
+        return oz_vec3(REAL(0.0), REAL(0.0), REAL(side->speed));
+    }
+    return oz_wall_drive_velocity(oz_enclosure_drive(w, side),
+                                  oz_enclosure_from(w, position_, arm, side));
 }
 
 #if OZ_FINE
@@ -99,7 +138,7 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
 {
     OzGrain grain = oz_work_grains(w, slots);
     OzVec3 end = oz_scale(grain.half_shaft, side->sign);
-    OzWallDistance at = oz_enclosure_distance(grain.position, end, side);
+    OzWallDistance at = oz_enclosure_distance(w, grain.position, end, side);
 #if OZ_FINE
     at.overlap = oz_enclosure_fine(w, grain, side);
     mask near = at.overlap > REAL(0.0);
@@ -113,10 +152,11 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
     if (OZ_HISTORY) {
         history = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index);
     }
+    OzVec3 velocity =
+        oz_enclosure_velocity(w, grain.position, oz_rods_wall_arm(grain, end, at), side);
     OzContactForce parts =
-        oz_rods_wall(grain, end, at, oz_vec3(REAL(0.0), REAL(0.0), REAL(side->speed)), present,
-                     w->parameters->wall[side->wall].law, &history, w->parameters->dt,
-                     oz_integrate_share(), &contact, &arm);
+        oz_rods_wall(grain, end, at, velocity, present, w->parameters->wall[side->wall].law,
+                     &history, w->parameters->dt, oz_integrate_share(), &contact, &arm);
     if (OZ_HISTORY) {
         oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index, history);
     }
@@ -158,7 +198,7 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
     real near = shape.radius * REAL(1 + OZ_PAIRS_MARGIN);
     for (int k = 0; k < OZ_WALL_ENDS; k++) {
         OzVec3 end = oz_scale(half_shaft, sides[k].sign);
-        OzWallDistance at = oz_enclosure_distance(body.position, end, &sides[k]);
+        OzWallDistance at = oz_enclosure_distance(w, body.position, end, &sides[k]);
         oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + k, oz_lanes_bits(at.distance < near));
     }
 #if OZ_LEDGER

@@ -12,6 +12,8 @@ enum { OZ_WALLS_MAX = 31 }; /* the most sides of walls: OzParameters has an entr
 /* A wall as kernels see it. They come in the order of their kinds. */
 typedef struct OzWallParameters {
     OzWallShape shape; /* its point in units of length_unit (double: m) */
+    scalar direction[3]; /* unit vector: along which it moves */
+    scalar axis[3];      /* unit vector: about which it turns */
     OzLawConstants law;
 } OzWallParameters;
 
@@ -69,9 +71,9 @@ enum { OZ_F_FORCE = 0, OZ_F_TORQUE = 4, OZ_PAIR_FORCE = 8, OZ_PAIR_TORQUE = 4 };
 /* Words of a pair's tangential spring: m, one to spare. */
 enum { OZ_SPRING = 4 };
 
-/* Words of a wall's motion at one step: displacement and velocity along z; the displacement in
- * units, whole ones and the rest. */
-enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_MOTION };
+/* Words of a wall's motion at one step: displacement and velocity along its direction; the
+ * displacement in units, whole ones and the rest; the rate at which it turns. */
+enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_M_RATE, OZ_MOTION };
 
 /* Words of a slot's load: force and torque, each with one word to spare. */
 enum { OZ_LOAD = 8 };

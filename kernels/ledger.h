@@ -81,6 +81,15 @@ OZ_INLINE scalar oz_ledger_wall_speed(const OzWork *w, int wall, int step)
                      : 0;
 }
 
+/* Of a wall where it touches grains, as the forces of a step see it, or (step + 1 less
+ * OZ_MOVES_BEFORE) as it is at the step's end. */
+OZ_INLINE OzVec3 oz_ledger_wall_velocity(const OzWork *w, OzGrain grain, OzVec3 arm, int index,
+                                         int step)
+{
+    OzSide side = oz_enclosure_side(w, index, step);
+    return oz_enclosure_velocity(w, grain.position, arm, &side);
+}
+
 OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
 {
     int begin = oz_work_region_begin(w, region) / OZ_LANES;
@@ -99,11 +108,20 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
             int wall = index / (OZ_ROUND ? 1 : 2);
             scalar old_speed = oz_ledger_wall_speed(w, wall, OZ_ENCLOSURE_STEP(step));
             scalar new_speed = oz_ledger_wall_speed(w, wall, step + 1);
-            OzVec3 after = oz_grain_velocity_at(grain, oz_work_load3(words + 12));
+            OzVec3 arm = oz_work_load3(words + 12), after = oz_grain_velocity_at(grain, arm);
+#if OZ_FREE_MOTION
+            OzVec3 old_one = oz_ledger_wall_velocity(w, grain, arm, index, step);
+            OzVec3 new_one =
+                oz_ledger_wall_velocity(w, grain, arm, index, step + 1 - OZ_MOVES_BEFORE);
+            after = oz_minus(after, new_one);
+            real power = oz_dot(oz_work_load3(words + 9), oz_add(old_one, new_one));
+            oz_ledger_give(w, slots, bits, OZ_L_WALLS, power, 0.5 * w->parameters->dt);
+#else
             after.z -= REAL(new_speed);
-            oz_ledger_add(w, slots, bits, words, after);
             double mean = 0.5 * ((double)old_speed + (double)new_speed);
             oz_ledger_give(w, slots, bits, OZ_L_WALLS, words[11], mean * w->parameters->dt);
+#endif
+            oz_ledger_add(w, slots, bits, words, after);
         }
     }
 }

@@ -94,6 +94,18 @@ OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, scalar length_unit, OzL
     return oz_rods_touch(a, b, apart, at, law, history, dt, share);
 }
 
+/* Where an end touches a wall, from the grain's centre. */
+OZ_INLINE OzVec3 oz_rods_wall_arm(OzGrain grain, OzVec3 end, OzWallDistance wall)
+{
+#if OZ_FINE
+    real overlap = wall.overlap;
+#else
+    real overlap = grain.radius - wall.distance;
+#endif
+    real inside = OZ_SURFACES ? REAL(0.0) : REAL(0.5) * overlap;
+    return oz_along(end, inside - grain.radius, wall.normal);
+}
+
 /* One end of a grain at a wall: end is the cap's centre from the grain's centre (a half-shaft, or
  * minus it), wall where that centre stands, wall_velocity the wall's own. */
 OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance wall,
@@ -108,8 +120,7 @@ OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance 
     contact->overlap = grain.radius - wall.distance;
 #endif
     contact->touching = (contact->overlap > REAL(0.0)) & present;
-    real inside = OZ_SURFACES ? REAL(0.0) : REAL(0.5) * contact->overlap;
-    *arm = oz_along(end, inside - grain.radius, wall.normal);
+    *arm = oz_rods_wall_arm(grain, end, wall);
     contact->velocity = oz_minus(oz_grain_velocity_at(grain, *arm), wall_velocity);
     contact->rate = -oz_dot(contact->velocity, contact->normal);
     contact->mass = grain.mass;

@@ -20,7 +20,7 @@ static const struct {
     const char *name;
     int parameters;
 } known[] = {
-    {"oz_dialect_touch_wall", 10},
+    {"oz_dialect_touch_wall", 9},
     {"oz_line_end", 9},
     {"oz_rods_wall", 11},
     {"oz_triangle_many", 9},

@@ -55,12 +55,12 @@ ROW
 put after host/observe/observables.c '{"time", "s"' <<'ROW'
     {"lowest", "m", "height of the lowest grain's centre", RODS, ALWAYS, false, lowest, 0},
 ROW
-put before host/scene/rows.c '{"walls[].motion", OF(SECTION)' <<'ROW'
+put before host/scene/rows_walls.h '{"walls[].motion", OF(SECTION)' <<'ROW'
     {"walls[].half_angle", NUMBER(1, 89, "degrees"), WALL(half_angle), DEGREES, .kinds = CONE,
      DEFAULT("45"), SOLID, .help = "of the cone"},
 ROW
 
-put after host/scene/scene.h 'double diameter;            /* cylinder' <<'CODE'
+put after host/scene/scene.h 'double diameter;            /* m, cylinder' <<'CODE'
     double half_angle; /* rad, cone */
 CODE
 refuses OZ_LAWS host/model/contact.c constants_brake
@@ -157,7 +157,7 @@ OZ_INLINE OzWallDistance oz_wall_cone(OzVec3 from, OzWallShape wall)
 }
 CODE
 echo '#include "kernels/wall_cone.h"' | put before kernels/wall.h '#include "kernels/wall_cylinder.h"'
-put before host/scene/wall_shape.c 'OzWallShape oz_wall_shape_of' <<'CODE'
+put before host/scene/wall_shape.c '/* The one side of a wall' <<'CODE'
 static void shape_cone(OzWallShape *shape, const OzWall *wall)
 {
     shape_plane(shape, wall); /* its point */
@@ -172,7 +172,6 @@ static void bound_by_cone(OzFillRegion *region, const OzWall *wall)
     region->walled_low[2] = true;
 }
 CODE
-sed -i 's/\.kinds = PLANE/.kinds = PLANE | CONE/' host/scene/rows.c
 
 # A shape: half as high as it is wide, of four triangles about the middle.
 put before host/model/shape.c 'static OzStatus make_polygon' <<'CODE'

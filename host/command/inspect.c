@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "command/inspect_contacts.h"
 #include "command/inspect_elements.h"
+#include "command/inspect_motion.h"
 #include "command/inspect_range.h"
 #include "command/inspect_verdict.h"
 #include "report/report_bed.h"
@@ -29,18 +30,6 @@ static void print_grains(FILE *file, const OzGrains *grains)
                                "kg m^2, across the shaft");
     oz_inspect_range_print_all(file, "inertia_axis", grains->inertia_axis, NULL, grains->count,
                                "kg m^2, about it");
-}
-
-static void print_motion(FILE *file, const OzScene *scene)
-{
-    for (int w = 0; w < scene->wall_count; w++) {
-        const OzMotion *motion = &scene->walls[w].motion;
-        if (motion->present) {
-            fprintf(file,
-                    "wall %d             moves %.6g m up and down at %g Hz: %.4g times gravity\n",
-                    w, motion->amplitude, motion->frequency, motion->acceleration_ratio);
-        }
-    }
 }
 
 /* Whether a run would refuse member i of a sweep; said by name. */
@@ -108,7 +97,7 @@ static OzStatus print_details(FILE *file, const OzVerdict *v)
         return oz_inspect_elements_print(file, v->scene, v->grains);
     }
     print_grains(file, v->grains);
-    print_motion(file, v->scene);
+    oz_inspect_motion_print(file, v->scene);
     OZ_PASS(oz_inspect_contacts_print(file, v->scene, v->grains));
     oz_report_bed_print(file, v->scene, v->rehearsal);
     return OZ_OK;

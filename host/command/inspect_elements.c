@@ -1,6 +1,7 @@
 /* Printing what trigrains are made of and how large their step may be. */
 #include "command/inspect_elements.h"
 
+#include "command/inspect_motion.h"
 #include "command/inspect_range.h"
 #include "model/beam_limits.h"
 #include "model/shape.h"
@@ -43,29 +44,6 @@ static void print_symmetry(FILE *file, const OzScene *scene)
     }
 }
 
-static void print_walls(FILE *file, const OzScene *scene)
-{
-    double gravity = hypot(scene->gravity[0], scene->gravity[1]);
-    for (int w = 0; w < scene->wall_count; w++) {
-        const OzWall *wall = &scene->walls[w];
-        const OzMotion *motion = &wall->motion;
-        if (motion->present && motion->frequency > 0) {
-            fprintf(file,
-                    "wall %d             moves %.6g m up and down at %g Hz: %.4g times gravity\n",
-                    w, motion->amplitude, motion->frequency, motion->acceleration_ratio);
-        }
-        if (motion->present && motion->angular_velocity != 0) {
-            double turn = motion->angular_velocity;
-            fprintf(file, "wall %d             turns at %g rad/s, once in %.4g s", w, turn,
-                    2 * PI / fabs(turn));
-            if (wall->kind == OZ_WALL_DRUM && gravity > 0) {
-                fprintf(file, "; Froude number %.4g", turn * turn * wall->diameter / 2 / gravity);
-            }
-            fputc('\n', file);
-        }
-    }
-}
-
 /* What hits and the pile's weight do to beams; the weight at rest by the force of the hit. */
 static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains *grains)
 {
@@ -103,7 +81,7 @@ OzStatus oz_inspect_elements_print(FILE *file, const OzScene *scene, const OzGra
     OzBeamLimit limit;
     print_bodies(file, grains);
     print_symmetry(file, scene);
-    print_walls(file, scene);
+    oz_inspect_motion_print(file, scene);
     if (scene->precision == OZ_PRECISION_FLOAT) {
         fprintf(file, "precision          float: rounds away what a small step moves; energies and "
                       "rest are not to be trusted\n");

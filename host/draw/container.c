@@ -2,7 +2,7 @@
 #include "draw/container.h"
 
 #include "draw/framing.h"
-#include "draw/wall_levels.h"
+#include "draw/wall_outline.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -210,8 +210,11 @@ static void clip(Polygon *polygon, const double point[3], const double normal[3]
 
 static void wall_point(const Scope *scope, int row, double point[3])
 {
-    memcpy(point, scope->snapshot->scene->walls[row].point, 3 * sizeof *point);
-    point[2] += scope->snapshot->wall_offset[row];
+    const OzWall *wall = &scope->snapshot->scene->walls[row];
+    oz_wall_shape_shift(wall, scope->snapshot->wall_offset[row], point);
+    for (int k = 0; k < 3; k++) {
+        point[k] += wall->point[k];
+    }
 }
 
 /* Where a plane that is not upright closes the cylinder. */
@@ -331,28 +334,17 @@ static void add_plane(OzContainer *container, const Scope *scope, int row)
     }
 }
 
-static void add_levels(OzContainer *container, const Scope *scope, int row)
+static void add_lines(OzContainer *container, const Scope *scope, int row)
 {
-    OzWallLevels levels = {.wall = &scope->snapshot->scene->walls[row],
-                           .offset = scope->snapshot->wall_offset[row],
-                           .camera = scope->camera,
-                           .low = scope->look->height_low,
-                           .high = scope->top,
-                           .line_width = line_width(scope),
-                           .is_cut = scope->view == OZ_VIEW_CUT};
-    oz_wall_levels_add(&levels, &container->behind, &container->before, EDGE);
-}
-
-static double narrowest_radius(const OzScene *scene)
-{
-    double radius = 0;
-    for (int w = 0; w < scene->wall_count; w++) {
-        double own = 0.5 * scene->walls[w].diameter;
-        if (oz_wall_shape_is_upright(&scene->walls[w]) && (radius <= 0 || own < radius)) {
-            radius = own;
-        }
-    }
-    return radius;
+    OzWallOutline outline = {.snapshot = scope->snapshot,
+                             .camera = scope->camera,
+                             .line_width = line_width(scope),
+                             .low = scope->look->height_low,
+                             .high = scope->top,
+                             .reach = 1.5 * scope->look->half_width,
+                             .is_cut = scope->view == OZ_VIEW_CUT,
+                             .cut = scope->look->cut};
+    oz_wall_outline_add(&outline, row, &container->behind, &container->before, EDGE);
 }
 
 /* Where its highest corner is seen, view coordinates. */
@@ -370,11 +362,12 @@ static double highest(const OzMesh *mesh, const OzCamera *camera)
 OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, const OzLook *look,
                             const OzCamera *camera, OzView view)
 {
+    double radius = oz_framing_radius(snapshot->scene);
     Scope scope = {.snapshot = snapshot,
                    .look = look,
                    .camera = camera,
                    .view = view,
-                   .radius = narrowest_radius(snapshot->scene),
+                   .radius = isfinite(radius) ? radius : 0,
                    .top = oz_framing_top(look, camera, snapshot)};
     OzMesh *meshes[3] = {&container->floors, &container->behind, &container->before};
     OzStatus status = OZ_OK;
@@ -386,7 +379,7 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
         if (wall->kind == OZ_WALL_PLANE) {
             add_plane(container, &scope, w);
         } else if (!oz_wall_shape_is_upright(wall)) {
-            add_levels(container, &scope, w);
+            add_lines(container, &scope, w);
         }
     }
     if (scope.radius > 0) {

@@ -50,7 +50,7 @@ static Room grain_room(const OzSnapshot *snapshot)
     return room;
 }
 
-static double cylinder_radius(const OzScene *scene)
+double oz_framing_radius(const OzScene *scene)
 {
     double radius = INFINITY;
     for (int w = 0; w < scene->wall_count; w++) {
@@ -92,6 +92,26 @@ static void close_by_planes(Room *room, const OzScene *scene)
             } else if (wall->normal[k] < -0.99) {
                 room->high[k] = wall->point[k] + stroke;
             }
+        }
+    }
+}
+
+/* Containers that close in upon themselves are shown whole; a box only as wide as it is, and as deep
+ * as it goes. */
+static void surround(Room *room, const OzScene *scene)
+{
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        bool is_box = wall->kind == OZ_WALL_BOX, is_ball = wall->kind == OZ_WALL_SPHERE;
+        bool is_tube = wall->kind == OZ_WALL_CYLINDER && !oz_wall_shape_is_upright(wall);
+        for (int k = 0; k < 3 && (is_box || is_ball || is_tube); k++) {
+            double along = is_tube ? wall->axis[k] * wall->length : 0;
+            double reach = is_box ? wall->size[k] / 2 : wall->diameter / 2;
+            reach *= is_tube ? sqrt(1 - wall->axis[k] * wall->axis[k]) : 1;
+            double low = wall->point[k] + fmin(along, 0) - (is_box && k == 2 ? 0 : reach);
+            double high = wall->point[k] + fmax(along, 0) + reach;
+            room->low[k] = fmin(room->low[k], low);
+            room->high[k] = is_box && k == 2 ? room->high[k] : fmax(room->high[k], high);
         }
     }
 }
@@ -161,7 +181,8 @@ static void take_settings(OzLook *look, const OzMovieSettings *movie)
 static void frame_standing(OzLook *look, const OzScene *scene, const OzSnapshot *snapshot)
 {
     Room room = grain_room(snapshot);
-    double radius = cylinder_radius(scene);
+    double radius = oz_framing_radius(scene);
+    surround(&room, scene);
     close_by_planes(&room, scene); /* first to know the size, then to keep the walls' sides */
     widen(&room, scene);
     close_by_planes(&room, scene);

@@ -10,6 +10,9 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot);
 /* The look of the scene's single pictures, which frame the same: `snapshots` over the movie's. */
 OzLook oz_framing_still(const OzScene *scene, const OzLook *movie);
 
+/* m, of the narrowest upright cylinder; INFINITY without one. */
+double oz_framing_radius(const OzScene *scene);
+
 /* m: where walls that are open above end in this picture: at the top of what is framed, above the
  * highest grain where one is higher, and no further than the picture shows. */
 double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapshot *snapshot);

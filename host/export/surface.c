@@ -126,10 +126,11 @@ static void find_across(const double normal[3], double u[3], double v[3])
 static OzStatus add_plane(OzSurface *s, const OzWall *wall, double offset, const Ball *ball,
                           int64_t number)
 {
-    double u[3], v[3], corners[4][3], height = 0;
+    double u[3], v[3], corners[4][3], height = 0, shift[3];
+    oz_wall_shape_shift(wall, offset, shift);
     find_across(wall->normal, u, v);
     for (int k = 0; k < 3; k++) {
-        height += (ball->middle[k] - wall->point[k] - (k == 2) * offset) * wall->normal[k];
+        height += (ball->middle[k] - wall->point[k] - shift[k]) * wall->normal[k];
     }
     for (int c = 0; c < 4; c++) {
         double a = c == 1 || c == 2 ? 1 : -1, b = c >= 2 ? 1 : -1;

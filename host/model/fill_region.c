@@ -33,9 +33,10 @@ static void bound_between(OzFillRegion *fill_region, int k, double low, double h
  * what lies across alone. */
 static void bound_by_tube(OzFillRegion *fill_region, const OzWall *wall)
 {
-    double radius = 0.5 * wall->diameter;
+    double radius = 0.5 * wall->diameter, axis[3];
+    oz_wall_shape_axis(wall, axis);
     for (int k = 0; k < 3; k++) {
-        double along = wall->axis[k], reach = radius * sqrt(fmax(0, 1 - along * along));
+        double along = axis[k], reach = radius * sqrt(fmax(0, 1 - along * along));
         double far = wall->point[k] + along * wall->length;
         if (wall->length > 0 || fabs(along) < sqrt(1 - across)) {
             bound_between(fill_region, k, fmin(wall->point[k], far) - reach,

@@ -1,5 +1,6 @@
 /* Phases of moving walls. */
 #include "model/motion.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 
@@ -34,6 +35,24 @@ void oz_motion_offset(const OzMotion *motion, double time, double *offset, doubl
     double rate = 2 * PI * frequency_of(motion, shake), phase = rate * (time - shake->since);
     *offset = motion->present ? amplitude * sin(phase) : 0;
     *velocity = motion->present ? amplitude * rate * cos(phase) : 0;
+}
+
+void oz_motion_direction(const OzMotion *motion, double direction[3])
+{
+    const OzWall wall = {.motion = *motion};
+    oz_wall_shape_shift(&wall, 1, direction);
+}
+
+bool oz_motion_is_free(const OzMotion *motion)
+{
+    double direction[3];
+    oz_motion_direction(motion, direction);
+    return motion->present && (direction[2] != 1 || motion->angular_velocity != 0);
+}
+
+double oz_motion_rate(const OzMotion *motion)
+{
+    return motion->present ? motion->angular_velocity : 0;
 }
 
 double oz_motion_turn(const OzMotion *motion, double time)

@@ -6,8 +6,19 @@
 #include "base/state.h"
 #include "scene/scene.h"
 
+#include <stdbool.h>
+
 /* Offset (m, upwards) and velocity (m/s) at a time, s. */
 void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity);
+
+/* The unit vector along which it is shaken. */
+void oz_motion_direction(const OzMotion *motion, double direction[3]);
+
+/* Whether it is anything else than up and down. */
+bool oz_motion_is_free(const OzMotion *motion);
+
+/* rad/s about its axis; 0 of a wall at rest. */
+double oz_motion_rate(const OzMotion *motion);
 
 /* Angle, rad, by which the wall has turned about its point. */
 double oz_motion_turn(const OzMotion *motion, double time);

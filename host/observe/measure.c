@@ -68,7 +68,9 @@ void oz_measure_free(OzMeasure *measure)
 static double floor_height(const OzMeasure *measure, const OzSnapshot *snapshot)
 {
     int w = measure->floor;
-    return snapshot->scene->walls[w].point[2] + snapshot->wall_offset[w];
+    double shift[3];
+    oz_wall_shape_shift(&snapshot->scene->walls[w], snapshot->wall_offset[w], shift);
+    return snapshot->scene->walls[w].point[2] + shift[2];
 }
 
 /* Sinks heap[root] until no grain below it is higher. */

@@ -70,6 +70,18 @@ static void derive_motion(Checker *checker, OzMotion *motion, int i)
     }
 }
 
+/* A wall turns about its own axis; a sphere has none, and is told one. */
+static void derive_axes(Checker *checker, OzWall *wall, int i)
+{
+    const double *own = wall->kind == OZ_WALL_CYLINDER ? wall->axis : wall->normal;
+    make_unit(checker, wall->motion.direction, "walls", i, "motion.direction");
+    if (wall->kind == OZ_WALL_SPHERE) {
+        make_unit(checker, wall->motion.axis, "walls", i, "motion.axis");
+    } else {
+        memcpy(wall->motion.axis, own, sizeof wall->motion.axis);
+    }
+}
+
 static void derive_walls(Checker *checker)
 {
     OzScene *scene = checker->scene;
@@ -80,6 +92,9 @@ static void derive_walls(Checker *checker)
         }
         if (wall->kind == OZ_WALL_CYLINDER) {
             make_unit(checker, wall->axis, "walls", i, "axis");
+        }
+        if (wall->motion.present && scene->model == OZ_MODEL_RODS) {
+            derive_axes(checker, wall, i);
         }
         derive_motion(checker, &wall->motion, i);
         if (wall->motion.present && wall->motion.frequency > 0 && scene->period == 0) {

@@ -2,6 +2,8 @@
  * triangles, and whether grains find room, is seen when grains are made. */
 #include "scene/check_flat.h"
 
+#include "scene/check_motion.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -56,25 +58,6 @@ static void check_vertices(const Checker *checker, const OzPopulation *grains)
     }
 }
 
-static void check_motion(const Checker *checker, const OzWall *wall)
-{
-    const OzMotion *motion = &wall->motion;
-    if (!motion->present) {
-        return;
-    }
-    bool shaken = motion->written_amplitude > 0 || motion->acceleration_ratio > 0;
-    if (shaken && motion->frequency == 0) {
-        FAULT(checker, "motion", "a wall moves up and down without a frequency; expected both");
-    } else if (!shaken && motion->frequency > 0) {
-        FAULT(checker, "motion.frequency",
-              "a wall has a frequency alone; expected acceleration_ratio or amplitude with it");
-    } else if (!shaken && motion->angular_velocity == 0) {
-        FAULT(checker, "motion",
-              "motion says nothing; expected angular_velocity, or frequency "
-              "with acceleration_ratio or amplitude");
-    }
-}
-
 static void check_teeth(const Checker *checker, const OzWall *wall)
 {
     if ((wall->tooth_count > 0) != (wall->tooth_depth > 0)) {
@@ -107,7 +90,7 @@ static void check_hopper(const Checker *checker, const OzWall *wall)
 
 static void check_wall(const Checker *checker, const OzWall *wall)
 {
-    check_motion(checker, wall);
+    oz_check_motion_wall(wall, checker->index, checker->root, checker->faults);
     check_teeth(checker, wall);
     if (wall->kind == OZ_WALL_HOPPER && wall->width > 0) {
         check_hopper(checker, wall);

@@ -1,6 +1,7 @@
 /* The checks of rods' scenes that need more than one value: whether grains find room. */
 #include "scene/check_solid.h"
 
+#include "scene/check_motion.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -97,6 +98,7 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
     for (int i = 0; i < scene->wall_count; i++) {
         const OzWall *wall = &scene->walls[i];
         char path[64];
+        oz_check_motion_wall(wall, i, root, faults);
         bool is_cylinder = wall->kind == OZ_WALL_CYLINDER, is_long = wall->length > 0;
         snprintf(path, sizeof path, "walls.%d.%s", i, is_long ? "length" : "ends");
         if (is_cylinder && is_long != (wall->ends == OZ_ENDS_CLOSED)) {
@@ -106,12 +108,11 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
                                 "with it, or no length"
                               : "closed ends of an endless cylinder; expected a length with it");
         }
-        for (int k = 0; wall->kind == OZ_WALL_BOX && k < 3; k++) {
-            snprintf(path, sizeof path, "walls.%d.size", i);
-            if (!(wall->size[k] > 0)) {
-                oz_tree_fault(root, faults, path, "%s has a side of %g m; expected more than 0",
-                              path, wall->size[k]);
-            }
+        snprintf(path, sizeof path, "walls.%d.size", i);
+        double least = fmin(wall->size[0], fmin(wall->size[1], wall->size[2]));
+        if (wall->kind == OZ_WALL_BOX && oz_tree_at(root, path) && !(least > 0)) {
+            oz_tree_fault(root, faults, path, "%s has a side of %g m; expected more than 0", path,
+                          least);
         }
     }
 }

@@ -79,15 +79,17 @@ typedef struct OzShake {
     double amplitude, frequency; /* m, Hz */
 } OzShake;
 
-/* Sinusoidal motion along z: offset A sin(2 pi f t), 0 at time 0 and upwards first, unless it took
- * over from another motion (model/motion.h). */
+/* Sinusoidal motion along a direction: offset A sin(2 pi f t), 0 at time 0 and along it first,
+ * unless it took over from another motion (model/motion.h). */
 typedef struct OzMotion {
     bool present;
     double frequency;          /* Hz                                                           */
     double acceleration_ratio; /* A (2 pi f)^2 / |gravity|; both are filled in, whichever was   */
     double amplitude;          /* m                                                      written */
     double written_amplitude;  /* m; 0 when the acceleration ratio was written                  */
-    double angular_velocity;   /* rad/s about the wall's point, trigrains                       */
+    double angular_velocity;   /* rad/s: trigrains about the wall's point; rods about its axis  */
+    double direction[3];       /* rods: a unit vector, along which it is shaken; zero: upwards   */
+    double axis[3];            /* rods: a unit vector along the axis through the wall's point    */
     OzShake shake;  /* since when it is shaken so (amplitude and frequency are those above);
                      * zero in a scene as loaded                                                */
     OzShake before; /* how it is shaken until then                                              */
@@ -100,7 +102,7 @@ typedef struct OzWall {
     OzWallKind kind;
     double point[3], normal[3]; /* plane: normal is a unit vector into the free side       */
     double diameter;            /* m, cylinder, sphere, drum                                  */
-    double axis[3];             /* cylinder: a unit vector along its axis, through point      */
+    double axis[3];             /* cylinder: a unit vector along its axis, through point; zero: z */
     double length;              /* m, cylinder: from point along axis; 0: endless             */
     OzWallEnds ends;            /* cylinder with a length                                     */
     double size[3];             /* m, box: its bottom's middle is point                       */

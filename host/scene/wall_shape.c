@@ -15,11 +15,19 @@ static void shape_plane(OzWallShape *shape, const OzWall *wall)
     }
 }
 
+void oz_wall_shape_axis(const OzWall *wall, double axis[3])
+{
+    bool is_told = wall->axis[0] != 0 || wall->axis[1] != 0 || wall->axis[2] != 0;
+    for (int c = 0; c < 3; c++) {
+        axis[c] = is_told ? wall->axis[c] : c == 2;
+    }
+}
+
 static void shape_tube(OzWallShape *shape, const OzWall *wall)
 {
+    oz_wall_shape_axis(wall, shape->normal);
     for (int c = 0; c < 3; c++) {
         shape->point[c] = wall->point[c];
-        shape->normal[c] = wall->axis[c];
     }
     shape->radius = wall->diameter / 2;
     shape->side = 1;
@@ -29,6 +37,7 @@ static void shape_cylinder(OzWallShape *shape, const OzWall *wall)
 {
     if (oz_wall_shape_is_upright(wall)) {
         shape->radius = wall->diameter / 2;
+        oz_wall_shape_axis(wall, shape->normal);
     } else {
         shape->kind = OZ_WALL_TUBE;
         shape_tube(shape, wall);
@@ -68,7 +77,9 @@ static int sides_box(OzWallShape *sides, const OzWall *wall)
 
 bool oz_wall_shape_is_upright(const OzWall *wall)
 {
-    return wall->kind == OZ_WALL_CYLINDER && fabs(wall->axis[2]) == 1 && wall->point[0] == 0 &&
+    double axis[3];
+    oz_wall_shape_axis(wall, axis);
+    return wall->kind == OZ_WALL_CYLINDER && fabs(axis[2]) == 1 && wall->point[0] == 0 &&
            wall->point[1] == 0;
 }
 
@@ -104,11 +115,21 @@ int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]
     return count;
 }
 
-double oz_wall_shape_side_distance(const OzWallShape *side, double offset, const double point[3],
-                                   double normal[3])
+void oz_wall_shape_shift(const OzWall *wall, double offset, double shift[3])
 {
-    OzVec3 from = oz_vec3(point[0] - side->point[0], point[1] - side->point[1],
-                          point[2] - (side->point[2] + offset));
+    const double *direction = wall->motion.direction;
+    bool is_told = direction[0] != 0 || direction[1] != 0 || direction[2] != 0;
+    for (int c = 0; c < 3; c++) {
+        shift[c] = offset * (is_told ? direction[c] : c == 2);
+    }
+}
+
+double oz_wall_shape_side_distance(const OzWallShape *side, const double shift[3],
+                                   const double point[3], double normal[3])
+{
+    OzVec3 from =
+        oz_vec3(point[0] - (side->point[0] + shift[0]), point[1] - (side->point[1] + shift[1]),
+                point[2] - (side->point[2] + shift[2]));
     OzWallDistance at = oz_wall_distance(from, *side);
     if (normal) {
         normal[0] = at.normal.x;
@@ -123,11 +144,12 @@ double oz_wall_shape_distance(const OzWall *wall, double offset, const double po
 {
     OzWallShape sides[OZ_WALL_SIDES_MAX];
     int count = oz_wall_shape_sides(wall, sides), nearest = 0;
-    double least = INFINITY;
+    double least = INFINITY, shift[3];
+    oz_wall_shape_shift(wall, offset, shift);
     for (int k = 0; k < count; k++) {
-        double distance = oz_wall_shape_side_distance(&sides[k], offset, point, NULL);
+        double distance = oz_wall_shape_side_distance(&sides[k], shift, point, NULL);
         nearest = distance < least ? k : nearest;
         least = fmin(distance, least);
     }
-    return count > 0 ? oz_wall_shape_side_distance(&sides[nearest], offset, point, normal) : least;
+    return count > 0 ? oz_wall_shape_side_distance(&sides[nearest], shift, point, normal) : least;
 }

@@ -13,15 +13,21 @@ enum { OZ_WALL_SIDES_MAX = 6 };
  * six. Returns how many. Walls of trigrains have none. */
 int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]);
 
+/* The unit vector along a cylinder's axis. */
+void oz_wall_shape_axis(const OzWall *wall, double axis[3]);
+
 /* Whether it is a cylinder about the z axis: that kernels know for itself, that pictures look into
  * and in which density is defined. */
 bool oz_wall_shape_is_upright(const OzWall *wall);
 
 /* Distance of a point from the wall's nearest side, m, > 0 on the free side; offset: m, by which the
- * wall has moved up. normal, unless NULL, receives the unit vector into the free side. */
+ * wall has moved along its direction. normal, unless NULL, receives the unit vector into the free side. */
 double oz_wall_shape_distance(const OzWall *wall, double offset, const double point[3],
                               double normal[3]);
 
-/* The same of one side. */
-double oz_wall_shape_side_distance(const OzWallShape *side, double offset, const double point[3],
-                                   double normal[3]);
+/* The same of one side that has moved by shift, m. */
+double oz_wall_shape_side_distance(const OzWallShape *side, const double shift[3],
+                                   const double point[3], double normal[3]);
+
+/* How far a wall has moved, m, that has done so by offset along its motion's direction. */
+void oz_wall_shape_shift(const OzWall *wall, double offset, double shift[3]);

@@ -2,6 +2,7 @@
 #include "sim/constants.h"
 
 #include "model/calibrate.h"
+#include "model/motion.h"
 #include "scene/wall_shape.h"
 #include "sim/sides.h"
 #include "sim/units.h"
@@ -69,6 +70,8 @@ static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *
                       const OzWallShape *side, double unit)
 {
     to->shape = *side;
+    oz_motion_direction(&from->motion, to->direction);
+    memcpy(to->axis, from->motion.axis, sizeof to->axis);
     for (int c = 0; c < 3; c++) {
         double units = to->shape.point[c] / unit;
         to->shape.point[c] = unit < 1 ? round(units) : units;

@@ -2,6 +2,7 @@
 #include "sim/contacts.h"
 
 #include "sim/dialect.h"
+#include "model/motion.h"
 
 OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzContactList *list)
 {
@@ -105,8 +106,10 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end
     bool has_spring = OZ_HISTORY && history;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
     OzVec3 spring = found.stored, arm;
-    found.parts = oz_dialect_touch_wall(physics, wall, end, one, snapshot->wall_offset[scene_wall],
-                                        snapshot->wall_velocity[scene_wall], physics->parameters.dt,
+    OzWallDrive drive = oz_dialect_drive(
+        physics, wall, snapshot->wall_offset[scene_wall], snapshot->wall_velocity[scene_wall],
+        oz_motion_rate(&snapshot->scene->walls[scene_wall].motion));
+    found.parts = oz_dialect_touch_wall(physics, wall, end, one, drive, physics->parameters.dt,
                                         &spring, &found.contact, &arm);
     if (!found.contact.touching) {
         return OZ_OK;

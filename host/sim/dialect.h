@@ -26,6 +26,7 @@ static _Thread_local OzSwitches dialect;
 
 #include "kernels/integrate.h"
 #include "kernels/rods.h"
+#include "kernels/wall_drive.h"
 
 OZ_INLINE OzVec3 oz_dialect_load3(const double *from)
 {
@@ -39,26 +40,52 @@ OZ_INLINE void oz_dialect_store3(double *to, OzVec3 v)
     to[2] = v.z;
 }
 
-/* Where one end of a grain (end: from its centre) stands against kernel wall w, moved by offset. */
-OZ_INLINE OzWallDistance oz_dialect_wall(const OzPhysics *physics, int w, OzFixedPosition place,
-                                         OzVec3 end, double offset)
+/* How the wall of kernel wall w moves; offset and speed along its direction, rate about its axis.
+ */
+OZ_INLINE OzWallDrive oz_dialect_drive(const OzPhysics *physics, int w, double offset, double speed,
+                                       double rate)
 {
-    OzWallShape wall = physics->parameters.wall[w].shape;
-    OzVec3 cap = oz_vec3(place.x + end.x, place.y + end.y, place.z + end.z);
-    OzVec3 point = oz_vec3(wall.point[0], wall.point[1], wall.point[2] + offset);
-    return oz_wall_distance(oz_minus(cap, point), wall);
+    const OzWallParameters *wall = &physics->parameters.wall[w];
+    return (OzWallDrive){oz_dialect_load3(wall->direction), oz_dialect_load3(wall->axis), offset,
+                         speed, rate};
+}
+
+/* A place on a grain, `end` from its centre, seen from the point of kernel wall w where that is
+ * now. */
+OZ_INLINE OzVec3 oz_dialect_from(const OzPhysics *physics, int w, OzFixedPosition place, OzVec3 end,
+                                 OzWallDrive drive)
+{
+    OzVec3 point = oz_dialect_load3(physics->parameters.wall[w].shape.point);
+    OzVec3 at = oz_vec3(place.x + end.x, place.y + end.y, place.z + end.z);
+    return oz_minus(at, oz_along(point, drive.offset, drive.direction));
+}
+
+/* Where one end of a grain (end: from its centre) stands against kernel wall w. */
+OZ_INLINE OzWallDistance oz_dialect_wall(const OzPhysics *physics, int w, OzFixedPosition place,
+                                         OzVec3 end, OzWallDrive drive)
+{
+    return oz_wall_distance(oz_dialect_from(physics, w, place, end, drive),
+                            physics->parameters.wall[w].shape);
+}
+
+/* The velocity of kernel wall w where it touches a grain, arm from the grain's centre. */
+OZ_INLINE OzVec3 oz_dialect_wall_velocity(const OzPhysics *physics, int w, OzFixedPosition place,
+                                          OzVec3 arm, OzWallDrive drive)
+{
+    return oz_wall_drive_velocity(drive, oz_dialect_from(physics, w, place, arm, drive));
 }
 
 /* One end of a grain at kernel wall w; history, contact and arm as for oz_rods_wall. */
 OZ_INLINE OzContactForce oz_dialect_touch_wall(const OzPhysics *physics, int w, int end_index,
-                                               OzGrain grain, double offset, double speed,
-                                               double dt, OzVec3 *history, OzContact *contact,
-                                               OzVec3 *arm)
+                                               OzGrain grain, OzWallDrive drive, double dt,
+                                               OzVec3 *history, OzContact *contact, OzVec3 *arm)
 {
     OzVec3 end = oz_scale(grain.half_shaft, end_index ? -1 : 1);
-    OzWallDistance at = oz_dialect_wall(physics, w, grain.position, end, offset);
+    OzWallDistance at = oz_dialect_wall(physics, w, grain.position, end, drive);
+    OzVec3 velocity = oz_dialect_wall_velocity(physics, w, grain.position,
+                                               oz_rods_wall_arm(grain, end, at), drive);
     /* a sphere touches once, not with two coincident ends */
     mask present = end_index == 0 || oz_dot(end, end) > 0;
-    return oz_rods_wall(grain, end, at, oz_vec3(0, 0, speed), present,
-                        physics->parameters.wall[w].law, history, dt, physics->share, contact, arm);
+    return oz_rods_wall(grain, end, at, velocity, present, physics->parameters.wall[w].law, history,
+                        dt, physics->share, contact, arm);
 }

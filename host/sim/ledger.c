@@ -13,7 +13,7 @@ void oz_ledger_note_couple(OzWork *work, OzVec3 couple, OzVec3 turning, OzVec3 a
     work->dissipated -= dt * oz_dot(couple, oz_scale(oz_add(turning, after), 0.5));
 }
 
-void oz_ledger_push(OzWork *work, OzVec3 force, double mean_speed, double dt)
+void oz_ledger_push(OzWork *work, OzVec3 force, OzVec3 velocity, double dt)
 {
-    work->walls += dt * force.z * mean_speed;
+    work->walls += dt * oz_dot(force, velocity);
 }

@@ -20,5 +20,5 @@ void oz_ledger_note(OzWork *work, OzContact contact, OzContactForce parts, OzVec
  */
 void oz_ledger_note_couple(OzWork *work, OzVec3 couple, OzVec3 turning, OzVec3 after, double dt);
 
-/* Adds the work of a wall that moved along z with mean_speed while it pushed a grain with force. */
-void oz_ledger_push(OzWork *work, OzVec3 force, double mean_speed, double dt);
+/* Adds the work of a wall that moved with a mean velocity while it pushed a grain with force. */
+void oz_ledger_push(OzWork *work, OzVec3 force, OzVec3 velocity, double dt);

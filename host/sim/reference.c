@@ -78,6 +78,14 @@ static OzStatus renew_list(OzReference *r)
     return OZ_OK;
 }
 
+static OzWallDrive drive_at(const OzReference *r, int wall, double time)
+{
+    const OzMotion *motion = &r->scene->walls[r->physics.wall_order[wall]].motion;
+    double offset, speed;
+    oz_motion_offset(motion, time, &offset, &speed);
+    return oz_dialect_drive(&r->physics, wall, offset, speed, oz_motion_rate(motion));
+}
+
 static void move_before(OzReference *r, double dt)
 {
     double force_time = oz_step_clock_time(&r->clock, r->step) + (dialect.moves_before ? dt : 0);
@@ -88,8 +96,7 @@ static void move_before(OzReference *r, double dt)
                                 oz_integrate_seen_spin(*body, r->shape[i], dt));
     }
     for (int w = 0; w < r->physics.wall_count; w++) {
-        const OzMotion *motion = &r->scene->walls[r->physics.wall_order[w]].motion;
-        oz_motion_offset(motion, force_time, &r->wall_offset[w], &r->wall_speed[w]);
+        r->wall_drive[w] = drive_at(r, w, force_time);
     }
 }
 
@@ -129,9 +136,8 @@ static void touch_wall(OzReference *r, int i, int wall, int end, double dt)
 {
     int64_t k = wall_index(r, i, wall, end);
     OzWallForce *f = &r->wall_force[k];
-    f->parts =
-        oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_offset[wall],
-                              r->wall_speed[wall], dt, &r->wall_history[k], &f->contact, &f->arm);
+    f->parts = oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_drive[wall], dt,
+                                     &r->wall_history[k], &f->contact, &f->arm);
     r->load[i].force = oz_add(r->load[i].force, f->parts.force);
     r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
 }
@@ -177,16 +183,17 @@ static void note_pairs(OzReference *r, double dt)
 
 static void note_wall(OzReference *r, int i, int wall, double dt)
 {
-    const OzMotion *motion = &r->scene->walls[r->physics.wall_order[wall]].motion;
-    double offset, speed;
-    oz_motion_offset(motion, oz_step_clock_time(&r->clock, r->step) + dt, &offset, &speed);
+    OzWallDrive drive = drive_at(r, wall, oz_step_clock_time(&r->clock, r->step) + dt);
     for (int end = 0; end < r->physics.ends; end++) {
         const OzWallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
         if (f->contact.touching) {
-            OzVec3 after = oz_grain_velocity_at(grain_now(r, i), f->arm);
-            after.z -= speed;
-            oz_ledger_note(&r->work, f->contact, f->parts, after, dt);
-            oz_ledger_push(&r->work, f->parts.force, 0.5 * (r->wall_speed[wall] + speed), dt);
+            OzGrain now = grain_now(r, i);
+            OzVec3 before = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm,
+                                                     r->wall_drive[wall]);
+            OzVec3 after = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, drive);
+            oz_ledger_note(&r->work, f->contact, f->parts,
+                           oz_minus(oz_grain_velocity_at(now, f->arm), after), dt);
+            oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
         }
     }
 }

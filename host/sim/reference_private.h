@@ -33,8 +33,7 @@ struct OzReference {
     OzPairForce *pair_force;          /* of each pair of near             */
     OzWallForce *wall_force;          /* count x walls x ends             */
     OzVec3 *wall_history;             /* count x walls x ends             */
-    double wall_offset[OZ_WALLS_MAX]; /* when the forces act              */
-    double wall_speed[OZ_WALLS_MAX];  /* when the forces act              */
+    OzWallDrive wall_drive[OZ_WALLS_MAX]; /* when the forces act          */
     OzWork work;
     int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */
 };

@@ -41,7 +41,8 @@ static double fastest_start(const OzScene *scene, const OzGrains *grains)
     for (int w = 0; w < scene->wall_count; w++) {
         double offset, speed;
         oz_motion_offset(&scene->walls[w].motion, 0, &offset, &speed);
-        fastest = fmax(fastest, speed);
+        fastest = fmax(fastest, fabs(speed) + fabs(oz_motion_rate(&scene->walls[w].motion)) *
+                                                  scene->walls[w].diameter / 2);
     }
     return fastest;
 }
@@ -141,6 +142,11 @@ static bool walls_are_fine(const OzScene *scene)
 #undef ROW
     OzWallSide sides[OZ_WALLS_MAX];
     int count = oz_sides_list(sides, scene);
+    for (int w = 0; w < scene->wall_count; w++) {
+        if (oz_motion_is_free(&scene->walls[w].motion)) {
+            return false;
+        }
+    }
     for (int k = 0; k < count && k < OZ_WALLS_MAX; k++) {
         if (!is_fine[(int)sides[k].shape.kind]) {
             return false;

@@ -9,9 +9,9 @@
 #include "sim/rods_guard.h"
 #include "sim/rods_private.h"
 #include "sim/rods_read_snapshot.h"
+#include "sim/sides.h"
 #include "sim/sizes.h"
 #include "sim/units.h"
-#include "sim/sides.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -159,6 +159,7 @@ static void put_motion(double words[OZ_MOTION], const OzMotion *motion, double t
     words[OZ_M_SPEED] = speed / oz_units_speed(&p->units);
     words[OZ_M_RISE] = rint(offset / p->length_unit);
     words[OZ_M_RISE_REST] = offset / p->length_unit - words[OZ_M_RISE];
+    words[OZ_M_RATE] = oz_motion_rate(motion) * p->units.time;
 }
 
 OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)

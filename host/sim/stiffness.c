@@ -8,8 +8,8 @@
 #include "model/predict.h"
 #include "scene/wall_shape.h"
 #include "sim/dialect.h"
-#include "sim/sort_axis.h"
 #include "sim/sides.h"
+#include "sim/sort_axis.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -93,8 +93,9 @@ static OzStatus add_walls(Bed *bed, int64_t i)
             const OzWall *wall = &bed->now->scene->walls[w];
             const double at[3] = {point.x, point.y, point.z};
             double normal[3];
-            if (oz_wall_shape_side_distance(&sides[k].shape, bed->now->wall_offset[w], at, normal) <
-                radius) {
+            double shift[3];
+            oz_wall_shape_shift(wall, bed->now->wall_offset[w], shift);
+            if (oz_wall_shape_side_distance(&sides[k].shape, shift, at, normal) < radius) {
                 Spring spring = {.a = i, .b = -1, .normal = oz_scale(load(normal), -1)};
                 spring.arm_a = oz_along(arm, radius, spring.normal);
                 OZ_PASS(add(bed, &wall->contact, g->mass[i], spring));

@@ -2,6 +2,7 @@
 #include "sim/switches.h"
 
 #include "model/contact.h"
+#include "model/motion.h"
 #include "sim/resolution.h"
 #include "sim/sides.h"
 
@@ -69,6 +70,7 @@ static void derive_friction(OzSwitches *s, const OzScene *scene)
         s->friction |= values->friction > 0;
         s->history |= values->friction > 0 && has_spring(values, scene);
         s->moving |= scene->walls[w].motion.present;
+        s->free_motion |= oz_motion_is_free(&scene->walls[w].motion);
     }
 }
 

@@ -32,6 +32,7 @@
     X(WALL_COUNT, walls, "walls")                                                                  \
     X(WALL_KINDS, wall_kinds, NULL)                                                                \
     X(MOVING, moving, "moving walls")                                                              \
+    X(FREE_MOTION, free_motion, "walls that turn or move otherwise than up and down")              \
     X(ALL_PAIRS, all_pairs, NULL)
 
 typedef struct OzSwitches {

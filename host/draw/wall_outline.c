@@ -1,0 +1,148 @@
+/* Lines on walls. A line lies before the grains where the wall's outer side faces the eye. */
+#include "draw/wall_outline.h"
+
+#include "draw/wall_levels.h"
+#include "model/motion.h"
+#include "scene/wall_shape.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+enum { AROUND = 96, STAVES = 12, RINGS = 5 };
+
+/* Where lines go. */
+typedef struct Pen {
+    const OzWallOutline *outline;
+    OzMesh *behind, *before;
+    const float *rgba;
+} Pen;
+
+/* outwards: away from the grains, of any length. */
+static void draw_line(const Pen *pen, const double from[3], const double to[3],
+                      const double outwards[3])
+{
+    const OzWallOutline *o = pen->outline;
+    double seen[3], slack = 1e-6 * o->camera->unit;
+    if (o->is_cut && fmin(from[1], to[1]) < o->cut - slack) {
+        return;
+    }
+    oz_camera_turn(o->camera, outwards, seen);
+    oz_mesh_line(seen[2] > 1e-9 ? pen->before : pen->behind, o->camera, from, to, o->line_width,
+                 pen->rgba);
+}
+
+/* The edge along axis k at the sides a and b (-1 or 1) of the other two. */
+static void draw_edge(const Pen *pen, const double middle[3], const double half[3], int k,
+                      const double sides[2])
+{
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    double ends[2][3], outwards[3] = {0};
+    for (int e = 0; e < 2; e++) {
+        ends[e][k] = middle[k] + (e ? half[k] : -half[k]);
+        ends[e][i] = middle[i] + sides[0] * half[i];
+        ends[e][j] = middle[j] + sides[1] * half[j];
+    }
+    outwards[i] = sides[0];
+    outwards[j] = sides[1];
+    draw_line(pen, ends[0], ends[1], outwards);
+}
+
+static void draw_box(const Pen *pen, const OzWall *wall, const double shift[3])
+{
+    double middle[3], half[3];
+    for (int k = 0; k < 3; k++) {
+        half[k] = wall->size[k] / 2;
+        middle[k] = wall->point[k] + shift[k] + (k == 2 ? half[k] : 0);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int s = 0; s < 4; s++) {
+            draw_edge(pen, middle, half, k, (double[2]){s & 1 ? 1 : -1, s & 2 ? 1 : -1});
+        }
+    }
+}
+
+/* A cylinder's axis, two directions across it, and from where to where it is drawn. */
+typedef struct Barrel {
+    double axis[3], across[2][3], point[3], radius, low, high;
+} Barrel;
+
+static Barrel make_barrel(const OzWallOutline *o, const OzWall *wall, const double shift[3])
+{
+    Barrel b = {.radius = wall->diameter / 2, .high = wall->length};
+    const double *axis = wall->axis;
+    int least = fabs(axis[0]) < fabs(axis[1]) ? 0 : 1;
+    double length = sqrt(1 - axis[least] * axis[least]);
+    if (wall->length == 0) {
+        b.low = -o->reach;
+        b.high = o->reach;
+    }
+    for (int k = 0; k < 3; k++) {
+        b.axis[k] = axis[k];
+        b.point[k] = wall->point[k] + shift[k];
+        b.across[0][k] = ((k == least) - axis[least] * axis[k]) / length;
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        b.across[1][k] = axis[i] * b.across[0][j] - axis[j] * b.across[0][i];
+    }
+    return b;
+}
+
+/* The place at an angle and so far along; outwards receives its direction from the axis. */
+static void find_place(const Barrel *b, double angle, double along, double place[3],
+                       double outwards[3])
+{
+    for (int k = 0; k < 3; k++) {
+        outwards[k] = cos(angle) * b->across[0][k] + sin(angle) * b->across[1][k];
+        place[k] = b->point[k] + along * b->axis[k] + b->radius * outwards[k];
+    }
+}
+
+static void draw_barrel(const Pen *pen, const Barrel *b, double turned)
+{
+    double from[3], to[3], outwards[3];
+    for (int r = 0; r < RINGS; r++) {
+        double along = b->low + (b->high - b->low) * r / (RINGS - 1);
+        for (int i = 0; i < AROUND; i++) {
+            find_place(b, 2 * PI * i / AROUND, along, from, outwards);
+            find_place(b, 2 * PI * (i + 1) / AROUND, along, to, outwards);
+            draw_line(pen, from, to, outwards);
+        }
+    }
+    for (int i = 0; i < STAVES; i++) {
+        double angle = turned + 2 * PI * i / STAVES;
+        find_place(b, angle, b->low, from, outwards);
+        find_place(b, angle, b->high, to, outwards);
+        draw_line(pen, from, to, outwards);
+    }
+}
+
+static void draw_levels(const Pen *pen, const OzWall *wall, double offset)
+{
+    const OzWallOutline *o = pen->outline;
+    OzWallLevels levels = {.wall = wall,
+                           .offset = offset,
+                           .camera = o->camera,
+                           .low = o->low,
+                           .high = o->high,
+                           .line_width = o->line_width,
+                           .is_cut = o->is_cut};
+    oz_wall_levels_add(&levels, pen->behind, pen->before, pen->rgba);
+}
+
+void oz_wall_outline_add(const OzWallOutline *o, int w, OzMesh *behind, OzMesh *before,
+                         const float rgba[4])
+{
+    const OzWall *wall = &o->snapshot->scene->walls[w];
+    double shift[3], offset = o->snapshot->wall_offset[w];
+    Pen pen = {o, behind, before, rgba};
+    oz_wall_shape_shift(wall, offset, shift);
+    if (wall->kind == OZ_WALL_BOX) {
+        draw_box(&pen, wall, shift);
+    } else if (wall->kind == OZ_WALL_CYLINDER) {
+        Barrel barrel = make_barrel(o, wall, shift);
+        draw_barrel(&pen, &barrel, oz_motion_turn(&wall->motion, o->snapshot->time));
+    } else {
+        draw_levels(&pen, wall, offset);
+    }
+}

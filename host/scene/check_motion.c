@@ -1,0 +1,52 @@
+/* Checks of walls' motion. */
+#include "scene/check_motion.h"
+
+/* A fault at a key of the wall's motion, or at the motion itself (name: ""). */
+#define FAULT(name, ...)                                                                           \
+    do {                                                                                           \
+        char path_[64];                                                                            \
+        snprintf(path_, sizeof path_, "walls.%d.motion%s", index, name);                           \
+        oz_tree_fault(root, faults, path_, __VA_ARGS__);                                           \
+    } while (0)
+
+/* Whether the wall's motion is a group of keys, as it should be. */
+static bool is_group(OzNode *root, int index)
+{
+    char path[64];
+    snprintf(path, sizeof path, "walls.%d.motion", index);
+    const OzNode *node = oz_tree_at(root, path);
+    return node && (node->kind == OZ_NODE_MAP ||
+                    (node->kind == OZ_NODE_SCALAR && node->text && node->text[0] == '\0'));
+}
+
+static bool is_written(OzNode *root, int index, const char *name)
+{
+    char path[64];
+    snprintf(path, sizeof path, "walls.%d.motion.%s", index, name);
+    return oz_tree_at(root, path) != NULL;
+}
+
+void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
+{
+    const OzMotion *motion = &wall->motion;
+    bool shaken =
+        is_written(root, index, "amplitude") || is_written(root, index, "acceleration_ratio");
+    bool has_frequency = is_written(root, index, "frequency");
+    if (!motion->present || !is_group(root, index)) {
+        return;
+    }
+    if (shaken && !has_frequency) {
+        FAULT("", "a wall moves up and down without a frequency; expected both");
+    } else if (!shaken && has_frequency) {
+        FAULT(".frequency",
+              "a wall has a frequency alone; expected acceleration_ratio or amplitude with it");
+    } else if (!shaken && !is_written(root, index, "angular_velocity")) {
+        FAULT("", "motion says nothing; expected angular_velocity, or frequency with "
+                  "acceleration_ratio or amplitude");
+    }
+    if (wall->kind == OZ_WALL_BOX && motion->angular_velocity != 0) {
+        FAULT(
+            ".angular_velocity",
+            "a box does not stay as it is when it turns; expected a cylinder, a sphere or a plane");
+    }
+}
