@@ -16,12 +16,10 @@
 static OzStatus copy_file(const OzFromFile *file, const char *folder, double *bytes)
 {
     OzStatus status = OZ_OK;
-    char name[64], part[80], *path = NULL, *member = NULL;
+    char name[64], part[80], *path = NULL;
     struct stat made;
-    OzStateVisit visit = oz_state_load((OzState *)&file->state);
-    snprintf(visit.path, sizeof visit.path, "worker/member_0/outputs/");
-    OZ_TRY(oz_state_text(&visit, "name", &member));
-    if (member && member[0]) {
+    const OzStateEntry *member = oz_state_find(&file->state, "worker/member_0/outputs/name");
+    if (member && member->count > 1) { /* with its zero */
         snprintf(name, sizeof name, "from/state_%05lld.h5", (long long)file->head.first);
     } else {
         snprintf(name, sizeof name, "from/state.h5");
@@ -33,7 +31,6 @@ static OzStatus copy_file(const OzFromFile *file, const char *folder, double *by
     OZ_TRY(oz_state_file_write(&file->state, path));
     *bytes += stat(path, &made) == 0 ? (double)made.st_size : 0;
 done:
-    free(member);
     free(path);
     return status;
 }
