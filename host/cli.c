@@ -26,6 +26,9 @@ static const struct {
      1, 1, "orzo draw runs/an6 -o pictures --set movie.colour=speed"},
     {"export", "DIR", "oak", "a run's frames as VTK, extended XYZ, H5MD or CSV, into DIR/export or -o",
      1, 1, "orzo export runs/an6 --to vtk,xyz"},
+    {"plot", "DIR [COLUMN]...", "oj",
+     "columns of series.csv as plot.png and plot.svg; of an ensemble mean, interval and members", 1,
+     OZ_CLI_PATHS_MAX, "orzo plot runs/an6 density_tap_mean angle --against tap"},
     {"keys", "[PART]", "c",
      "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1,
      "orzo keys contact."},
@@ -79,6 +82,7 @@ static const struct {
     {'H', "--hits", NULL,
      "how often two grains hit and how they spin then, for each value, instead"},
     {'a', "--to", "FORMAT", "vtk, xyz, h5md or csv, or several with commas between"},
+    {'j', "--against", "COLUMN", "along x: step, time or tap (default: tap where there is one)"},
     {'k', "--every", "N", "only each N-th frame"},
     {'v', "--verbose", NULL, "kernel switches, what is left out, device memory, too"},
     {'x', "--share", "X", "of --hits: from which share of the impulse a hit counts (default 0.05)"},
@@ -303,6 +307,8 @@ static const char **text_of(OzOptions *options, char letter)
         return &options->from;
     case 'd':
         return &options->device;
+    case 'j':
+        return &options->against;
     case 'z':
         return &options->sizes;
     default:
@@ -346,6 +352,7 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
     case 'S':
     case 'r':
     case 'd':
+    case 'j':
     case 'z':
     case 'y':
         *text_of(options, letter) = value;
@@ -424,13 +431,13 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     if (argc < 2) {
         return oz_status_fail(OZ_ERR_INPUT,
                               "orzo: no command; expected one of run, resume, check, draw, "
-                              "export, keys, bench, report, devices (see orzo --help)");
+                              "export, plot, keys, bench, report, devices (see orzo --help)");
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
         return wrong(argv[1],
-                     "run, resume, check, draw, export, keys, bench, report or devices (see orzo --help)");
+                     "run, resume, check, draw, export, plot, keys, bench, report or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
         OZ_PASS(take_argument(options, command, argc, argv, &i));

@@ -22,6 +22,7 @@ typedef struct OzOptions {
     double until;       /* --until, s; negative: not given   */
     bool has_seeds;     /* --seeds                          */
     uint64_t seed_first, seed_last;
+    const char *against; /* --against of plot; NULL: not given */
     const char *to;   /* --to of export, as written; NULL: not given */
     int64_t every;    /* --every; 0: not given           */
     const char *from; /* --from: "DIR", "DIR@tap=N", "DIR@time=T"; NULL: not given */

@@ -6,6 +6,7 @@
 #include "cli.h"
 #include "command/export_folder.h"
 #include "command/inspect.h"
+#include "command/plot_folder.h"
 #include "command/redraw.h"
 #include "compute/device.h"
 #include "draw/movie.h"
@@ -44,6 +45,11 @@ static OzStatus export_command(const OzOptions *options)
 {
     oz_interrupt_watch();
     return oz_export_folder_run(options);
+}
+
+static OzStatus plot_command(const OzOptions *options)
+{
+    return oz_plot_folder_run(options);
 }
 
 static OzStatus list_keys(const char *part)
@@ -100,9 +106,10 @@ static const struct {
     const char *name;
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
-    {"run", run_command},       {"resume", resume_command},   {"check", check_command},
-    {"draw", draw_command},     {"export", export_command},   {"keys", keys_command},
-    {"bench", bench_command},   {"report", report_command},   {"devices", devices_command},
+    {"run", run_command},         {"resume", resume_command}, {"check", check_command},
+    {"draw", draw_command},       {"export", export_command}, {"keys", keys_command},
+    {"plot", plot_command},       {"bench", bench_command},   {"report", report_command},
+    {"devices", devices_command},
 };
 
 static OzStatus help_or_run(const OzOptions *options)

@@ -45,6 +45,8 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "snapshots/time_*.png*",
                                          "snapshots/strobe.png*",
                                          "export/",
+                                         "plot.png",
+                                         "plot.svg",
                                          NULL};
     static const char *const endings[] = {"final.csv", "members.csv", NULL};
     static const char *const results[] = {"series.csv",     "frames.bin",       "movie.mp4",
