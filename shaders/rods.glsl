@@ -1,5 +1,6 @@
-/* Spherocylinders (spheres when half_shaft is 0) as ray-cast impostors with exact depth and analytic
- * coverage of each sample. OZ_SLICED cuts them by a plane and fills the cross-section. OZ_OUTLINED draws
+/* Spherocylinders (spheres when half_shaft is 0) as ray-cast impostors with exact depth, drawn or not
+ * by the pixel's middle; alpha says where beside it the outline runs (lens.glsl), for smoothing it
+ * later. OZ_SLICED cuts them by a plane and fills the cross-section. OZ_OUTLINED draws
  * a faint line along the inside of their outlines, a ninth of the radius wide, at least 1.5 pixels, and
  * nothing else. */
 
@@ -17,7 +18,7 @@ out vec2 offset; /* of this corner from the centre, in the plane z = centre.z */
 
 /* A rectangle in the plane z = centre.z that hides the whole capsule from the eye: both end spheres are
  * projected onto the plane and covered with a margin of 2 % (their outline is an ellipse off the
- * picture's middle) and 1.5 pixels (samples beside the outline). */
+ * picture's middle) and half a pixel (of quads that share a slope). */
 void main()
 {
     vec3 centre = centre_radius.xyz;
@@ -29,7 +30,7 @@ void main()
     ends[0] = (centre.xy + toward.xy) * near_scale.x - centre.xy;
     ends[1] = (centre.xy - toward.xy) * near_scale.y - centre.xy;
     float margin = 1.02 * centre_radius.w * plane_distance
-        / (plane_distance - abs(reach.z) - centre_radius.w) + 1.5 * pixel;
+        / (plane_distance - abs(reach.z) - centre_radius.w) + 0.5 * pixel;
     vec2 along = ends[0] - ends[1];
     along = dot(along, along) > 1e-14 ? normalize(along) : vec2(1.0, 0.0);
     vec2 across = vec2(-along.y, along.x);
@@ -47,8 +48,7 @@ void main()
 #endif
 
 #ifdef OZ_FRAGMENT
-uniform vec2 samples[4]; /* pixels: where the samples lie about the pixel's middle */
-uniform vec4 plane;      /* the cut: normal into the half that is kept, and its offset */
+uniform vec4 plane; /* the cut: normal into the half that is kept, and its offset */
 
 flat in vec4 capsule_centre;
 flat in vec4 capsule_axis;
@@ -89,6 +89,15 @@ float miss_distance(vec3 q, vec3 d)
     float closest = uq - dot(w, d) * ud / max(1.0 - ud * ud, 1e-9);
     vec3 e = q - clamp(closest, -capsule_axis.w, capsule_axis.w) * u;
     return length(e - dot(e, d) * d) - capsule_centre.w;
+}
+
+/* Pixels from here, along rows or along columns, to where a distance that is negative within becomes
+ * zero. */
+vec2 way_out(float beyond)
+{
+    vec2 slope = vec2(dFdx(beyond), dFdy(beyond));
+    return abs(slope.x) > abs(slope.y) ? vec2(-beyond / slope.x, 0.0)
+                                       : vec2(0.0, -beyond / (slope.y == 0.0 ? 1e-9 : slope.y));
 }
 
 /* Soft light from the upper left, a sky from above, edges darkened so that each rod stands out. */
@@ -137,36 +146,22 @@ void main()
     float spine;
     float miss = miss_distance(q, d);
     float t = meet(q, d, -1.0, spine);
-    vec2 miss_slope = vec2(dFdx(miss), dFdy(miss));
+    vec2 outline = way_out(miss);
 #ifdef OZ_SLICED
     /* Convex: the kept half is hit exactly where the ray leaves the capsule behind the plane. */
     float last_spine;
     float start = dot(plane.xyz, capsule_centre.xyz + q) - plane.w;
     float rise = dot(plane.xyz, d);
     float left = start + meet(q, d, 1.0, last_spine) * rise;
-    vec2 left_slope = vec2(dFdx(left), dFdy(left));
+    vec2 end = way_out(-left);
+    outline = dot(end, end) < dot(outline, outline) ? end : outline;
+    miss = max(miss, -left);
     bool section = start + t * rise < 0.0;
     t = section ? -start / rise : t;
 #endif
-#ifdef GL_ARB_sample_shading
-    int covered = 0;
-    for (int i = 0; i < 4; i++) {
-        bool hit = miss + dot(miss_slope, samples[i]) < 0.0;
-#ifdef OZ_SLICED
-        hit = hit && left + dot(left_slope, samples[i]) > 0.0;
-#endif
-        covered |= hit ? 1 << i : 0;
-    }
-    gl_SampleMask[0] = covered;
-#else
-    bool covered = miss < 0.0;
-#ifdef OZ_SLICED
-    covered = covered && left > 0.0;
-#endif
-    if (!covered) {
+    if (miss >= 0.0) {
         discard;
     }
-#endif
     vec3 p = q + t * d;
     vec3 rgb = shade((p - spine * capsule_axis.xyz) / capsule_centre.w, d);
 #ifdef OZ_SLICED
@@ -175,7 +170,7 @@ void main()
     }
 #endif
     gl_FragDepth = depth_of(capsule_centre.z + p.z);
-    colour = vec4(rgb, 1.0);
+    colour = vec4(rgb, outline_code(outline));
 }
 #endif
 #endif

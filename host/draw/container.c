@@ -40,6 +40,7 @@ typedef struct Polygon {
 OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char *source_dir)
 {
     const void *colour = (const void *)(uintptr_t)offsetof(OzCorner, rgba);
+    const void *across = (const void *)(uintptr_t)offsetof(OzCorner, across);
     memset(container, 0, sizeof *container);
     container->gl = gl;
     OZ_PASS(oz_gl_program(gl, &container->program, source_dir, "mesh", ""));
@@ -49,8 +50,10 @@ OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char 
     gl->BindBuffer(GL_ARRAY_BUFFER, container->buffer);
     gl->EnableVertexAttribArray(0);
     gl->EnableVertexAttribArray(1);
+    gl->EnableVertexAttribArray(2);
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OzCorner), NULL);
     gl->VertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(OzCorner), colour);
+    gl->VertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(OzCorner), across);
     return oz_gl_check(gl, "preparing the container's buffer");
 }
 
@@ -419,7 +422,7 @@ static void draw_over(const OzContainer *container, const OzMesh *mesh, const Oz
     gl->DepthMask(GL_FALSE);
     gl->Disable(GL_DEPTH_TEST);
     gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     draw_mesh(container, mesh, camera, width, height);
     gl->Disable(GL_BLEND);
     gl->Enable(GL_DEPTH_TEST);

@@ -72,10 +72,7 @@ OzStatus oz_gl_program(const OzGl *gl, GLuint *program, const char *source_dir, 
     *program = 0;
     snprintf(file, sizeof file, "shaders/%s.glsl", name);
     snprintf(vertex, sizeof vertex, "#version 330 core\n#define OZ_VERTEX\n%s", defines);
-    snprintf(fragment, sizeof fragment,
-             "#version 330 core\n#extension GL_ARB_sample_shading : enable\n"
-             "#define OZ_FRAGMENT\n%s",
-             defines);
+    snprintf(fragment, sizeof fragment, "#version 330 core\n#define OZ_FRAGMENT\n%s", defines);
     OZ_TRY(oz_embed_read(&lens, source_dir, "shaders/lens.glsl"));
     OZ_TRY(oz_embed_read(&text, source_dir, file));
     const char *sources[5] = {vertex, "#line 1 0\n", lens, "\n#line 1 1\n", text};

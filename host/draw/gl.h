@@ -15,6 +15,7 @@
     X(BINDTEXTURE, BindTexture)                                                                    \
     X(BINDVERTEXARRAY, BindVertexArray)                                                            \
     X(BLENDFUNC, BlendFunc)                                                                        \
+    X(BLENDFUNCSEPARATE, BlendFuncSeparate)                                                        \
     X(BUFFERDATA, BufferData)                                                                      \
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                              \
     X(CLEAR, Clear)                                                                                \
@@ -41,7 +42,6 @@
     X(GENVERTEXARRAYS, GenVertexArrays)                                                            \
     X(GETERROR, GetError)                                                                          \
     X(GETINTEGERV, GetIntegerv)                                                                    \
-    X(GETMULTISAMPLEFV, GetMultisamplefv)                                                          \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                                        \
     X(GETPROGRAMIV, GetProgramiv)                                                                  \
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                                          \

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +20,8 @@ void oz_mesh_free(OzMesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-void oz_mesh_corner(OzMesh *mesh, const double view[3], const float rgba[4])
+static void add_corner(OzMesh *mesh, const double view[3], const float rgba[4],
+                       const double across[2])
 {
     if (mesh->status == OZ_OK && mesh->count == mesh->capacity) {
         size_t wanted = mesh->capacity ? 2 * mesh->capacity : 2048;
@@ -33,13 +35,21 @@ void oz_mesh_corner(OzMesh *mesh, const double view[3], const float rgba[4])
             corner->place[i] = (float)view[i];
         }
         memcpy(corner->rgba, rgba, sizeof corner->rgba);
+        corner->across[0] = (float)across[0];
+        corner->across[1] = (float)across[1];
     }
 }
+
+void oz_mesh_corner(OzMesh *mesh, const double view[3], const float rgba[4])
+{
+    add_corner(mesh, view, rgba, (const double[2]){0, 1e4});
+}
+
+static const int order[6] = {0, 1, 2, 0, 2, 3}; /* of a quad's corners in two triangles */
 
 void oz_mesh_quad(OzMesh *mesh, double view[4][3], const float first_rgba[4],
                   const float second_rgba[4])
 {
-    static const int order[6] = {0, 1, 2, 0, 2, 3};
     for (int i = 0; i < 6; i++) {
         oz_mesh_corner(mesh, view[order[i]], order[i] < 2 ? first_rgba : second_rgba);
     }
@@ -56,12 +66,17 @@ void oz_mesh_line(OzMesh *mesh, const OzCamera *camera, const double from[3], co
     if (!(length > 1e-9)) {
         return;
     }
-    double half = 0.5 * width / camera->scale / length;
+    double rim = 0.5 * width + 0.5; /* pixels: where the line has faded away */
+    double half = rim / camera->scale / length;
     for (int i = 0; i < 4; i++) {
         double side = i == 0 || i == 3 ? half : -half;
         memcpy(corners[i], ends[i / 2], sizeof corners[i]);
         corners[i][0] -= side * along[1];
         corners[i][1] += side * along[0];
     }
-    oz_mesh_quad(mesh, corners, rgba, rgba);
+    for (int i = 0; i < 6; i++) {
+        bool first = order[i] == 0 || order[i] == 3;
+        add_corner(mesh, corners[order[i]], rgba,
+                   (const double[2]){first ? rim : -rim, 0.5 * width});
+    }
 }

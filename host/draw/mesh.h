@@ -8,6 +8,7 @@
 /* A corner of a coloured triangle, in view coordinates. */
 typedef struct OzCorner {
     float place[3], rgba[4];
+    float across[2]; /* pixels: from a line's middle, and half its width; else far from an edge */
 } OzCorner;
 
 /* Triangles, three corners each. status remembers that memory ran out. */

@@ -8,20 +8,19 @@
 #include "draw/capsules.h"
 #include "draw/container.h"
 #include "draw/context.h"
+#include "draw/finish.h"
 #include "draw/font.h"
 #include "draw/framing.h"
 #include "draw/overlay.h"
 #include "draw/polygons.h"
+#include "draw/targets.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    SAMPLES = 4,           /* of a pixel: smooth edges for a third more time                   */
-    MANY_PIXELS = 1 << 24, /* above this a pixel has one sample: 4 would take gigabytes       */
-    PAIRS_LEAST = 6,       /* of neighbours of a pixel that may darken it                      */
-    PAIRS_MOST = 64        /* each then darkens by a hundredth  ; as in compose.glsl     */
+    PAIRS_LEAST = 6 /* of neighbours of a pixel that may darken it */
 };
 
 static const double PI = 3.14159265358979323846;
@@ -37,9 +36,7 @@ struct OzRenderer {
     OzPolygons polygons;
     OzFont font;
     GLuint compose, no_vertices;
-    int width, height, sample_count;     /* of the targets; 0 before the first picture */
-    GLuint colours, depths, result;      /* textures: samples, and finished pixels     */
-    GLuint sample_target, result_target; /* framebuffers                               */
+    OzTargets targets;
 };
 
 OzStatus oz_renderer_create(OzRenderer **renderer, OzGlBackend backend, const char *source_dir)
@@ -64,17 +61,6 @@ done:
     return status;
 }
 
-static void free_targets(OzRenderer *renderer)
-{
-    const OzGl *gl = &renderer->context.gl;
-    gl->DeleteFramebuffers(1, &renderer->sample_target);
-    gl->DeleteFramebuffers(1, &renderer->result_target);
-    gl->DeleteTextures(1, &renderer->colours);
-    gl->DeleteTextures(1, &renderer->depths);
-    gl->DeleteTextures(1, &renderer->result);
-    renderer->width = renderer->height = 0;
-}
-
 void oz_renderer_free(OzRenderer *renderer)
 {
     if (!renderer) {
@@ -82,7 +68,7 @@ void oz_renderer_free(OzRenderer *renderer)
     }
     if (renderer->context.handle && oz_context_use(&renderer->context) == OZ_OK) {
         const OzGl *gl = &renderer->context.gl;
-        free_targets(renderer);
+        oz_targets_free(&renderer->targets);
         oz_capsules_free(&renderer->capsules);
         oz_container_free(&renderer->container);
         oz_polygons_free(&renderer->polygons);
@@ -129,81 +115,6 @@ static OzStatus check_look(const OzRenderer *renderer, const OzLook *look, const
     return OZ_OK;
 }
 
-static GLuint sample_texture(const OzRenderer *renderer, GLenum format)
-{
-    const OzGl *gl = &renderer->context.gl;
-    GLuint texture = 0;
-    gl->GenTextures(1, &texture);
-    gl->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
-    gl->TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, renderer->sample_count, format,
-                              renderer->width, renderer->height, GL_TRUE);
-    return texture;
-}
-
-static GLuint pixel_texture(const OzRenderer *renderer)
-{
-    const OzGl *gl = &renderer->context.gl;
-    GLuint texture = 0;
-    gl->GenTextures(1, &texture);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, renderer->width, renderer->height, 0, GL_RGBA,
-                   GL_UNSIGNED_BYTE, NULL);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    return texture;
-}
-
-static OzStatus check_target(const OzRenderer *renderer)
-{
-    const OzGl *gl = &renderer->context.gl;
-    GLenum state = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (state != GL_FRAMEBUFFER_COMPLETE) {
-        return oz_status_fail(OZ_ERR_GRAPHICS, "no framebuffer of %d x %d pixels to be had (0x%x)",
-                              renderer->width, renderer->height, state);
-    }
-    return OZ_OK;
-}
-
-static OzStatus attach_targets(OzRenderer *renderer)
-{
-    const OzGl *gl = &renderer->context.gl;
-    gl->GenFramebuffers(1, &renderer->result_target);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->result_target);
-    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, renderer->result,
-                             0);
-    OZ_PASS(check_target(renderer));
-    gl->GenFramebuffers(1, &renderer->sample_target);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->sample_target);
-    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
-                             renderer->colours, 0);
-    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE,
-                             renderer->depths, 0);
-    OZ_PASS(check_target(renderer));
-    oz_capsules_find_samples(&renderer->capsules, renderer->sample_count);
-    return OZ_OK;
-}
-
-static OzStatus fit_targets(OzRenderer *renderer, const OzLook *look)
-{
-    OzStatus status = OZ_OK;
-    if (renderer->width == look->width && renderer->height == look->height) {
-        return OZ_OK;
-    }
-    free_targets(renderer);
-    renderer->width = look->width;
-    renderer->height = look->height;
-    renderer->sample_count = look->width * look->height > MANY_PIXELS ? 1 : SAMPLES;
-    renderer->colours = sample_texture(renderer, GL_RGBA8);
-    renderer->depths = sample_texture(renderer, GL_DEPTH_COMPONENT32F);
-    renderer->result = pixel_texture(renderer);
-    OZ_TRY(oz_gl_check(&renderer->context.gl, "making room for a picture"));
-    OZ_TRY(attach_targets(renderer));
-done:
-    if (status != OZ_OK) {
-        renderer->width = renderer->height = 0;
-    }
-    return status;
-}
-
 /* The viewport has the panel's middle at its own, so that the origin of view coordinates comes to
  * lie there; the scissor keeps the panel's columns. */
 static void open_panel(const OzGl *gl, const OzPanel *panel, int height, double size[2])
@@ -228,20 +139,21 @@ static OzStatus draw_view(OzRenderer *renderer, const OzSnapshot *snapshot, cons
             oz_container_build(&renderer->container, snapshot, look, camera, look->views[view]));
         oz_container_draw_behind(&renderer->container, camera, size[0], size[1]);
     }
-    oz_capsules_draw(&renderer->capsules, look->views[view], look, camera, size[0], size[1]);
+    oz_capsules_draw(&renderer->capsules, view, look, camera, size[0], size[1]);
     if (!look->bare) {
         oz_container_draw_before(&renderer->container, camera, size[0], size[1]);
     }
     return oz_gl_check(&renderer->context.gl, "drawing a view");
 }
 
-static void clear_target(const OzGl *gl, GLuint target, const OzLook *look)
+/* alpha: of the background; of samples it is how much of a pixel is filled. */
+static void clear_target(const OzGl *gl, GLuint target, const OzLook *look, float alpha)
 {
     const float *colour = look->bare ? WHITE : BACKGROUND;
     gl->BindFramebuffer(GL_FRAMEBUFFER, target);
     gl->Disable(GL_SCISSOR_TEST);
     gl->DepthMask(GL_TRUE);
-    gl->ClearColor(colour[0], colour[1], colour[2], 1);
+    gl->ClearColor(colour[0], colour[1], colour[2], alpha);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
@@ -249,7 +161,7 @@ static OzStatus draw_samples(OzRenderer *renderer, const OzSnapshot *snapshot, c
                              const OzCamera *camera)
 {
     const OzGl *gl = &renderer->context.gl;
-    clear_target(gl, renderer->sample_target, look);
+    clear_target(gl, renderer->targets.sample_target, look, 0);
     gl->Enable(GL_DEPTH_TEST);
     gl->Enable(GL_SCISSOR_TEST);
     for (int view = 0; view < look->view_count; view++) {
@@ -265,7 +177,7 @@ static OzStatus draw_flat_samples(OzRenderer *renderer, const OzSnapshot *snapsh
     const double faintest = 0.12;
     OzPolygons *polygons = &renderer->polygons;
     double size[2];
-    clear_target(&renderer->context.gl, renderer->sample_target, look);
+    clear_target(&renderer->context.gl, renderer->targets.sample_target, look, 0);
     renderer->context.gl.Enable(GL_SCISSOR_TEST);
     open_panel(&renderer->context.gl, &camera->panels[0], look->height, size);
     oz_polygons_clear(polygons);
@@ -291,100 +203,129 @@ static double typical_radius(const OzSnapshot *snapshot, const OzCamera *camera)
 
 /* Half of two rings of neighbours, the outer as wide as a grain, pixels. Every pair copies the
  * edges of what stands before a surface onto it: so few are seen as such where they lie far apart,
- * and there more of them on a spiral, closer together inwards, make the shadow fade out. Returns
- * their number. */
-static int place_taps(GLfloat taps[2 * PAIRS_MOST], double radius)
+ * and there more of them on a spiral, closer together inwards, make the shadow fade out. */
+static void place_taps(OzFinish *finish, double radius)
 {
     const double golden = 0.6180339887; /* of half a turn: no two in a line */
-    int count = radius > 12 ? (int)fmin(radius, PAIRS_MOST) : PAIRS_LEAST;
-    for (int i = 0; i < count; i++) {
-        bool few = count == PAIRS_LEAST;
-        double ring = few ? (i % 2 ? 1.0 : 0.5) : 0.2 + (i + 0.5) / count;
-        double angle = PI * (few ? (i + 0.25) / count : i * golden);
-        taps[2 * i] = (GLfloat)round(fmax(radius, 2) * ring * cos(angle));
-        taps[2 * i + 1] = (GLfloat)round(fmax(radius, 2) * ring * sin(angle));
+    finish->pairs = radius > 12 ? (int)fmin(radius, OZ_FINISH_PAIRS) : PAIRS_LEAST;
+    for (int i = 0; i < finish->pairs; i++) {
+        bool few = finish->pairs == PAIRS_LEAST;
+        double ring = few ? (i % 2 ? 1.0 : 0.5) : 0.2 + (i + 0.5) / finish->pairs;
+        double angle = PI * (few ? (i + 0.25) / finish->pairs : i * golden);
+        finish->taps[i][0] = (int)lround(fmax(radius, 2) * ring * cos(angle));
+        finish->taps[i][1] = (int)lround(fmax(radius, 2) * ring * sin(angle));
+        for (int k = 0; k < 2; k++) {
+            int away = abs(finish->taps[i][k]);
+            finish->reach = away > finish->reach ? away : finish->reach;
+        }
     }
-    return count;
 }
 
-static void set_mood(const OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
-                     const OzCamera *camera)
+/* How far behind the middle a pixel's thing lies, along the horizon, is a share of the half width.
+ */
+static OzFinish choose_finish(const OzSnapshot *snapshot, const OzLook *look,
+                              const OzCamera *camera)
 {
-    const OzGl *gl = &renderer->context.gl;
-    GLuint program = renderer->compose;
     const float *colour = look->bare ? WHITE : BACKGROUND;
     double radius = typical_radius(snapshot, camera);
-    bool plain = look->bare || look->flat;
-    GLfloat taps[2 * PAIRS_MOST];
-    int pairs = place_taps(taps, fmin(radius * camera->scale, 0.03 * look->height));
-    gl->Uniform2fv(gl->GetUniformLocation(program, "taps"), pairs, taps);
-    gl->Uniform1i(gl->GetUniformLocation(program, "pairs"), pairs);
-    gl->Uniform4f(gl->GetUniformLocation(program, "mood"),
-                  (float)(2 * camera->depth / (1.5 * radius)), plain ? 0 : 0.60f, plain ? 0 : 0.45f,
-                  0);
-    gl->Uniform4f(gl->GetUniformLocation(program, "background"), colour[0], colour[1], colour[2],
-                  1);
-}
-
-/* How far behind the middle a pixel's thing lies, along the horizon, as a share of the half width.
- */
-static void set_retreat(const OzRenderer *renderer, const OzLook *look, const OzCamera *camera)
-{
-    const OzGl *gl = &renderer->context.gl;
     double rise = camera->axes[1][1], away = -camera->axes[2][1];
     double share = camera->unit / look->half_width;
     double middle_row = look->height - camera->panels[0].middle_y;
-    gl->Uniform4f(gl->GetUniformLocation(renderer->compose, "retreat"),
-                  (float)(share * away * 2 * camera->depth), (float)(share * rise / camera->scale),
-                  (float)(-share * (away * camera->depth + rise * middle_row / camera->scale)), 0);
+    OzFinish finish = {
+        .reach = 1,
+        .steepness = (float)(2 * camera->depth / (1.5 * radius)),
+        .darkening = look->bare ? 0 : 0.60f,
+        .fade = look->bare ? 0 : 0.45f,
+        .by_depth = (float)(share * away * 2 * camera->depth),
+        .by_row = (float)(share * rise / camera->scale),
+        .middle = (float)(-share * (away * camera->depth + rise * middle_row / camera->scale))};
+    memcpy(finish.background, colour, sizeof finish.background);
+    place_taps(&finish, fmin(radius * camera->scale, 0.03 * look->height));
+    return finish;
 }
 
-/* What a view's samples may have changed; flat grains may be anywhere. */
+/* What a view may have painted. */
 static OzBox changed_box(const OzRenderer *renderer, const OzLook *look, const OzCamera *camera,
                          int view)
 {
     const OzCapsules *capsules = &renderer->capsules;
     const double high[2] = {capsules->high[0],
                             fmax(capsules->high[1], look->bare ? 0 : renderer->container.high)};
-    return look->flat ? (OzBox){0, 0, look->width, look->height}
-                      : oz_camera_box(camera, look, view, capsules->low, high);
+    return oz_camera_box(camera, look, view, capsules->low, high);
 }
 
-static OzStatus compose(const OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
-                        const OzCamera *camera)
+/* The mean of the samples of flat grains. */
+static OzStatus mean_of_samples(const OzRenderer *renderer, const OzLook *look, OzImage *image)
 {
     const OzGl *gl = &renderer->context.gl;
     GLuint program = renderer->compose;
     gl->UseProgram(program);
     gl->BindVertexArray(renderer->no_vertices);
-    gl->ActiveTexture(GL_TEXTURE1);
-    gl->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, renderer->depths);
     gl->ActiveTexture(GL_TEXTURE0);
-    gl->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, renderer->colours);
+    gl->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, renderer->targets.colours);
     gl->Uniform1i(gl->GetUniformLocation(program, "colours"), 0);
-    gl->Uniform1i(gl->GetUniformLocation(program, "depths"), 1);
-    gl->Uniform1i(gl->GetUniformLocation(program, "sample_count"), renderer->sample_count);
+    gl->Uniform1i(gl->GetUniformLocation(program, "sample_count"), renderer->targets.sample_count);
     gl->Uniform1i(gl->GetUniformLocation(program, "rows"), look->height);
-    set_mood(renderer, snapshot, look, camera);
-    set_retreat(renderer, look, camera);
-    clear_target(gl, renderer->result_target, look);
+    clear_target(gl, renderer->targets.result_target, look, 1);
     gl->Disable(GL_DEPTH_TEST);
-    gl->Enable(GL_SCISSOR_TEST);
     gl->Viewport(0, 0, look->width, look->height);
-    for (int view = 0; view < look->view_count; view++) {
-        OzBox box = changed_box(renderer, look, camera, view);
-        gl->Scissor(box.x, box.y, box.width, box.height);
-        gl->DrawArrays(GL_TRIANGLES, 0, 3);
-    }
-    return oz_gl_check(gl, "turning samples into pixels");
-}
-
-static OzStatus read_back(const OzRenderer *renderer, OzImage *image)
-{
-    const OzGl *gl = &renderer->context.gl;
-    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, 0);
     gl->ReadPixels(0, 0, image->width, image->height, GL_RGBA, GL_UNSIGNED_BYTE, image->pixels);
     return oz_gl_check(gl, "reading the picture back");
+}
+
+static void fill_background(OzImage *image, const OzLook *look)
+{
+    const float *colour = look->bare ? WHITE : BACKGROUND;
+    uint8_t rgba[4] = {0, 0, 0, 255};
+    for (int k = 0; k < 3; k++) {
+        rgba[k] = (uint8_t)lroundf(255 * colour[k]);
+    }
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
+        memcpy(image->pixels + 4 * i, rgba, 4);
+    }
+}
+
+/* Reads a view's box back into the middle of larger planes and finishes it. */
+static OzStatus finish_view(const OzRenderer *renderer, const OzFinish *finish, const OzBox *box,
+                            OzImage *image)
+{
+    const OzGl *gl = &renderer->context.gl;
+    OzStatus status = OZ_OK;
+    int stride = box->width + 2 * finish->reach;
+    size_t count = (size_t)stride * (size_t)(box->height + 2 * finish->reach);
+    size_t inset = (size_t)finish->reach * (size_t)(stride + 1);
+    uint8_t *colour = NULL;
+    float *depth = NULL;
+    OZ_TRY(OZ_NEW(&colour, 4 * count));
+    OZ_TRY(OZ_NEW(&depth, count));
+    for (size_t i = 0; i < count; i++) {
+        depth[i] = 1;
+    }
+    OzDrawn drawn = {*box, stride, colour + 4 * inset, depth + inset};
+    int low = image->height - box->y - box->height;
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, stride);
+    gl->ReadPixels(box->x, low, box->width, box->height, GL_RGBA, GL_UNSIGNED_BYTE, drawn.colour);
+    gl->ReadPixels(box->x, low, box->width, box->height, GL_DEPTH_COMPONENT, GL_FLOAT, drawn.depth);
+    OZ_TRY(oz_gl_check(gl, "reading the picture back"));
+    OZ_TRY(oz_finish_pixels(finish, &drawn, image));
+done:
+    free(colour);
+    free(depth);
+    return status;
+}
+
+static OzStatus finish_views(const OzRenderer *renderer, const OzSnapshot *snapshot,
+                             const OzLook *look, const OzCamera *camera, OzImage *image)
+{
+    OzFinish finish = choose_finish(snapshot, look, camera);
+    fill_background(image, look);
+    for (int view = 0; view < look->view_count; view++) {
+        OzBox box = changed_box(renderer, look, camera, view);
+        OZ_PASS(finish_view(renderer, &finish, &box, image));
+    }
+    return OZ_OK;
 }
 
 static OzStatus draw_standing_samples(OzRenderer *renderer, const OzSnapshot *snapshot,
@@ -401,11 +342,11 @@ static OzStatus draw(OzRenderer *renderer, const OzSnapshot *snapshots, int coun
     const OzSnapshot *last = &snapshots[count - 1];
     OZ_PASS(oz_context_use(&renderer->context));
     OZ_PASS(check_look(renderer, look, image));
-    OZ_PASS(fit_targets(renderer, look));
+    OZ_PASS(oz_targets_fit(&renderer->targets, &renderer->context.gl, look));
     OZ_PASS(look->flat ? draw_flat_samples(renderer, snapshots, count, look, &camera)
                        : draw_standing_samples(renderer, last, look, &camera));
-    OZ_PASS(compose(renderer, last, look, &camera));
-    OZ_PASS(read_back(renderer, image));
+    OZ_PASS(look->flat ? mean_of_samples(renderer, look, image)
+                       : finish_views(renderer, last, look, &camera, image));
     oz_overlay_draw(&renderer->font, image, last, look, &camera);
     return OZ_OK;
 }

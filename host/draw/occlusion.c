@@ -1,0 +1,209 @@
+/* Depths of coarse cells. A body covers the cells that lie whole within its outline, and is looked
+ * for in every cell that boxes about it touch. Knows no GL. */
+#include "draw/occlusion.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float FAR = 1e9f; /* view units */
+
+enum { PIECES_MOST = 4 }; /* of an axis: boxes about these are hardly larger than the rod */
+
+/* A piece of a body, cells. */
+typedef struct Piece {
+    double ends[2][2], radius[2]; /* in the plane of each end */
+    double far, near;             /* z of the end that lies further back, of the nearest point */
+} Piece;
+
+static double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+OzStatus oz_occlusion_begin(OzOcclusion *occlusion, const OzCamera *camera, int panel,
+                            const OzBox *box, double radius)
+{
+    double cell = fmax(1, 0.2 * radius);
+    *occlusion = (OzOcclusion){.camera = camera,
+                               .columns = (int)ceil(box->width / cell),
+                               .rows = (int)ceil(box->height / cell),
+                               .cell = cell};
+    occlusion->middle[0] = ((double)lround(camera->panels[panel].middle_x) - box->x) / cell;
+    occlusion->middle[1] = ((double)lround(camera->panels[panel].middle_y) - box->y) / cell;
+    size_t count = (size_t)occlusion->columns * (size_t)occlusion->rows;
+    OZ_PASS(OZ_NEW(&occlusion->nearest, count));
+    for (size_t i = 0; i < count; i++) {
+        occlusion->nearest[i] = -FAR;
+    }
+    return OZ_OK;
+}
+
+void oz_occlusion_free(OzOcclusion *occlusion)
+{
+    free(occlusion->nearest);
+    memset(occlusion, 0, sizeof *occlusion);
+}
+
+static Piece piece_of(const OzOcclusion *occlusion, const OzBody *body, double from, double to)
+{
+    const OzCamera *camera = occlusion->camera;
+    Piece piece = {.far = 1e9, .near = -1e9};
+    for (int e = 0; e < 2; e++) {
+        double at = e ? to : from, point[3];
+        for (int k = 0; k < 3; k++) {
+            point[k] = (double)body->centre[k] + at * (double)body->axis[k];
+        }
+        double nearer = camera->distance / most(camera->distance - point[2], 1e-6);
+        double scale = camera->scale * nearer / occlusion->cell;
+        piece.ends[e][0] = occlusion->middle[0] + scale * point[0];
+        piece.ends[e][1] = occlusion->middle[1] - scale * point[1];
+        piece.radius[e] = scale * (double)body->radius;
+        piece.far = least(piece.far, point[2]);
+        piece.near = most(piece.near, point[2] + (double)body->radius);
+    }
+    return piece;
+}
+
+/* The cells from low to high along a row or column of so many. */
+static int first_cell(double low)
+{
+    return (int)most(least(low, 1e6), 0); /* rounded down: not negative */
+}
+
+static int end_cell(double high, int count)
+{
+    return (int)least(most(high, -1) + 1, count); /* likewise */
+}
+
+/* A sphere looks a little larger than its disc, from nearby most; pixels at the outline are painted
+ * too. */
+static bool shows(const OzOcclusion *occlusion, const Piece *piece)
+{
+    double reach = 1.05 * most(piece->radius[0], piece->radius[1]) + 0.6 / occlusion->cell;
+    const double *a = piece->ends[0], *b = piece->ends[1];
+    int left = first_cell(least(a[0], b[0]) - reach), top = first_cell(least(a[1], b[1]) - reach);
+    int right = end_cell(most(a[0], b[0]) + reach, occlusion->columns);
+    int bottom = end_cell(most(a[1], b[1]) + reach, occlusion->rows);
+    float near = (float)piece->near;
+    for (int y = top; y < bottom; y++) {
+        const float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
+        int open = 0;
+        for (int x = left; x < right; x++) {
+            open |= row[x] < near;
+        }
+        if (open) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool oz_occlusion_hides(const OzOcclusion *occlusion, const OzBody *body)
+{
+    double half = (double)body->half_shaft;
+    int pieces = (int)least(ceil(half / (double)body->radius), PIECES_MOST);
+    pieces = pieces < 1 ? 1 : pieces;
+    for (int i = 0; i < pieces; i++) {
+        Piece piece = piece_of(occlusion, body, half * (2.0 * i / pieces - 1),
+                               half * (2.0 * (i + 1) / pieces - 1));
+        if (shows(occlusion, &piece)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+typedef struct Span {
+    double low, high;
+} Span;
+
+/* Where inverse-slope * (x - start) lies within the bounds. */
+static void narrow(Span *span, double start, double inverse, double low, double high)
+{
+    double one = start + low * inverse, other = start + high * inverse;
+    span->low = most(span->low, least(one, other));
+    span->high = least(span->high, most(one, other));
+}
+
+/* All points within a radius of the line between a piece's ends: what it takes to cut rows out. */
+typedef struct Stadium {
+    const Piece *piece;
+    double radius, length, along[2], inverse[2]; /* along: a unit vector; inverse: of its parts */
+} Stadium;
+
+static Stadium stadium_of(const Piece *piece, double radius)
+{
+    const double *a = piece->ends[0], *b = piece->ends[1];
+    Stadium s = {piece, radius, 0, {b[0] - a[0], b[1] - a[1]}, {0, 0}};
+    s.length = sqrt(s.along[0] * s.along[0] + s.along[1] * s.along[1]);
+    for (int k = 0; k < 2; k++) {
+        s.along[k] /= most(s.length, 1e-9);
+        double steep = fabs(s.along[k]) < 1e-6 ? 1e-6 : s.along[k];
+        s.inverse[k] = 1 / steep;
+    }
+    return s;
+}
+
+static Span span_at(const Stadium *s, double y)
+{
+    Span whole = {1e9, -1e9}, middle = {-1e9, 1e9};
+    for (int e = 0; e < 2; e++) {
+        double away = y - s->piece->ends[e][1], square = s->radius * s->radius - away * away;
+        if (square >= 0) {
+            double half = sqrt(square);
+            whole.low = least(whole.low, s->piece->ends[e][0] - half);
+            whole.high = most(whole.high, s->piece->ends[e][0] + half);
+        }
+    }
+    double x = s->piece->ends[0][0], rise = y - s->piece->ends[0][1];
+    narrow(&middle, x - s->along[1] * rise * s->inverse[0], s->inverse[0], 0, s->length);
+    narrow(&middle, x + s->along[0] * rise * s->inverse[1], -s->inverse[1], -s->radius, s->radius);
+    if (middle.low <= middle.high) {
+        whole.low = least(whole.low, middle.low);
+        whole.high = most(whole.high, middle.high);
+    }
+    return whole;
+}
+
+/* Cells whose middle lies within the outline less half a cell's diagonal lie within it whole. Of
+ * thin rods, which have no such cells, a quarter of the radius is taken off. */
+static void cover(OzOcclusion *occlusion, const Piece *piece)
+{
+    double thin = least(piece->radius[0], piece->radius[1]);
+    Stadium stadium = stadium_of(piece, thin - least(0.71, 0.25 * thin));
+    double low = least(piece->ends[0][1], piece->ends[1][1]) - stadium.radius;
+    double high = most(piece->ends[0][1], piece->ends[1][1]) + stadium.radius;
+    float far = (float)piece->far;
+    for (int y = first_cell(low + 0.5); y < end_cell(high - 0.5, occlusion->rows); y++) {
+        float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
+        Span span = span_at(&stadium, y + 0.5);
+        int first = first_cell(span.low + 0.5), end = end_cell(span.high - 0.5, occlusion->columns);
+        for (int x = first; x < end; x++) {
+            row[x] = row[x] > far ? row[x] : far;
+        }
+    }
+}
+
+void oz_occlusion_add(OzOcclusion *occlusion, const OzBody *body, double from, double to)
+{
+    if (from > to) {
+        return;
+    }
+    /* Each piece has one depth: as many as a slanting axis is deep in radii. */
+    double deep = fabs((double)body->axis[2]) * (to - from) / (2 * (double)body->radius);
+    int pieces = (int)least(ceil(deep), PIECES_MOST);
+    pieces = pieces < 1 ? 1 : pieces;
+    for (int i = 0; i < pieces; i++) {
+        Piece piece = piece_of(occlusion, body, from + (to - from) * i / pieces,
+                               from + (to - from) * (i + 1) / pieces);
+        cover(occlusion, &piece);
+    }
+}
