@@ -72,26 +72,32 @@ OZ_INLINE OzResponse oz_line_response(OzContact c, OzLawConstants law)
     return r;
 }
 
-/* Adds one end of the span, given by the closest points to an end of a and to an end of b; gives the energy
- * of its spring. */
+/* One end of the span: the closest points to an end of a and to an end of b. */
+typedef struct OzLineEnd {
+    OzClosest of_a, of_b;
+    real soft;  /* m: over which the choice between the two is softened */
+    real share; /* of the whole contact                                 */
+} OzLineEnd;
+
+/* Adds one end of the span; gives the energy of its spring. */
 OZ_INLINE real oz_line_end(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants law,
-                           OzClosest of_a, OzClosest of_b, real soft, real share)
+                           OzLineEnd at)
 {
     OzVec3 arm_a[2], arm_b[2];
     mask crossed;
-    OzContact one = oz_grain_contact(a, b, apart, of_a, &arm_a[0], &arm_b[0], &crossed);
-    OzContact two = oz_grain_contact(a, b, apart, of_b, &arm_a[1], &arm_b[1], &crossed);
-    real lead = oz_clamp_unit((one.overlap - two.overlap) / soft);
+    OzContact one = oz_grain_contact(a, b, apart, at.of_a, &arm_a[0], &arm_b[0], &crossed);
+    OzContact two = oz_grain_contact(a, b, apart, at.of_b, &arm_a[1], &arm_b[1], &crossed);
+    real lead = oz_clamp_unit((one.overlap - two.overlap) / at.soft);
     real first = REAL(0.5) * (REAL(1.0) + lead), second = REAL(0.5) * (REAL(1.0) - lead);
     OzContact end = one;
     /* the larger of both, less a quarter of soft once they differ by more than soft */
-    end.overlap = first * one.overlap + second * two.overlap - REAL(0.25) * soft * lead * lead;
+    end.overlap = first * one.overlap + second * two.overlap - REAL(0.25) * at.soft * lead * lead;
     end.rate = first * one.rate + second * two.rate;
     end.lightness = first * one.lightness + second * two.lightness;
     OzResponse response = oz_line_response(end, law);
     real overlap = oz_larger(end.overlap, REAL(0.0));
-    oz_line_add(sum, one, arm_a[0], arm_b[0], response, overlap, share * first);
-    oz_line_add(sum, two, arm_a[1], arm_b[1], response, overlap, share * second);
+    oz_line_add(sum, one, arm_a[0], arm_b[0], response, overlap, at.share * first);
+    oz_line_add(sum, two, arm_a[1], arm_b[1], response, overlap, at.share * second);
     return response.energy;
 }
 
@@ -109,9 +115,11 @@ OZ_INLINE real oz_line_ends(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OzL
     real sense = ab < REAL(0.0) ? REAL(-1.0) : REAL(1.0), energy = REAL(0.0);
     for (int end = 0; end < 2; end++) {
         real s = REAL(end ? -1.0 : 1.0), t = s * sense;
-        OzClosest of_a = {s, oz_clamp_unit((ab * s + along_b) * inverse_bb)};
-        OzClosest of_b = {oz_clamp_unit((ab * t - along_a) * inverse_aa), t};
-        energy += REAL(0.5) * oz_line_end(sum, a, b, apart, law, of_a, of_b, soft, share);
+        OzLineEnd at = {{s, oz_clamp_unit((ab * s + along_b) * inverse_bb)},
+                        {oz_clamp_unit((ab * t - along_a) * inverse_aa), t},
+                        soft,
+                        share};
+        energy += REAL(0.5) * oz_line_end(sum, a, b, apart, law, at);
     }
     return energy;
 }

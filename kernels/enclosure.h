@@ -147,29 +147,29 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, const int *slot
 #endif
     /* a sphere in a population of rods touches once, not with two coincident ends */
     mask present = OZ_EQUAL || side->first ? near : oz_dot(end, end) > REAL(0.0);
-    OzContact contact;
-    OzVec3 arm, history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    OzVec3 history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
     if (OZ_HISTORY) {
         history = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index);
     }
     OzVec3 velocity =
         oz_enclosure_velocity(w, grain.position, oz_rods_wall_arm(grain, end, at), side);
-    OzContactForce parts =
-        oz_rods_wall(grain, end, at, velocity, present, w->parameters->wall[side->wall].law,
-                     &history, w->parameters->dt, oz_integrate_share(), &contact, &arm);
+    OzWallEnd where = {end, at, velocity, present};
+    OzWallForce found = oz_rods_wall(grain, where, w->parameters->wall[side->wall].law, &history,
+                                     w->parameters->dt, oz_integrate_share());
     if (OZ_HISTORY) {
         oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index, history);
     }
-    OzVec3 force = oz_where(OZ_ACTIVE_BEFORE(count), parts.force);
-    oz_loads_add(w, slots, force, oz_cross(arm, force));
+    OzVec3 force = oz_where(OZ_ACTIVE_BEFORE(count), found.parts.force);
+    oz_loads_add(w, slots, force, oz_cross(found.arm, force));
     mask counts = OZ_ACTIVE_BEFORE(count);
     if (!OZ_EQUAL && !side->first) {
         counts = counts & (oz_dot(end, end) > REAL(0.0));
     }
-    oz_enclosure_guard(w, slots, contact, grain.radius, counts, step);
+    oz_enclosure_guard(w, slots, found.contact, grain.radius, counts, step);
 #if OZ_LEDGER
     oz_pairs_note(w->wall_ledger, slots, OZ_WALL_ENDS * OZ_CONTACT_LEDGER,
-                  side->index * OZ_CONTACT_LEDGER, contact, parts, parts.force, arm);
+                  side->index * OZ_CONTACT_LEDGER, found.contact, found.parts, found.parts.force,
+                  found.arm);
 #endif
 }
 

@@ -106,29 +106,44 @@ OZ_INLINE OzVec3 oz_rods_wall_arm(OzGrain grain, OzVec3 end, OzWallDistance wall
     return oz_along(end, inside - grain.radius, wall.normal);
 }
 
-/* One end of a grain at a wall: end is the cap's centre from the grain's centre (a half-shaft, or
- * minus it), wall where that centre stands, wall_velocity the wall's own. */
-OZ_INLINE OzContactForce oz_rods_wall(OzGrain grain, OzVec3 end, OzWallDistance wall,
-                                      OzVec3 wall_velocity, mask present, OzLawConstants law,
-                                      OzVec3 *history, scalar dt, scalar share, OzContact *contact,
-                                      OzVec3 *arm)
+/* One end of a grain before a wall. */
+typedef struct OzWallEnd {
+    OzVec3 end;           /* m, the cap's centre from the grain's: a half-shaft, or minus it */
+    OzWallDistance wall;  /* where the cap's centre stands                                   */
+    OzVec3 wall_velocity; /* m/s, the wall's own                                             */
+    mask present;         /* else it does not touch                                          */
+} OzWallEnd;
+
+/* What a wall does to that end. */
+typedef struct OzWallForce {
+    OzContact contact; /* the wall is a */
+    OzContactForce parts;
+    OzVec3 arm; /* m, from the grain's centre to where the force acts */
+} OzWallForce;
+
+OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants law, OzVec3 *history,
+                                   scalar dt, scalar share)
 {
+    OzWallForce force;
+    OzContact *contact = &force.contact;
+    OzWallDistance wall = at.wall;
     contact->normal = wall.normal;
 #if OZ_FINE
     contact->overlap = wall.overlap;
 #else
     contact->overlap = grain.radius - wall.distance;
 #endif
-    contact->touching = (contact->overlap > REAL(0.0)) & present;
-    *arm = oz_rods_wall_arm(grain, end, wall);
-    contact->velocity = oz_minus(oz_grain_velocity_at(grain, *arm), wall_velocity);
+    contact->touching = (contact->overlap > REAL(0.0)) & at.present;
+    force.arm = oz_rods_wall_arm(grain, at.end, wall);
+    contact->velocity = oz_minus(oz_grain_velocity_at(grain, force.arm), at.wall_velocity);
     contact->rate = -oz_dot(contact->velocity, contact->normal);
     contact->mass = grain.mass;
     contact->radius = grain.radius;
     contact->lightness = REAL(1.0);
     if (OZ_AT_CONTACT) {
-        real inverse_mass_turn = oz_grain_inverse_mass_turn(grain, end, wall.normal);
+        real inverse_mass_turn = oz_grain_inverse_mass_turn(grain, at.end, wall.normal);
         contact->lightness = REAL(1.0) / sqrt(REAL(1.0) + contact->mass * inverse_mass_turn);
     }
-    return oz_contact_force(*contact, law, history, dt, share);
+    force.parts = oz_contact_force(*contact, law, history, dt, share);
+    return force;
 }

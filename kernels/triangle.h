@@ -121,6 +121,13 @@ OZ_INLINE real oz_triangle_sweep(const OzTriangleElements *elements, OzVec2 orig
     return area;
 }
 
+/* One of two triangles, and what is known of its edges. */
+typedef struct OzTriangleEdges {
+    const OzTriangle *triangle;
+    const OzTriangleElements *elements;
+    real (*theirs)[3]; /* m^2: the other's corners beside each of its edges, oz_triangle_sides */
+} OzTriangleEdges;
+
 /* Sums over the edges that share the push of kinds iii to vi. */
 typedef struct OzTriangleShare {
     OzVec2 push; /* weight x normal, towards b    */
@@ -135,16 +142,17 @@ OZ_INLINE real oz_triangle_way_out(real theirs[3][3], int k, real length)
     return oz_larger(theirs[k][0], oz_larger(theirs[k][1], theirs[k][2])) / length;
 }
 
-/* Adds the edges of t, whose push on b has this sign; taken: t's edges count at all; equal: of two
+/* Adds edges whose push on b has this sign; taken: they count at all; equal: of two
  * edges only that with the shortest way out, else each with its length. */
-OZ_INLINE void oz_triangle_share(const OzTriangle *t, const OzTriangleElements *elements,
-                                 real theirs[3][3], real sign, mask taken, mask equal,
+OZ_INLINE void oz_triangle_share(OzTriangleEdges edges, real sign, mask taken, mask equal,
                                  OzVec2 centroid, OzTriangleShare *share)
 {
+    const OzTriangle *t = edges.triangle;
+    const OzTriangleElements *elements = edges.elements;
     real shortest = REAL(1e30);
     for (int k = 0; k < 3; k++) {
         real length = oz_length2(oz_minus2(t->corner[(k + 1) % 3], t->corner[k]));
-        real way = oz_triangle_way_out(theirs, k, length);
+        real way = oz_triangle_way_out(edges.theirs, k, length);
         shortest = elements->crossings[k] > REAL(1.5) ? oz_smaller(shortest, way) : shortest;
     }
     for (int k = 0; k < 3; k++) {
@@ -152,7 +160,7 @@ OZ_INLINE void oz_triangle_share(const OzTriangle *t, const OzTriangleElements *
         real length = oz_length2(edge);
         OzVec2 normal = oz_scale2(oz_right2(edge), REAL(1.0) / length);
         OzVec2 middle = oz_scale2(oz_add2(elements->from[k], elements->to[k]), REAL(0.5));
-        mask entry = oz_triangle_way_out(theirs, k, length) <= shortest;
+        mask entry = oz_triangle_way_out(edges.theirs, k, length) <= shortest;
         real weight = oz_length2(oz_minus2(elements->to[k], elements->from[k]));
         weight = equal ? (entry ? REAL(1.0) : REAL(0.0)) : weight;
         weight = (taken & (elements->crossings[k] > REAL(1.5))) ? weight : REAL(0.0);
@@ -175,17 +183,15 @@ OZ_INLINE void oz_triangle_two(OzOverlap *o, OzVec2 along_a, OzVec2 middle, OzVe
 }
 
 /* Four crossings and more, or two edges with two. */
-OZ_INLINE void oz_triangle_many(OzOverlap *o, mask many, const OzTriangle *a, const OzTriangle *b,
-                                const OzTriangleElements *of_a, const OzTriangleElements *of_b,
-                                real sides_a[3][3], real sides_b[3][3], OzVec2 centroid)
+OZ_INLINE void oz_triangle_many(OzOverlap *o, mask many, OzTriangleEdges a, OzTriangleEdges b,
+                                OzVec2 centroid)
 {
     OzTriangleShare share = {{REAL(0.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0)};
-    mask equal = (of_a->doubles > REAL(1.5)) & (of_a->doubles < REAL(2.5)) &
-                 (of_a->doubles == of_b->doubles);
-    oz_triangle_share(a, of_a, sides_a, REAL(1.0), of_a->doubles >= of_b->doubles, equal, centroid,
-                      &share);
-    oz_triangle_share(b, of_b, sides_b, REAL(-1.0), of_b->doubles >= of_a->doubles, equal, centroid,
-                      &share);
+    real doubles_a = a.elements->doubles, doubles_b = b.elements->doubles;
+    mask equal =
+        (doubles_a > REAL(1.5)) & (doubles_a < REAL(2.5)) & (doubles_a == doubles_b);
+    oz_triangle_share(a, REAL(1.0), doubles_a >= doubles_b, equal, centroid, &share);
+    oz_triangle_share(b, REAL(-1.0), doubles_b >= doubles_a, equal, centroid, &share);
     real scale = o->area / oz_larger(share.weight, REAL(OZ_TINY));
     o->push = oz_choose2(many, oz_scale2(share.push, scale), o->push);
     o->moment = many ? share.moment * scale : o->moment;
@@ -236,7 +242,8 @@ OZ_INLINE OzOverlap oz_triangle_overlap(const OzTriangle *a, const OzTriangle *b
     real doubles = of_a.doubles + of_b.doubles;
     mask many = doubles > REAL(1.5);
     if (OZ_ANY(many)) {
-        oz_triangle_many(&o, many, a, b, &of_a, &of_b, sides_a, sides_b, centroid);
+        OzTriangleEdges edges_a = {a, &of_a, sides_a}, edges_b = {b, &of_b, sides_b};
+        oz_triangle_many(&o, many, edges_a, edges_b, centroid);
     }
     o.centroid = centroid;
     o.moment = OZ_FORCE_POINT ? o.moment : oz_cross2(centroid, o.push);

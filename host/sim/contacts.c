@@ -105,12 +105,14 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end
     dialect = physics->switches;
     bool has_spring = OZ_HISTORY && history;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
-    OzVec3 spring = found.stored, arm;
+    OzVec3 spring = found.stored;
     OzWallDrive drive = oz_dialect_drive(
         physics, wall, snapshot->wall_offset[scene_wall], snapshot->wall_velocity[scene_wall],
         oz_motion_rate(&snapshot->scene->walls[scene_wall].motion));
-    found.parts = oz_dialect_touch_wall(physics, wall, end, one, drive, physics->parameters.dt,
-                                        &spring, &found.contact, &arm);
+    OzWallForce at = oz_dialect_touch_wall(physics, wall, end, one, drive, physics->parameters.dt,
+                                           &spring);
+    found.parts = at.parts;
+    found.contact = at.contact;
     if (!found.contact.touching) {
         return OZ_OK;
     }
@@ -118,6 +120,6 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end
         .a = (int32_t)grain, .b = -1 - scene_wall, .part_a = wall * physics->ends + end};
     double friction = physics->parameters.wall[wall].law.friction;
     entry.spring_energy = has_spring ? spring_energy(contacts, &found, friction) : 0;
-    fill(&entry, &found, -1, one, arm); /* to the kernels a wall is a */
+    fill(&entry, &found, -1, one, at.arm); /* to the kernels a wall is a */
     return oz_contact_list_add(contacts->list, &entry);
 }

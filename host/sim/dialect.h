@@ -75,17 +75,16 @@ OZ_INLINE OzVec3 oz_dialect_wall_velocity(const OzPhysics *physics, int w, OzFix
     return oz_wall_drive_velocity(drive, oz_dialect_from(physics, w, place, arm, drive));
 }
 
-/* One end of a grain at kernel wall w; history, contact and arm as for oz_rods_wall. */
-OZ_INLINE OzContactForce oz_dialect_touch_wall(const OzPhysics *physics, int w, int end_index,
-                                               OzGrain grain, OzWallDrive drive, double dt,
-                                               OzVec3 *history, OzContact *contact, OzVec3 *arm)
+/* One end of a grain at kernel wall w; history as for oz_rods_wall. */
+OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int w, int end_index,
+                                            OzGrain grain, OzWallDrive drive, double dt,
+                                            OzVec3 *history)
 {
     OzVec3 end = oz_scale(grain.half_shaft, end_index ? -1 : 1);
-    OzWallDistance at = oz_dialect_wall(physics, w, grain.position, end, drive);
-    OzVec3 velocity = oz_dialect_wall_velocity(physics, w, grain.position,
-                                               oz_rods_wall_arm(grain, end, at), drive);
+    OzWallEnd at = {.end = end, .wall = oz_dialect_wall(physics, w, grain.position, end, drive)};
+    at.wall_velocity = oz_dialect_wall_velocity(physics, w, grain.position,
+                                                oz_rods_wall_arm(grain, end, at.wall), drive);
     /* a sphere touches once, not with two coincident ends */
-    mask present = end_index == 0 || oz_dot(end, end) > 0;
-    return oz_rods_wall(grain, end, at, velocity, present, physics->parameters.wall[w].law, history,
-                        dt, physics->share, contact, arm);
+    at.present = end_index == 0 || oz_dot(end, end) > 0;
+    return oz_rods_wall(grain, at, physics->parameters.wall[w].law, history, dt, physics->share);
 }

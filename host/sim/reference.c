@@ -136,8 +136,8 @@ static void touch_wall(OzReference *r, int i, int wall, int end, double dt)
 {
     int64_t k = wall_index(r, i, wall, end);
     OzWallForce *f = &r->wall_force[k];
-    f->parts = oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_drive[wall], dt,
-                                     &r->wall_history[k], &f->contact, &f->arm);
+    *f = oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_drive[wall], dt,
+                               &r->wall_history[k]);
     r->load[i].force = oz_add(r->load[i].force, f->parts.force);
     r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
 }

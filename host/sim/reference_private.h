@@ -8,13 +8,6 @@
 #include "sim/pair_list.h"
 #include "sim/reference.h"
 
-/* What one end of a grain and a wall did in the last step. */
-typedef struct OzWallForce {
-    OzContact contact;
-    OzContactForce parts;
-    OzVec3 arm;
-} OzWallForce;
-
 struct OzReference {
     const OzScene *scene;
     const OzGrains *grains;
