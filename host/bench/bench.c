@@ -373,14 +373,8 @@ done:
 
 static OzStatus draw_plot(const Bench *bench)
 {
-    OzStatus status = OZ_OK;
-    char *path = NULL;
-    OZ_TRY(oz_folder_note(bench->folder, "bench.png"));
-    OZ_TRY(oz_file_join(&path, bench->folder, "bench.png"));
-    OZ_TRY(oz_bench_plot_draw(path, bench->device.name, bench->rows, bench->row_count));
-done:
-    free(path);
-    return status;
+    OZ_PASS(oz_folder_note(bench->folder, "bench.png"));
+    return oz_bench_plot_draw(bench->folder, bench->device.name, bench->rows, bench->row_count);
 }
 
 static OzStatus run_all(Bench *bench)

@@ -1,11 +1,12 @@
 /* Talking to gnuplot. */
 #include "bench/bench_plot.h"
 
-#include "base/log.h"
+#include "base/gnuplot.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#define PICTURE "bench.png"
 
 /* The rows of one curve: equal in bed, number format and threads. */
 static bool same_curve(const OzBenchRow *a, const OzBenchRow *b)
@@ -62,16 +63,16 @@ static void send_tics(FILE *gnuplot)
     fprintf(gnuplot, ")\n");
 }
 
-static void send_axes(FILE *gnuplot, const char *path, const char *title, const OzBenchRow *rows,
+static void send_axes(FILE *gnuplot, const char *folder, const char *title, const OzBenchRow *rows,
                       int count)
 {
     fprintf(gnuplot,
             "set terminal pngcairo size 1200,700 noenhanced font 'DejaVu Sans,11'\n"
-            "set output '%s'\nset title '%s'\nset logscale xy\n"
+            "set output '%s/" PICTURE "'\nset title '%s'\nset logscale xy\n"
             "set grid\n"
             "set xlabel 'grains'\nset ylabel 'ns per grain and step'\n"
             "set format x '%%.0f'\nset format y '%%g'\nset key outside right top\n",
-            path, title);
+            folder, title);
     send_tics(gnuplot);
     send_range(gnuplot, 'x', rows, count, OZ_BENCH_GRAINS);
     send_range(gnuplot, 'y', rows, count, OZ_BENCH_NS_GRAIN);
@@ -101,20 +102,15 @@ static void send_plot(FILE *gnuplot, const OzBenchRow *rows, int count)
     }
 }
 
-OzStatus oz_bench_plot_draw(const char *path, const char *title, const OzBenchRow *rows, int count)
+OzStatus oz_bench_plot_draw(const char *folder, const char *title, const OzBenchRow *rows,
+                            int count)
 {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
-        oz_log_line("no %s: gnuplot is not installed", path);
+    FILE *gnuplot = NULL;
+    OZ_PASS(oz_gnuplot_open(&gnuplot, folder, PICTURE));
+    if (!gnuplot) {
         return OZ_OK;
     }
-    FILE *gnuplot = popen("gnuplot", "w");
-    if (!gnuplot) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
-    }
-    send_axes(gnuplot, path, title, rows, count);
+    send_axes(gnuplot, folder, title, rows, count);
     send_plot(gnuplot, rows, count);
-    if (pclose(gnuplot) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s", path);
-    }
-    return OZ_OK;
+    return oz_gnuplot_close(gnuplot, folder, PICTURE);
 }

@@ -3,6 +3,7 @@
 
 #include "bench/bench_row.h"
 
-/* Draws rows into path; title names the device. Without gnuplot a line in the log says so, and
- * there is no picture. Fails with OZ_ERR_FILE when gnuplot does. */
-OzStatus oz_bench_plot_draw(const char *path, const char *title, const OzBenchRow *rows, int count);
+/* Draws rows into bench.png of the folder; title names the device. Without gnuplot a line in the
+ * log says so, and there is no picture. Fails with OZ_ERR_FILE when gnuplot does. */
+OzStatus oz_bench_plot_draw(const char *folder, const char *title, const OzBenchRow *rows,
+                            int count);

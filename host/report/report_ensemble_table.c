@@ -3,12 +3,11 @@
 
 #include "base/file.h"
 #include "base/folder.h"
-#include "base/log.h"
+#include "base/gnuplot.h"
 #include "scene/keys.h"
 
 #include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 OzMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity)
@@ -157,13 +156,10 @@ static void send_panel(FILE *gnuplot, const OzEnsemblePoint *points, int count, 
 static OzStatus draw(const char *folder, const char *title, const OzEnsemblePoint *points,
                      int count)
 {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
-        oz_log_line("no %s/ensemble.png: gnuplot is not installed", folder);
-        return OZ_OK;
-    }
-    FILE *gnuplot = popen("gnuplot", "w");
+    FILE *gnuplot = NULL;
+    OZ_PASS(oz_gnuplot_open(&gnuplot, folder, "ensemble.png"));
     if (!gnuplot) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
+        return OZ_OK;
     }
     Shown shown = choose_shown(points, count);
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
@@ -183,10 +179,7 @@ static OzStatus draw(const char *folder, const char *title, const OzEnsemblePoin
             send_panel(gnuplot, points, count, q);
         }
     }
-    if (pclose(gnuplot) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s/ensemble.png", folder);
-    }
-    return OZ_OK;
+    return oz_gnuplot_close(gnuplot, folder, "ensemble.png");
 }
 
 OzStatus oz_report_ensemble_table_write(const char *folder, const char *title,

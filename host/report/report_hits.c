@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/folder.h"
+#include "base/gnuplot.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "model/beam_limits.h"
@@ -209,13 +210,10 @@ static void send_points(FILE *gnuplot, const OzReportHits *meetings, int64_t cou
 
 static OzStatus draw(const char *folder, const OzReportHits *meetings, int64_t count, double share)
 {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
-        oz_log_line("no %s/hits.png: gnuplot is not installed", folder);
-        return OZ_OK;
-    }
-    FILE *gnuplot = popen("gnuplot", "w");
+    FILE *gnuplot = NULL;
+    OZ_PASS(oz_gnuplot_open(&gnuplot, folder, "hits.png"));
     if (!gnuplot) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
+        return OZ_OK;
     }
     send_points(gnuplot, meetings, count, share);
     fprintf(gnuplot,
@@ -235,10 +233,7 @@ static OzStatus draw(const char *folder, const OzReportHits *meetings, int64_t c
             "$spins using 1:3 with linespoints pt 6 ps 1.8 dt 2 lc rgb '#e69f00' title 'second "
             "grain'\n",
             folder, share);
-    if (pclose(gnuplot) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s/hits.png", folder);
-    }
-    return OZ_OK;
+    return oz_gnuplot_close(gnuplot, folder, "hits.png");
 }
 
 OzStatus oz_report_hits_run(const OzOptions *options, const char *folder)

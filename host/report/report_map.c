@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/folder.h"
+#include "base/gnuplot.h"
 #include "base/log.h"
 #include "model/contact.h"
 #include "model/insert.h"
@@ -12,7 +13,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { STEPS_CELLS = 48, RESTITUTION_CELLS = 30, PATH_SIZE = 1024 };
@@ -133,13 +133,10 @@ static void send_theory(FILE *gnuplot, int integrator)
 
 static OzStatus draw(const char *folder, const char *csv)
 {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
-        oz_log_line("no %s/stability.png: gnuplot is not installed", folder);
-        return OZ_OK;
-    }
-    FILE *gnuplot = popen("gnuplot", "w");
+    FILE *gnuplot = NULL;
+    OZ_PASS(oz_gnuplot_open(&gnuplot, folder, "stability.png"));
     if (!gnuplot) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
+        return OZ_OK;
     }
     fprintf(
         gnuplot,
@@ -164,10 +161,7 @@ static OzStatus draw(const char *folder, const char *csv)
         }
         fprintf(gnuplot, "$theory%d with lines lw 3 lc rgb 'black' title 'theory'\n", i);
     }
-    if (pclose(gnuplot) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s/stability.png", folder);
-    }
-    return OZ_OK;
+    return oz_gnuplot_close(gnuplot, folder, "stability.png");
 }
 
 OzStatus oz_report_map_draw(const char *folder)

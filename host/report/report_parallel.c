@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "base/folder.h"
-#include "base/log.h"
+#include "base/gnuplot.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "model/insert.h"
@@ -135,13 +135,10 @@ static OzStatus write_rows(FILE *csv, const char *path, const OzOptions *options
 
 static OzStatus draw(const char *folder)
 {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
-        oz_log_line("no %s/aligned.png: gnuplot is not installed", folder);
-        return OZ_OK;
-    }
-    FILE *gnuplot = popen("gnuplot", "w");
+    FILE *gnuplot = NULL;
+    OZ_PASS(oz_gnuplot_open(&gnuplot, folder, "aligned.png"));
     if (!gnuplot) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
+        return OZ_OK;
     }
     fprintf(gnuplot,
             "set terminal pngcairo size 1100,480 noenhanced font 'DejaVu Sans,11'\n"
@@ -162,10 +159,7 @@ static OzStatus draw(const char *folder)
                     kind + 1 < KINDS ? ", " : "\n");
         }
     }
-    if (pclose(gnuplot) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s/aligned.png", folder);
-    }
-    return OZ_OK;
+    return oz_gnuplot_close(gnuplot, folder, "aligned.png");
 }
 
 OzStatus oz_report_parallel_study(const char *path, const char *folder, const OzOptions *options)

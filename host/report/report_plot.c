@@ -2,11 +2,10 @@
 #include "report/report_plot.h"
 
 #include "base/folder.h"
-#include "base/log.h"
+#include "base/gnuplot.h"
 #include "report/report_table.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Where an error of nothing is drawn: below any rounding. */
@@ -197,10 +196,6 @@ OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzRep
                              int count)
 {
     char path[1024], name[2][1024];
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
-        oz_log_line("no pictures in %s: gnuplot is not installed", folder);
-        return OZ_OK;
-    }
     if (count_bad(points, count) == count) {
         return OZ_OK;
     }
@@ -208,17 +203,15 @@ OzStatus oz_report_plot_draw(const char *folder, const char *device, const OzRep
     snprintf(name[1], sizeof name[1], "%s.svg", points[0].scene);
     OZ_PASS(oz_folder_note(folder, name[0]));
     OZ_PASS(oz_folder_note(folder, name[1]));
-    FILE *gnuplot = popen("gnuplot", "w");
+    FILE *gnuplot = NULL;
+    OZ_PASS(oz_gnuplot_open(&gnuplot, folder, name[0]));
     if (!gnuplot) {
-        return oz_status_fail(OZ_ERR_FILE, "cannot start gnuplot");
+        return OZ_OK;
     }
     send_data(gnuplot, points, count);
     for (int i = 0; i < 2; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, name[i]);
         send_picture(gnuplot, i == 0 ? "pngcairo" : "svg", path, device, points, count);
     }
-    if (pclose(gnuplot) != 0) {
-        return oz_status_fail(OZ_ERR_FILE, "gnuplot could not draw %s", path);
-    }
-    return OZ_OK;
+    return oz_gnuplot_close(gnuplot, folder, name[0]);
 }
