@@ -15,6 +15,13 @@ OzStatus oz_hdf5_library_check(int64_t code, const char *call, const char *file,
                      : oz_status_fail(OZ_ERR_FILE, "libhdf5: %s failed (%s:%d)", call, file, line);
 }
 
+void oz_hdf5_library_close(hid_t id)
+{
+    if (id >= 0) {
+        library.H5Idec_ref(id);
+    }
+}
+
 /* ISO C has no cast from an object to a function pointer. */
 static OzStatus find(void *handle, const char *name, void *into)
 {

@@ -28,9 +28,7 @@ OzStatus oz_buffers_make(cl_mem *buffer, const OzDevice *device, const char *nam
 void oz_buffers_free(const cl_mem *buffers, int count)
 {
     for (int i = 0; i < count; i++) {
-        if (buffers[i]) {
-            clReleaseMemObject(buffers[i]);
-        }
+        CL_RELEASE(MemObject, buffers[i]);
     }
 }
 

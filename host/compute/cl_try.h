@@ -16,3 +16,6 @@ OzStatus oz_cl_try_check(cl_int code, const char *call, const char *file, int li
 /* As OZ_TRY and OZ_PASS, for an OpenCL call that returns its code. */
 #define CL_TRY(call)  OZ_TRY(oz_cl_try_check((call), #call, __FILE__, __LINE__))
 #define CL_PASS(call) OZ_PASS(oz_cl_try_check((call), #call, __FILE__, __LINE__))
+
+/* Releases a Kernel, a Program or a MemObject; nothing for NULL. */
+#define CL_RELEASE(Kind, object) ((void)((object) ? clRelease##Kind(object) : CL_SUCCESS))

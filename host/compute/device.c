@@ -194,12 +194,8 @@ done:
 
 void oz_device_close(OzDevice *device)
 {
-    if (device->queue) {
-        clReleaseCommandQueue(device->queue);
-    }
-    if (device->context) {
-        clReleaseContext(device->context);
-    }
+    CL_RELEASE(CommandQueue, device->queue);
+    CL_RELEASE(Context, device->context);
     memset(device, 0, sizeof *device);
 }
 

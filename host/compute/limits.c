@@ -30,18 +30,10 @@ typedef struct Limit {
 
 static void close_limit(Limit *limit)
 {
-    if (limit->second) {
-        clReleaseMemObject(limit->second);
-    }
-    if (limit->first) {
-        clReleaseMemObject(limit->first);
-    }
-    if (limit->kernel) {
-        clReleaseKernel(limit->kernel);
-    }
-    if (limit->program) {
-        clReleaseProgram(limit->program);
-    }
+    CL_RELEASE(MemObject, limit->second);
+    CL_RELEASE(MemObject, limit->first);
+    CL_RELEASE(Kernel, limit->kernel);
+    CL_RELEASE(Program, limit->program);
 }
 
 static int lanes_of(const OzDevice *device, bool is_double)

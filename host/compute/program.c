@@ -167,12 +167,8 @@ static OzStatus ask_layout(cl_program program, const OzDevice *device, cl_int an
     CL_TRY(clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &one, &one, 0, NULL, NULL));
     CL_TRY(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, 0, bytes, answer, 0, NULL, NULL));
 done:
-    if (buffer) {
-        clReleaseMemObject(buffer);
-    }
-    if (kernel) {
-        clReleaseKernel(kernel);
-    }
+    CL_RELEASE(MemObject, buffer);
+    CL_RELEASE(Kernel, kernel);
     return status;
 }
 

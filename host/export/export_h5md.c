@@ -33,9 +33,7 @@ static OzStatus make_group(const OzHdf5 *h5, hid_t file, const char *path)
     hid_t group = -1;
     OZ_H5_TRY(group = h5->H5Gcreate2(file, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 done:
-    if (group >= 0) {
-        h5->H5Gclose(group);
-    }
+    oz_hdf5_library_close(group);
     return status;
 }
 
@@ -81,15 +79,9 @@ static OzStatus write_attribute(const OzHdf5 *h5, hid_t object, const Attribute 
     OZ_H5_TRY(attribute = h5->H5Acreate2(object, a->name, type, space, H5P_DEFAULT, H5P_DEFAULT));
     OZ_H5_TRY(h5->H5Awrite(attribute, type, data));
 done:
-    if (attribute >= 0) {
-        h5->H5Aclose(attribute);
-    }
-    if (space >= 0) {
-        h5->H5Sclose(space);
-    }
-    if (type >= 0) {
-        h5->H5Tclose(type);
-    }
+    oz_hdf5_library_close(attribute);
+    oz_hdf5_library_close(space);
+    oz_hdf5_library_close(type);
     return status;
 }
 
@@ -104,9 +96,7 @@ static OzStatus make_described(const OzHdf5 *h5, hid_t file, const char *path,
         OZ_TRY(write_attribute(h5, group, rows));
     }
 done:
-    if (group >= 0) {
-        h5->H5Gclose(group);
-    }
+    oz_hdf5_library_close(group);
     return status;
 }
 
@@ -155,12 +145,8 @@ static OzStatus make_table(const OzHdf5 *h5, hid_t file, const Table *table)
         OZ_TRY(write_attribute(h5, dataset, &unit));
     }
 done:
-    if (dataset >= 0) {
-        h5->H5Dclose(dataset);
-    }
-    if (space >= 0) {
-        h5->H5Sclose(space);
-    }
+    oz_hdf5_library_close(dataset);
+    oz_hdf5_library_close(space);
     return status;
 }
 
@@ -260,15 +246,9 @@ static OzStatus write_part(const Writer *writer, const Table *table, hsize_t fir
     OZ_H5_TRY(part = h5->H5Screate_simple(table->rank, count, NULL));
     OZ_H5_TRY(h5->H5Dwrite(dataset, memory, part, all, H5P_DEFAULT, data));
 done:
-    if (part >= 0) {
-        h5->H5Sclose(part);
-    }
-    if (all >= 0) {
-        h5->H5Sclose(all);
-    }
-    if (dataset >= 0) {
-        h5->H5Dclose(dataset);
-    }
+    oz_hdf5_library_close(part);
+    oz_hdf5_library_close(all);
+    oz_hdf5_library_close(dataset);
     return status;
 }
 
@@ -280,9 +260,7 @@ static OzStatus write_all(const Writer *writer, const Table *table, const double
     OZ_H5_TRY(dataset = h5->H5Dopen2(writer->file, table->path, H5P_DEFAULT));
     OZ_H5_TRY(h5->H5Dwrite(dataset, *h5->H5T_NATIVE_DOUBLE_g, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
 done:
-    if (dataset >= 0) {
-        h5->H5Dclose(dataset);
-    }
+    oz_hdf5_library_close(dataset);
     return status;
 }
 

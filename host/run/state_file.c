@@ -42,9 +42,7 @@ static OzStatus open_image(hid_t *file, void *image, size_t bytes)
         OZ_H5_TRY(*file = h5->H5Fcreate("state", OZ_H5_TRUNCATE, H5P_DEFAULT, access));
     }
 done:
-    if (access >= 0) {
-        h5->H5Pclose(access);
-    }
+    oz_hdf5_library_close(access);
     return status;
 }
 
@@ -58,15 +56,9 @@ static OzStatus write_unit(hid_t dataset, const char *unit)
     OZ_H5_TRY(attribute = h5->H5Acreate2(dataset, "unit", type, space, H5P_DEFAULT, H5P_DEFAULT));
     OZ_H5_TRY(h5->H5Awrite(attribute, type, unit));
 done:
-    if (attribute >= 0) {
-        h5->H5Aclose(attribute);
-    }
-    if (space >= 0) {
-        h5->H5Sclose(space);
-    }
-    if (type >= 0) {
-        h5->H5Tclose(type);
-    }
+    oz_hdf5_library_close(attribute);
+    oz_hdf5_library_close(space);
+    oz_hdf5_library_close(type);
     return status;
 }
 
@@ -83,15 +75,9 @@ static OzStatus write_entry(hid_t file, const OzStateEntry *entry)
     OZ_H5_TRY(h5->H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry->data));
     OZ_TRY(write_unit(dataset, entry->unit));
 done:
-    if (dataset >= 0) {
-        h5->H5Dclose(dataset);
-    }
-    if (space >= 0) {
-        h5->H5Sclose(space);
-    }
-    if (links >= 0) {
-        h5->H5Pclose(links);
-    }
+    oz_hdf5_library_close(dataset);
+    oz_hdf5_library_close(space);
+    oz_hdf5_library_close(links);
     return status;
 }
 
@@ -285,12 +271,8 @@ static OzStatus read_unit(hid_t dataset, char **unit)
     OZ_TRY(OZ_NEW(unit, h5->H5Tget_size(type) + 1));
     OZ_H5_TRY(h5->H5Aread(attribute, type, *unit));
 done:
-    if (type >= 0) {
-        h5->H5Tclose(type);
-    }
-    if (attribute >= 0) {
-        h5->H5Aclose(attribute);
-    }
+    oz_hdf5_library_close(type);
+    oz_hdf5_library_close(attribute);
     return status;
 }
 
@@ -311,15 +293,9 @@ static OzStatus read_entry(hid_t file, OzStateEntry *entry)
         h5->H5Dread(dataset, type_of(entry->kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, entry->data));
     OZ_TRY(read_unit(dataset, &entry->unit));
 done:
-    if (type >= 0) {
-        h5->H5Tclose(type);
-    }
-    if (space >= 0) {
-        h5->H5Sclose(space);
-    }
-    if (dataset >= 0) {
-        h5->H5Dclose(dataset);
-    }
+    oz_hdf5_library_close(type);
+    oz_hdf5_library_close(space);
+    oz_hdf5_library_close(dataset);
     return status;
 }
 

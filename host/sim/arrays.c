@@ -95,9 +95,7 @@ static OzStatus resize_field(OzArrays *arrays, int field, const void *sizes)
     arrays->buffer[field] = grown;
     grown = NULL;
 done:
-    if (grown) {
-        clReleaseMemObject(grown);
-    }
+    CL_RELEASE(MemObject, grown);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* Timing the kernels of kernels/element_stage_timing.cl. */
 #include "sim/element_stage_timing.h"
 
+#include "compute/cl_try.h"
 #include "sim/element_private.h"
 #include "sim/timing.h"
 
@@ -59,8 +60,6 @@ OzStatus oz_element_stage_timing_measure(double seconds[OZ_ELEMENT_PHASE_COUNT],
                            &job.program));
     OZ_TRY(oz_timing_restored(sim, time_all, &job));
 done:
-    if (job.program) {
-        clReleaseProgram(job.program);
-    }
+    CL_RELEASE(Program, job.program);
     return status;
 }

@@ -86,9 +86,7 @@ done:
 void oz_large_free(OzLarge *large)
 {
     for (int p = 0; large && p < PHASE_COUNT; p++) {
-        if (large->kernel[p]) {
-            clReleaseKernel(large->kernel[p]);
-        }
+        CL_RELEASE(Kernel, large->kernel[p]);
     }
     free(large);
 }

@@ -71,9 +71,7 @@ OzStatus oz_launch_save_springs(OzSim *sim)
     OZ_TRY(oz_launch_enqueue(sim, kernel, -1));
     OZ_TRY(oz_launch_read_control(sim));
 done:
-    if (kernel) {
-        clReleaseKernel(kernel);
-    }
+    CL_RELEASE(Kernel, kernel);
     return status;
 }
 

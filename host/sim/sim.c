@@ -138,12 +138,8 @@ void oz_sim_free(OzSim *sim)
     oz_arrays_free(&sim->arrays);
     sim->model->close(sim);
     oz_large_free(sim->large);
-    if (sim->advance) {
-        clReleaseKernel(sim->advance);
-    }
-    if (sim->program) {
-        clReleaseProgram(sim->program);
-    }
+    CL_RELEASE(Kernel, sim->advance);
+    CL_RELEASE(Program, sim->program);
     oz_batch_free(&sim->batch);
     free(sim->parameters);
     free(sim->control);

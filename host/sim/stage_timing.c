@@ -1,6 +1,7 @@
 /* Timing the kernels of kernels/stage_timing.cl. */
 #include "sim/stage_timing.h"
 
+#include "compute/cl_try.h"
 #include "sim/rods_private.h"
 #include "sim/timing.h"
 
@@ -30,8 +31,7 @@ static OzStatus time_renewal(OzSim *sim, bool outer, double *seconds)
     double times[OZ_TIMING_LAUNCHES];
     for (int k = 0; k < OZ_TIMING_LAUNCHES; k++) {
         double start = oz_timing_clock(sim->device);
-        OZ_PASS(
-            oz_large_renew(sim->large, &sim->arrays, oz_sim_control(sim, 0), outer));
+        OZ_PASS(oz_large_renew(sim->large, &sim->arrays, oz_sim_control(sim, 0), outer));
         times[k] = oz_timing_clock(sim->device) - start;
     }
     *seconds = oz_timing_median(times);
@@ -95,11 +95,7 @@ OzStatus oz_stage_timing_measure(OzStageTiming *phases, OzSim *sim, const char *
         oz_timing_build(sim, &switches, source_dir, "kernels/stage_timing.cl", &job.free_of_walls));
     OZ_TRY(oz_timing_restored(sim, time_standing, &job));
 done:
-    if (job.free_of_walls) {
-        clReleaseProgram(job.free_of_walls);
-    }
-    if (job.whole) {
-        clReleaseProgram(job.whole);
-    }
+    CL_RELEASE(Program, job.free_of_walls);
+    CL_RELEASE(Program, job.whole);
     return status;
 }

@@ -61,9 +61,7 @@ OzStatus oz_timing_kernel(OzSim *sim, cl_program program, const char *name, cons
     }
     *seconds = oz_timing_median(times) / repeats;
 done:
-    if (kernel) {
-        clReleaseKernel(kernel);
-    }
+    CL_RELEASE(Kernel, kernel);
     return status;
 }
 

@@ -66,10 +66,8 @@ static OzStatus open(OzSim *sim)
 static void close(OzSim *sim)
 {
     OzTrigrains *own = sim->own;
-    if (own && own->begin) {
-        clReleaseKernel(own->begin);
-    }
     if (own) {
+        CL_RELEASE(Kernel, own->begin);
         free(own->present);
         free(own);
     }
