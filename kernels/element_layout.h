@@ -4,6 +4,7 @@
 
 #include "kernels/element_law.h"
 #include "kernels/head.h"
+#include "kernels/ledger_entries.h"
 
 enum { OZ_ELEMENT_WALLS_MAX = 16 };
 
@@ -96,12 +97,4 @@ enum {
 };
 
 /* A work-item's sums of energy, J, and after them how fast each grew at the last step, W. */
-enum {
-    OZ_PL_BEAM_AXIAL,
-    OZ_PL_BEAM_BENDING,
-    OZ_PL_DISC_DAMPING,
-    OZ_PL_DISC_FRICTION,
-    OZ_PL_WORK_WALLS,
-    OZ_ELEMENT_LEDGER,
-    OZ_ELEMENT_LEDGER_WORDS = 2 * OZ_ELEMENT_LEDGER
-};
+enum { OZ_ELEMENT_LEDGER_WORDS = 2 * OZ_ELEMENT_LEDGER };

@@ -9,11 +9,12 @@
  * others are LIST. */
 #pragma once
 
+#include "kernels/ledger_entries.h"
+
 #define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
 
-/* A grain's sums of energy, J, by id, of contacts in which it is the first, and a contact's words
- * for them (see ledger.h). */
-enum { OZ_L_DISSIPATED, OZ_L_SPRING, OZ_L_WALLS, OZ_LEDGER_WORDS };
+/* The ledger has a grain's sums of energy, J, by id, of contacts in which it is the first; this is
+ * a contact's words for them (see ledger.h). */
 enum { OZ_CONTACT_LEDGER = 15 };
 
 /* A slot's words in the spare array, where a re-sort puts grains in their new order. */

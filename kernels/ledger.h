@@ -115,11 +115,11 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
                 oz_ledger_wall_velocity(w, grain, arm, index, step + 1 - OZ_MOVES_BEFORE);
             after = oz_minus(after, new_one);
             real power = oz_dot(oz_work_load3(words + 9), oz_add(old_one, new_one));
-            oz_ledger_give(w, slots, bits, OZ_L_WALLS, power, 0.5 * w->parameters->dt);
+            oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, power, 0.5 * w->parameters->dt);
 #else
             after.z -= REAL(new_speed);
             double mean = 0.5 * ((double)old_speed + (double)new_speed);
-            oz_ledger_give(w, slots, bits, OZ_L_WALLS, words[11], mean * w->parameters->dt);
+            oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, words[11], mean * w->parameters->dt);
 #endif
             oz_ledger_add(w, slots, bits, words, after);
         }

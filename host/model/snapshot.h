@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/state.h"
+#include "kernels/ledger_entries.h"
 #include "model/contact_list.h"
 #include "model/grains.h"
 #include "scene/scene.h"
@@ -10,13 +11,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define OZ_LEDGER_MEMBER(NAME, member, column, meaning) double member;
+
 /* Energies since time 0, J. residual = change of (kinetic + rotational + potential + elastic)
  * + dissipated + friction - work_walls. */
 typedef struct OzLedger {
-    double elastic;    /* stored in springs now                        */
-    double dissipated; /* by dashpots, since time 0                    */
-    double friction;   /* by sliding, since time 0                     */
-    double work_walls; /* put in by moving walls, since time 0         */
+    double elastic; /* stored in springs now */
+    OZ_LEDGER_LOSSES(OZ_LEDGER_MEMBER)
+    OZ_LEDGER_WORK(OZ_LEDGER_MEMBER)
 } OzLedger;
 
 /* trigrains: of all beams at this moment. */
@@ -27,13 +29,10 @@ typedef struct OzBeamSums {
 } OzBeamSums;
 
 /* trigrains: energies since time 0, J. residual = change of (translational + rotational + potential
- * + contact + beam) + beam_axial + beam_bending + disc_damping + disc_friction - work_walls. */
+ * + contact + beam) + all losses - work_walls. */
 typedef struct OzElementLedger {
-    double beam_axial;    /* dissipated by beams along their axes  */
-    double beam_bending;  /* dissipated by beams' bending          */
-    double disc_damping;  /* dissipated by discs, normal           */
-    double disc_friction; /* dissipated by discs, tangential       */
-    double work_walls;    /* put in by moving walls                */
+    OZ_ELEMENT_LEDGER_LOSSES(OZ_LEDGER_MEMBER)
+    OZ_LEDGER_WORK(OZ_LEDGER_MEMBER)
 } OzElementLedger;
 
 typedef struct OzSnapshot {

@@ -43,5 +43,7 @@ double oz_element_energy_stored(const OzSnapshot *snapshot)
 double oz_element_energy_lost(const OzSnapshot *snapshot)
 {
     const OzElementLedger *ledger = &snapshot->element_ledger;
-    return ledger->beam_axial + ledger->beam_bending + ledger->disc_damping + ledger->disc_friction;
+#define ADD(NAME, member, column, meaning) +ledger->member
+    return 0 OZ_ELEMENT_LEDGER_LOSSES(ADD);
+#undef ADD
 }

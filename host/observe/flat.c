@@ -99,14 +99,6 @@ bool oz_flat_stored(const OzObservation *observation, double *value)
     return s->has_contacts;
 }
 
-bool oz_flat_ledger(const OzObservation *observation, double *value)
-{
-    const OzElementLedger *l = &observation->snapshot->element_ledger;
-    const double values[] = {l->beam_axial, l->beam_bending, l->disc_damping, l->disc_friction};
-    *value = values[observation->index];
-    return observation->snapshot->has_ledger;
-}
-
 bool oz_flat_outflow(const OzObservation *observation, double *value)
 {
     const OzFlow *flow = observation->flow;

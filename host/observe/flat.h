@@ -26,9 +26,6 @@ bool oz_flat_beams(const OzObservation *observation, double *value);
 /* index: 0 in contacts, 1 in beams. */
 bool oz_flat_stored(const OzObservation *observation, double *value);
 
-/* index: in the order of OzElementLedger. */
-bool oz_flat_ledger(const OzObservation *observation, double *value);
-
 /* index: 0 count, 1 mass, 2 rate. */
 bool oz_flat_outflow(const OzObservation *observation, double *value);
 

@@ -230,12 +230,32 @@ static bool potential(const OzObservation *o, double *value)
     return true;
 }
 
-enum { ELASTIC, DISSIPATED, FRICTION, WORK_WALLS };
+static bool elastic(const OzObservation *o, double *value)
+{
+    *value = o->snapshot->ledger.elastic;
+    return o->snapshot->has_ledger;
+}
 
-static bool ledger_entry(const OzObservation *o, double *value)
+static bool walls_work(const OzObservation *o, double *value)
+{
+    *value = work_of_walls(o->snapshot);
+    return o->snapshot->has_ledger;
+}
+
+#define VALUE(NAME, member, column, meaning) l->member,
+
+static bool loss(const OzObservation *o, double *value)
 {
     const OzLedger *l = &o->snapshot->ledger;
-    double entries[] = {l->elastic, l->dissipated, l->friction, work_of_walls(o->snapshot)};
+    const double entries[] = {OZ_LEDGER_LOSSES(VALUE)};
+    *value = entries[o->index];
+    return o->snapshot->has_ledger;
+}
+
+static bool element_loss(const OzObservation *o, double *value)
+{
+    const OzElementLedger *l = &o->snapshot->element_ledger;
+    const double entries[] = {OZ_ELEMENT_LEDGER_LOSSES(VALUE)};
     *value = entries[o->index];
     return o->snapshot->has_ledger;
 }
@@ -352,17 +372,16 @@ static const OzColumn list[] = {
     {"wall<i>_f<x>", "N", "force of all grains on walls.<i> along an axis, x, y or z, with observe.walls "
      "(trigrains: x and y, a metre deep)", ALL, WALLS, false, wall_force, 0},
     {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},
-    {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, ledger_entry, ELASTIC},
-    {"energy_dissipated", "J", "lost in dashpots so far", RODS, LEDGER, false, ledger_entry, DISSIPATED},
-    {"energy_friction", "J", "lost by sliding so far", RODS, LEDGER, false, ledger_entry, FRICTION},
-    {"energy_beam_axial", "J", "lost along beams so far", FLAT, LEDGER, false, oz_flat_ledger, 0},
-    {"energy_beam_bending", "J", "lost in beams' bending so far", FLAT, LEDGER, false,
-     oz_flat_ledger, 1},
-    {"energy_disc_damping", "J", "lost in discs' normal damping so far", FLAT, LEDGER, false,
-     oz_flat_ledger, 2},
-    {"energy_disc_friction", "J", "lost in discs' sliding so far", FLAT, LEDGER, false,
-     oz_flat_ledger, 3},
-    {"work_walls", "J", "put in by moving walls so far", ALL, LEDGER, false, ledger_entry, WORK_WALLS},
+    {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, elastic, 0},
+#define RODS_ROW(NAME, member, column, meaning)                                                    \
+    {#column, "J", meaning, RODS, LEDGER, false, loss, OZ_L_##NAME},
+#define FLAT_ROW(NAME, member, column, meaning)                                                    \
+    {#column, "J", meaning, FLAT, LEDGER, false, element_loss, OZ_PL_##NAME},
+#define WORK_ROW(NAME, member, column, meaning)                                                    \
+    {#column, "J", meaning, ALL, LEDGER, false, walls_work, 0},
+    OZ_LEDGER_LOSSES(RODS_ROW)
+    OZ_ELEMENT_LEDGER_LOSSES(FLAT_ROW)
+    OZ_LEDGER_WORK(WORK_ROW)
     {"energy_residual", "J", "change of (kinetic + rotational + potential + stored) + all that is lost "
      "- work_walls since the first row; 0 but for the integrator's error", ALL, LEDGER, false,
      residual, 0},

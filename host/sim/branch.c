@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "sim/launch.h"
+#include "sim/read_snapshot.h"
 #include "sim/sim_private.h"
 
 #include <stdio.h>
@@ -200,5 +201,5 @@ OzStatus oz_branch_take(OzSim *sim, const OzBranchSource *sources)
     for (int m = 0; m < sim->batch.member_count; m++) {
         oz_sim_control(sim, m)->refreshes = oz_sim_control(sim, m)->rebuilds = 0;
     }
-    return sim->model->start_ledger(sim);
+    return oz_read_snapshot_start_ledger(sim);
 }

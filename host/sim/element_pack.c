@@ -222,19 +222,20 @@ done:
     return status;
 }
 
-OzStatus oz_element_pack_ledger(OzArrays *arrays, int member, const OzUnits *units,
-                                const OzElementLedger *power)
+/* An empty ledger whose entries grow at these rates, W. */
+static OzStatus write_ledger(OzArrays *arrays, int member, const OzUnits *units,
+                             const OzElementLedger *power)
 {
     OzStatus status = OZ_OK;
     size_t bytes = oz_arrays_bytes(arrays, OZ_ELEMENT_FIELD_ledger);
     double *words = NULL, unit = oz_units_energy(units) / units->time; /* W */
     OZ_TRY(oz_memory_new((void **)&words, bytes + sizeof(double) * OZ_ELEMENT_LEDGER_WORDS, 1,
                          "ledger"));
-    words[OZ_ELEMENT_LEDGER + OZ_PL_BEAM_AXIAL] = power->beam_axial / unit;
-    words[OZ_ELEMENT_LEDGER + OZ_PL_BEAM_BENDING] = power->beam_bending / unit;
-    words[OZ_ELEMENT_LEDGER + OZ_PL_DISC_DAMPING] = power->disc_damping / unit;
-    words[OZ_ELEMENT_LEDGER + OZ_PL_DISC_FRICTION] = power->disc_friction / unit;
-    words[OZ_ELEMENT_LEDGER + OZ_PL_WORK_WALLS] = power->work_walls / unit;
+#define PUT(NAME, member, column, meaning)                                                         \
+    words[OZ_ELEMENT_LEDGER + OZ_PL_##NAME] = power->member / unit;
+    OZ_ELEMENT_LEDGER_LOSSES(PUT)
+    OZ_LEDGER_WORK(PUT)
+#undef PUT
     OZ_TRY(oz_arrays_write(arrays, OZ_ELEMENT_FIELD_ledger, member, words, bytes));
 done:
     free(words);
@@ -250,7 +251,7 @@ OzStatus oz_element_pack_start(OzArrays *arrays, int member, const OzElementPara
     OZ_PASS(write_slow_loads(arrays, member, units, grains->elements, start->touch));
     OZ_PASS(oz_element_pack_bodies(arrays, member, grains, ~0U));
     OZ_PASS(write_beams(arrays, member, units, grains->elements));
-    return oz_element_pack_ledger(arrays, member, units, &start->power);
+    return write_ledger(arrays, member, units, &start->power);
 }
 
 OzStatus oz_element_pack_parameters(OzArrays *arrays, int member,

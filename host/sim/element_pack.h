@@ -18,10 +18,6 @@ typedef struct OzElementStart {
 OzStatus oz_element_pack_start(OzArrays *arrays, int member, const OzElementParameters *parameters,
                                const OzGrains *grains, const OzElementStart *start);
 
-/* An empty ledger whose entries grow at these rates, W. */
-OzStatus oz_element_pack_ledger(OzArrays *arrays, int member, const OzUnits *units,
-                                const OzElementLedger *power);
-
 OzStatus oz_element_pack_parameters(OzArrays *arrays, int member,
                                     const OzElementParameters *parameters);
 

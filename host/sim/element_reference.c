@@ -67,11 +67,10 @@ static OzStatus evaluate(Reference *r, Evaluate forces_of, const double *place, 
 
 static void add_power(OzElementLedger *sum, const OzElementLedger *power, double time)
 {
-    sum->beam_axial += power->beam_axial * time;
-    sum->beam_bending += power->beam_bending * time;
-    sum->disc_damping += power->disc_damping * time;
-    sum->disc_friction += power->disc_friction * time;
-    sum->work_walls += power->work_walls * time;
+#define ADD(NAME, member, column, meaning) sum->member += power->member * time;
+    OZ_ELEMENT_LEDGER_LOSSES(ADD)
+    OZ_LEDGER_WORK(ADD)
+#undef ADD
 }
 
 /* Trapezoid from the power before to that of the last evaluation. */

@@ -134,10 +134,14 @@ typedef struct OzModel {
     OzStatus (*contacts)(OzSim *sim, int member, OzSnapshot *snapshot);
 
     /* Settling: kinetic energy, of motion and of rotation, J; steps between looks at it, often
-     * enough to stop in time, rarely enough to cost nothing; an empty ledger at time 0. */
+     * enough to stop in time, rarely enough to cost nothing. */
     double (*energy)(const OzSnapshot *now);
     int judge_steps;
-    OzStatus (*start_ledger)(OzSim *sim);
+
+    /* The ledger (kernels/ledger_entries.h): its field, rows of so many doubles; what else a member
+     * must note when it starts empty (may be NULL). */
+    int ledger_field, ledger_words;
+    OzStatus (*start_ledger)(OzSim *sim, int member);
 
     /* Guards, in the order in which they are told; the grain of an index in the control words, -1
      * if there is none; what would help. */

@@ -1,7 +1,11 @@
 /* Snapshots from device arrays. */
 #include "sim/read_snapshot.h"
 
+#include "base/memory.h"
 #include "sim/sim_private.h"
+#include "sim/units.h"
+
+#include <stdlib.h>
 
 OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts)
 {
@@ -17,4 +21,37 @@ OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot,
         OZ_PASS(sim->model->contacts(sim, member, snapshot));
     }
     return OZ_OK;
+}
+
+OzStatus oz_read_snapshot_ledger(const OzSim *sim, int member, double *sum)
+{
+    OzStatus status = OZ_OK;
+    int field = sim->model->ledger_field, row = sim->model->ledger_words;
+    size_t count = oz_arrays_bytes(&sim->arrays, field) / sizeof(double);
+    double *words = NULL, unit = oz_units_energy(&oz_sim_parameters(sim, member)->units);
+    OZ_TRY(oz_arrays_download(&sim->arrays, field, member, &words));
+    for (size_t k = 0; k < count; k++) {
+        sum[k % (size_t)row] += words[k] * unit;
+    }
+done:
+    free(words);
+    return status;
+}
+
+OzStatus oz_read_snapshot_start_ledger(OzSim *sim)
+{
+    OzStatus status = OZ_OK;
+    const OzModel *model = sim->model;
+    size_t bytes = oz_arrays_bytes(&sim->arrays, model->ledger_field);
+    void *zero = NULL;
+    OZ_TRY(oz_memory_new(&zero, bytes, 1, "ledger"));
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        OZ_TRY(oz_arrays_write(&sim->arrays, model->ledger_field, m, zero, bytes));
+        if (model->start_ledger) {
+            OZ_TRY(model->start_ledger(sim, m));
+        }
+    }
+done:
+    free(zero);
+    return status;
 }

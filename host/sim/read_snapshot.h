@@ -9,3 +9,11 @@
  * downloaded, or the host looks for all contacts). They are left out when the run was stopped by a
  * guard. */
 OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot, bool contacts);
+
+/* J, added up since the ledger started: each word over all rows of a member's ledger; sum has as
+ * many zeros as the model's rows have words. */
+OzStatus oz_read_snapshot_ledger(const OzSim *sim, int member, double *sum);
+
+/* Empties all members' ledgers. When they start nothing moves fast enough for a power to matter
+ * that its rate starts from. */
+OzStatus oz_read_snapshot_start_ledger(OzSim *sim);

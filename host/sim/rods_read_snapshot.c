@@ -87,23 +87,6 @@ static OzStatus find_all(OzSim *sim, int member, OzSnapshot *snapshot)
     return OZ_OK;
 }
 
-static OzStatus read_ledger(OzSim *sim, int member, double spring_energy, OzLedger *ledger)
-{
-    OzStatus status = OZ_OK;
-    double *words = NULL, sum[OZ_LEDGER_WORDS] = {0};
-    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_ledger, member, &words));
-    for (int k = 0; k < oz_rods_sizes(sim)->slots * OZ_LEDGER_WORDS; k++) {
-        sum[k % OZ_LEDGER_WORDS] +=
-            words[k] * oz_units_energy(&oz_rods_parameters(sim, member)->units);
-    }
-    ledger->dissipated = sum[OZ_L_DISSIPATED];
-    ledger->friction = sum[OZ_L_SPRING] - spring_energy + oz_rods_own(sim)->spring_start[member];
-    ledger->work_walls = sum[OZ_L_WALLS];
-done:
-    free(words);
-    return status;
-}
-
 OzStatus oz_rods_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapshot)
 {
     return oz_pack_state(&sim->arrays, member, oz_rods_parameters(sim, member), snapshot);
@@ -119,7 +102,16 @@ OzStatus oz_rods_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snap
     OzContactSums sums = oz_contact_list_sum(&snapshot->contacts);
     snapshot->ledger.elastic = sums.energy;
     if (oz_rods_switches(sim)->ledger) {
-        OZ_PASS(read_ledger(sim, member, sums.spring_energy, &snapshot->ledger));
+        OzLedger *ledger = &snapshot->ledger;
+        double sum[OZ_LEDGER_WORDS] = {0};
+        OZ_PASS(oz_read_snapshot_ledger(sim, member, sum));
+#define TAKE(NAME, entry, column, meaning) ledger->entry = sum[OZ_L_##NAME];
+        OZ_LEDGER_LOSSES(TAKE)
+        OZ_LEDGER_WORK(TAKE)
+#undef TAKE
+        /* what was given to springs and they do not hold */
+        ledger->friction -= sums.spring_energy;
+        ledger->friction += oz_rods_own(sim)->spring_start[member];
         snapshot->has_ledger = true;
     }
     return OZ_OK;
@@ -141,13 +133,13 @@ double oz_rods_read_snapshot_energy(const OzSnapshot *now)
     return energy;
 }
 
-/* The energy that a member's tangential springs hold now, as what they held at time 0. */
-static OzStatus start_springs(OzSim *sim, int member)
+OzStatus oz_rods_read_snapshot_start_ledger(OzSim *sim, int member)
 {
     OzStatus status = OZ_OK;
     const OzMember *of = &sim->batch.members[member];
     OzSnapshot now = {0};
-    if (oz_rods_control(sim, member)->truth != OZ_SPRINGS_AT_INNER) {
+    if (!oz_rods_switches(sim)->ledger ||
+        oz_rods_control(sim, member)->truth != OZ_SPRINGS_AT_INNER) {
         return OZ_OK;
     }
     OZ_TRY(oz_snapshot_create(&now, of->scene, of->grains));
@@ -156,23 +148,5 @@ static OzStatus start_springs(OzSim *sim, int member)
     oz_rods_own(sim)->spring_start[member] = oz_contact_list_sum(&now.contacts).spring_energy;
 done:
     oz_snapshot_free(&now);
-    return status;
-}
-
-OzStatus oz_rods_read_snapshot_start_ledger(OzSim *sim)
-{
-    OzStatus status = OZ_OK;
-    size_t bytes = oz_arrays_bytes(&sim->arrays, OZ_FIELD_ledger);
-    void *zero = NULL;
-    if (bytes == 0) {
-        return OZ_OK;
-    }
-    OZ_TRY(oz_memory_new(&zero, bytes, 1, "ledger"));
-    for (int m = 0; m < sim->batch.member_count; m++) {
-        OZ_TRY(oz_arrays_write(&sim->arrays, OZ_FIELD_ledger, m, zero, bytes));
-        OZ_TRY(start_springs(sim, m));
-    }
-done:
-    free(zero);
     return status;
 }

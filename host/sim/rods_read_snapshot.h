@@ -8,4 +8,4 @@
 OzStatus oz_rods_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapshot);
 OzStatus oz_rods_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snapshot);
 double oz_rods_read_snapshot_energy(const OzSnapshot *now);
-OzStatus oz_rods_read_snapshot_start_ledger(OzSim *sim);
+OzStatus oz_rods_read_snapshot_start_ledger(OzSim *sim, int member);

@@ -32,7 +32,7 @@ static OzStatus start_ledger(void *of)
     for (int m = 0; m < sim->batch.member_count; m++) {
         oz_sim_control(sim, m)->refreshes = oz_sim_control(sim, m)->rebuilds = 0;
     }
-    return sim->model->start_ledger(sim);
+    return oz_read_snapshot_start_ledger(sim);
 }
 
 OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context)

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "sim/models.h"
+#include "sim/read_snapshot.h"
 #include "sim/sim_private.h"
 #include "sim/sim_state.h"
 
@@ -114,7 +115,7 @@ OzStatus oz_take_over_swap(OzSim *sim, OzSim *running, const OzScene *const *nex
     sim->batch.launch_steps = running->batch.launch_steps;
     OZ_PASS(oz_sim_state_renew(sim));
     if (now->ledger && !before->ledger) {
-        OZ_PASS(sim->model->start_ledger(sim));
+        OZ_PASS(oz_read_snapshot_start_ledger(sim));
     }
     return OZ_OK;
 }
