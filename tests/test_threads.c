@@ -1,7 +1,14 @@
-/* The same bits whatever the number of threads. A driver reads that number once, so each run is a
- * program of its own. ORZO_NEEDS_DEVICE. */
+/* The same bits whatever the number of threads: of the driver, which reads that number once, so
+ * that each run is a program of its own; and of one process whose simulations run at once.
+ * ORZO_NEEDS_DEVICE. */
 #include "program.h"
 #include "run_bed.h"
+
+#include "model/insert.h"
+#include "sim/read_snapshot.h"
+#include "sim/reference.h"
+
+#include <pthread.h>
 
 /* Grains of any shape thrown into a shaken vessel; its kernels are those of the extreme cases. */
 static const char flat[] =
@@ -82,12 +89,155 @@ static void test_flat(void **state)
     assert_false(same_files("flat_one/seed_00001/series.csv", "flat_one/seed_00002/series.csv"));
 }
 
+/* Rods for the host's own physics, with all that the bed has not. */
+static const char rough[] =
+    "model: rods\n"
+    "time: {step: 2e-5, duration: 1}\n"
+    "integrator: velocity-verlet\n"
+    "contact: {law: hertz-mindlin, youngs_modulus: 1e6, poisson_ratio: 0.3, restitution: 0.5, "
+    "friction: 0.6}\n"
+    "grains: [{kind: random, count: 20, diameter: 1e-3, aspect: 3}]\n"
+    "walls: [{kind: plane}, {kind: cylinder, diameter: 8e-3}]\n";
+
+/* A simulation from its scene on, and what came of it. Threads leave no test: they say what
+ * failed. */
+typedef struct Job {
+    const char *text;
+    bool on_host;
+    int stretch; /* steps between snapshots */
+    pthread_barrier_t *start;
+    uint64_t marks; /* of all bytes of all its snapshots */
+    int64_t contacts;
+    char failure[256];
+} Job;
+
+enum { STRETCHES = 12, JOBS = 4 };
+
+static void mark(Job *job, const double *values, int64_t count)
+{
+    for (size_t k = 0; k < (size_t)count * sizeof *values; k++) {
+        job->marks = (job->marks ^ ((const unsigned char *)values)[k]) * 0x100000001b3u;
+    }
+}
+
+static void mark_snapshot(Job *job, const OzSnapshot *now)
+{
+    mark(job, now->position, 3 * now->count);
+    mark(job, now->velocity, 3 * now->count);
+    mark(job, now->angular_velocity, 3 * now->count);
+    for (int64_t k = 0; k < now->contacts.count; k++) {
+        mark(job, &now->contacts.entry[k].push, 4); /* and tangential */
+    }
+    mark(job, &now->element_ledger.beam_axial, 1);
+    job->contacts += now->contacts.count;
+}
+
+static OzStatus follow_reference(Job *job, OzReference *reference, OzSnapshot *now)
+{
+    for (int k = 1; k <= STRETCHES; k++) {
+        OZ_PASS(oz_reference_advance(reference, k * job->stretch));
+        OZ_PASS(oz_reference_snapshot(reference, now));
+        mark_snapshot(job, now);
+    }
+    return OZ_OK;
+}
+
+static OzStatus follow_sim(Job *job, OzSim *sim, OzSnapshot *now)
+{
+    for (int k = 1; k <= STRETCHES; k++) {
+        OZ_PASS(oz_sim_advance(sim, k * job->stretch));
+        OZ_PASS(oz_read_snapshot_snapshot(sim, 0, now, true));
+        mark_snapshot(job, now);
+    }
+    return OZ_OK;
+}
+
+static OzStatus simulate(Job *job)
+{
+    OzStatus status = OZ_OK;
+    OzScene scene = {0};
+    OzGrains grains = {0};
+    OzDevice device = {0};
+    OzSnapshot now = {0};
+    OzSim *sim = NULL;
+    OzReference *reference = NULL;
+    const OzMember member = {&scene, &grains};
+    OZ_TRY(oz_scene_parse(&scene, "job.yaml", job->text, NULL, 0));
+    OZ_TRY(oz_insert_grains(&grains, &scene));
+    OZ_TRY(oz_snapshot_create(&now, &scene, &grains));
+    if (job->on_host) {
+        OZ_TRY(oz_reference_create(&reference, &scene, &grains));
+    } else {
+        OZ_TRY(oz_device_open(&device, "cpu", 1));
+        OZ_TRY(oz_sim_create(&sim, &device, &member, 1, NULL));
+    }
+    pthread_barrier_wait(job->start);
+    job->start = NULL;
+    OZ_TRY(job->on_host ? follow_reference(job, reference, &now) : follow_sim(job, sim, &now));
+done:
+    if (job->start) {
+        pthread_barrier_wait(job->start);
+    }
+    snprintf(job->failure, sizeof job->failure, "%s", status == OZ_OK ? "" : oz_status_text());
+    oz_sim_free(sim);
+    oz_reference_free(reference);
+    oz_snapshot_free(&now);
+    oz_device_close(&device);
+    oz_grains_free(&grains);
+    oz_scene_free(&scene);
+    return status;
+}
+
+static void *run_job(void *job)
+{
+    simulate(job);
+    return NULL;
+}
+
+/* Runs jobs at once, a thread each, and looks that each came to its end. */
+static void run_jobs(Job *jobs, int count)
+{
+    pthread_barrier_t start;
+    pthread_t threads[JOBS];
+    assert_int_equal(pthread_barrier_init(&start, NULL, (unsigned)count), 0);
+    for (int k = 0; k < count; k++) {
+        jobs[k].start = &start;
+        assert_int_equal(pthread_create(&threads[k], NULL, run_job, &jobs[k]), 0);
+    }
+    for (int k = 0; k < count; k++) {
+        assert_int_equal(pthread_join(threads[k], NULL), 0);
+        assert_string_equal(jobs[k].failure, "");
+        assert_true(jobs[k].contacts > 0);
+    }
+    pthread_barrier_destroy(&start);
+}
+
+/* Both models on devices of their own and the host's physics under other switches, each in a thread
+ * of one process: the same bits as alone. */
+static void test_simulations_at_once(void **state)
+{
+    (void)state;
+    Job together[JOBS] = {{.text = bed, .stretch = 300},
+                          {.text = flat, .stretch = 150},
+                          {.text = bed, .stretch = 200, .on_host = true},
+                          {.text = rough, .stretch = 200, .on_host = true}};
+    run_jobs(together, JOBS);
+    for (int k = 0; k < JOBS; k++) {
+        Job alone = {.text = together[k].text,
+                     .on_host = together[k].on_host,
+                     .stretch = together[k].stretch};
+        run_jobs(&alone, 1);
+        assert_true(alone.marks == together[k].marks && alone.contacts == together[k].contacts);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_few),
         cmocka_unit_test(test_many),
         cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_simulations_at_once),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
 }

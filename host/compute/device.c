@@ -5,6 +5,7 @@
 #include "compute/cl_try.h"
 #include "compute/kernel_cache.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -153,7 +154,7 @@ static void limit_threads(int threads)
     }
 }
 
-OzStatus oz_device_open(OzDevice *device, const char *want, int threads)
+static OzStatus open_wanted(OzDevice *device, const char *want, int threads)
 {
     Candidate candidates[DEVICES_MAX];
     memset(device, 0, sizeof *device);
@@ -174,6 +175,16 @@ OzStatus oz_device_open(OzDevice *device, const char *want, int threads)
                           trouble[0] ? trouble
                                      : "`orzo devices` lists them, package pocl-opencl-icd gives "
                                        "any CPU one");
+}
+
+/* Drivers start up when they are first asked, and PoCL then shows a second thread no device. */
+OzStatus oz_device_open(OzDevice *device, const char *want, int threads)
+{
+    static pthread_mutex_t starting = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&starting);
+    OzStatus status = open_wanted(device, want, threads);
+    pthread_mutex_unlock(&starting);
+    return status;
 }
 
 OzStatus oz_device_branch(OzDevice *branch, const OzDevice *device)

@@ -31,8 +31,8 @@ typedef struct OzDevice {
 
 /* Opens the device: want is NULL or "auto" (a GPU, else the CPU), "gpu", "cpu", a number from
  * oz_device_list, or a part of a name. threads > 0 limits a CPU device's threads (it must be the
- * process's first OpenCL call). Logs each refusal with its reason. The caller frees with
- * oz_device_close. */
+ * process's first OpenCL call). Logs each refusal with its reason. Threads may
+ * call it at once. The caller frees with oz_device_close. */
 OzStatus oz_device_open(OzDevice *device, const char *want, int threads);
 
 /* The same device with a queue of its own, for another thread; the original must outlive it. The
