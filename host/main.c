@@ -14,6 +14,7 @@
 #include "observe/series.h"
 #include "report/report.h"
 #include "run/run.h"
+#include "scene/describe.h"
 #include "scene/keys.h"
 
 #include <stdio.h>
@@ -55,7 +56,7 @@ static OzStatus plot_command(const OzOptions *options)
 static OzStatus list_keys(const char *part)
 {
     OzStatus status = OZ_OK;
-    if (!oz_keys_print(part, stdout)) {
+    if (!oz_describe_keys(part, stdout)) {
         status = oz_status_fail(OZ_ERR_INPUT,
                                 "no key holds %s; expected a part of one that "
                                 "orzo keys lists",

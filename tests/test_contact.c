@@ -2,6 +2,7 @@
  * makes of it against known figures, exact inverses and limits. */
 #include "model/contact.h"
 #include "model/predict.h"
+#include "model/prediction.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -234,7 +235,7 @@ static void test_scene_rows(void **state)
     OzPrediction *rows;
     int count;
     walls[0].contact.tangential_damping = 0;
-    assert_int_equal(oz_predict_scene(&rows, &count, &scene, &grains), OZ_OK);
+    assert_int_equal(oz_prediction_rows(&rows, &count, &scene, &grains), OZ_OK);
     assert_int_equal(count, 3);
     assert_true(rows[0].wall == -1 && rows[2].wall == 1);
     assert_true(rows[0].mass_low == 1 && rows[0].mass_high == 3 && rows[1].mass_low == 2);
@@ -266,7 +267,7 @@ static void test_sticking_sphere(void **state)
         OzPrediction *rows;
         int count;
         scene.step = (1 + 0.001 * side) * limit;
-        assert_int_equal(oz_predict_scene(&rows, &count, &scene, &grains), OZ_OK);
+        assert_int_equal(oz_prediction_rows(&rows, &count, &scene, &grains), OZ_OK);
         assert_true(rows[0].stable);
         assert_int_equal(rows[0].tangential_stable, side < 0);
         free(rows);

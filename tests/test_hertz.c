@@ -1,5 +1,6 @@
 /* The Hertzian laws: Chung & Ooi's (2011) benchmark tests 1 to 4 against their closed forms, the
  * law of Poeschel & Buchholtz (1995), and the prediction against simulated hits. */
+#include "model/prediction.h"
 #include "rig.h"
 
 #include "model/predict.h"
@@ -196,7 +197,7 @@ static void check_prediction(const char *law, int integrator)
         "grains:\n  - {kind: single, diameter: 2e-3, position: [0, 0, 0], velocity: [0, 0, 0.1]}\n"
         "  - {kind: single, diameter: 2e-3, position: [0, 0, 2e-3], velocity: [0, 0, -0.1]}\n",
         integrator_names[integrator], law);
-    must(oz_predict_scene(&rows, &count, &rig.scene, &rig.grains));
+    must(oz_prediction_rows(&rows, &count, &rig.scene, &rig.grains));
     assert_true(rows[0].speed == 0.2 && rows[0].stable && rows[0].steps > 20);
     for (int phase = 0; phase < OZ_PREDICT_PHASES; phase++) {
         double share = (phase + 0.5) / OZ_PREDICT_PHASES;
@@ -243,7 +244,7 @@ static void check_tangents(const char *law, bool mindlin)
         "grains:\n  - {kind: single, diameter: 2e-3, position: [0, 0, 0], velocity: [0, 0, 0.1]}\n"
         "  - {kind: single, diameter: 2e-3, position: [0, 0, 2e-3], velocity: [0, 0, -0.1]}\n",
         law);
-    must(oz_predict_scene(&rows, &count, &rig.scene, &rig.grains));
+    must(oz_prediction_rows(&rows, &count, &rig.scene, &rig.grains));
     rig_start(&rig);
     follow(&rig, &deepest, &duration);
     const OzContactConstants *c = &rows[0].constants;

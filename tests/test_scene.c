@@ -2,6 +2,7 @@
 #include "scene_text.h"
 
 #include "base/file.h"
+#include "scene/describe.h"
 #include "scene/keys.h"
 
 #include <glob.h>
@@ -258,7 +259,7 @@ static void rows_are_complete(void **state)
     char *text = NULL;
     size_t length = 0;
     FILE *file = open_memstream(&text, &length);
-    assert_true(oz_keys_print(NULL, file));
+    assert_true(oz_describe_keys(NULL, file));
     fclose(file);
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         for (int model = 0; model < 2; model++) {
@@ -297,7 +298,7 @@ static void lists_each_key_once_by_model(void **state)
     char *text = NULL;
     size_t length = 0;
     FILE *file = open_memstream(&text, &length);
-    assert_true(oz_keys_print(NULL, file));
+    assert_true(oz_describe_keys(NULL, file));
     fclose(file);
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         char line[128];

@@ -3,7 +3,7 @@
 
 #include "command/inspect_range.h"
 #include "model/calibrate.h"
-#include "model/predict.h"
+#include "model/prediction.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -102,7 +102,7 @@ OzStatus oz_inspect_contacts_print(FILE *file, const OzScene *scene, const OzGra
     char *text = NULL, *next = NULL;
     int count = 0, last = 0;
     OzStatus status = OZ_OK;
-    OZ_TRY(oz_predict_scene(&rows, &count, scene, grains));
+    OZ_TRY(oz_prediction_rows(&rows, &count, scene, grains));
     for (int first = 0; first < count; first = last + 1) {
         free(text);
         OZ_TRY(describe_contact(&text, scene, &rows[first]));

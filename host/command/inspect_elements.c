@@ -11,8 +11,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-static const double PI = 3.14159265358979323846;
-
 static void print_bodies(FILE *file, const OzGrains *grains)
 {
     const OzElements *elements = grains->elements;
@@ -56,7 +54,7 @@ static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains 
             "by %.2g",
             trial.speed, (long long)trial.grain, trial.bend, trial.stretch);
         if (trial.force > 0 && grains->count > 1) {
-            double load = oz_start_load(scene, grains);
+            double load = oz_start_overlap_load(scene, grains);
             fprintf(file, "; the weight of the pile by %.2g rad", trial.bend * load / trial.force);
         }
         fprintf(file, "\n");

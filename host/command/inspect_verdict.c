@@ -6,7 +6,7 @@
 #include "command/inspect_elements.h"
 #include "draw/renderer.h"
 #include "model/beam_limits.h"
-#include "model/predict.h"
+#include "model/prediction.h"
 #include "observe/schedule.h"
 #include "sim/batch_fit.h"
 #include "sim/resolution.h"
@@ -113,7 +113,7 @@ static OzStatus print_contacts(FILE *file, const OzVerdict *v)
     OzStatus status = OZ_OK;
     OzPrediction *rows = NULL;
     int count = 0;
-    OZ_TRY(oz_predict_scene(&rows, &count, v->scene, v->grains));
+    OZ_TRY(oz_prediction_rows(&rows, &count, v->scene, v->grains));
     print_restitution(file, v->scene, rows, count);
     print_stability(file, v, rows, count);
     OZ_TRY(oz_resolution_print(file, v->scene, v->grains));

@@ -1,6 +1,7 @@
 /* A steady framing from walls and the first bed. Knows no GL. */
 #include "draw/framing.h"
 
+#include "draw/palette.h"
 #include "draw/plane.h"
 #include "scene/wall_shape.h"
 
@@ -16,18 +17,6 @@ static const double ELEVATION = 11 * 3.14159265358979323846 / 180;
 typedef struct Room {
     double low[3], high[3];
 } Room;
-
-double oz_framing_round_up(double x)
-{
-    double power = pow(10, floor(log10(x)));
-    double steps[] = {1, 2, 5, 10};
-    for (int i = 0; i < 3; i++) {
-        if (x <= steps[i] * power * (1 + 1e-9)) {
-            return steps[i] * power;
-        }
-    }
-    return 10 * power;
-}
 
 static Room grain_room(const OzSnapshot *snapshot)
 {
@@ -96,8 +85,8 @@ static void close_by_planes(Room *room, const OzScene *scene)
     }
 }
 
-/* Containers that close in upon themselves are shown whole; a box only as wide as it is, and as deep
- * as it goes. */
+/* Containers that close in upon themselves are shown whole; a box only as wide as it is, and as
+ * deep as it goes. */
 static void surround(Room *room, const OzScene *scene)
 {
     for (int w = 0; w < scene->wall_count; w++) {
@@ -162,7 +151,7 @@ static double typical_speed(const OzScene *scene, const OzSnapshot *snapshot, do
         const double *v = &snapshot->velocity[3 * i];
         speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     }
-    return speed > 0 ? oz_framing_round_up(speed) : 1;
+    return speed > 0 ? oz_palette_round_up(speed) : 1;
 }
 
 static void take_settings(OzLook *look, const OzMovieSettings *movie)

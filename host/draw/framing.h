@@ -17,9 +17,6 @@ double oz_framing_radius(const OzScene *scene);
  * highest grain where one is higher, and no further than the picture shows. */
 double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapshot *snapshot);
 
-/* The smallest of 1, 2, 5 times a power of ten that is at least x (x > 0). */
-double oz_framing_round_up(double x);
-
 /* Makes a look frame what another one frames, by the same scale of speed. */
 void oz_framing_keep(OzLook *look, const OzLook *framed);
 

@@ -135,7 +135,7 @@ static void add_scale_bar(const Page *page)
 {
     double pixels_per_metre = page->camera->scale / page->camera->unit;
     double most = fmax(page->look->width / 9.0, 3 * page->size) / pixels_per_metre;
-    double length = oz_framing_round_up(most * 0.4001);
+    double length = oz_palette_round_up(most * 0.4001);
     double x = page->margin, y = page->look->height - page->margin;
     double width = length * pixels_per_metre, thick = fmax(2, 0.14 * page->size);
     double tick = 0.25 * page->size;

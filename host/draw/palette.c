@@ -124,3 +124,15 @@ void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i,
         azimuth_colour(axis, rgb);
     }
 }
+
+double oz_palette_round_up(double x)
+{
+    double power = pow(10, floor(log10(x)));
+    double steps[] = {1, 2, 5, 10};
+    for (int i = 0; i < 3; i++) {
+        if (x <= steps[i] * power * (1 + 1e-9)) {
+            return steps[i] * power;
+        }
+    }
+    return 10 * power;
+}

@@ -19,3 +19,7 @@ void oz_palette_type(int row, float rgb[3]);
 /* The colour of grain i; a grain without the quantity (the angle of a sphere, or of a square) is
  * grey. */
 void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i, float rgb[3]);
+
+/* Where a scale ends that begins at 0: the smallest of 1, 2, 5 times a power of ten that is at
+ * least x (x > 0). */
+double oz_palette_round_up(double x);

@@ -1,7 +1,7 @@
 /* A steady framing of flat grains. Knows no GL. */
 #include "draw/plane.h"
 
-#include "draw/framing.h"
+#include "draw/palette.h"
 
 #include <math.h>
 
@@ -152,5 +152,5 @@ void oz_plane_frame(OzLook *look, const OzScene *scene, const OzSnapshot *snapsh
     look->height_high = room.high[1];
     look->half_width = 0.5 * (room.high[0] - room.low[0]);
     look->centre[0] = 0.5 * (room.low[0] + room.high[0]);
-    look->speed_high = speed > 0 ? oz_framing_round_up(speed) : 1;
+    look->speed_high = speed > 0 ? oz_palette_round_up(speed) : 1;
 }

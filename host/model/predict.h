@@ -5,7 +5,7 @@
 
 #include "base/status.h"
 #include "model/contact.h"
-#include "model/grains.h"
+#include "model/hertz.h"
 
 #include <stdbool.h>
 
@@ -21,27 +21,15 @@ typedef struct OzPredictedHits {
     double mean, low, high;
 } OzPredictedHits;
 
-/* One kind of contact of a scene. */
-typedef struct OzPrediction {
-    int wall;                     /* index of the wall, -1: grain against grain              */
-    OzContactValues values;       /* as the scene has them                                   */
-    OzContactConstants constants; /* as used; Hertzian laws: tangent at a hit's deepest point */
-    double speed;                 /* m/s, Hertzian laws: of the hit that is predicted; else 0 */
-    double mass_low, mass_high;   /* kg, least and greatest effective mass; k_n, c_n follow  */
-    double steps;                 /* duration of a hit / step                                */
-    OzPredictedHits hits;         /* restitution really given                                */
-    double closed_form;           /* rho^(pi/theta); NaN when overdamped or attraction is clamped */
-    double radius;                /* of the largest eigenvalue                               */
-    double largest_step;          /* s, stable below it; 0: no step is                       */
-    double margin;                /* largest_step / step; INFINITY is possible               */
-    bool stable;                  /* margin > 1, or nothing acts at all                      */
-    bool tangential_stable;       /* a sticking tangential spring is stable too: warn if not */
-} OzPrediction;
-
 /* Restitution by stepping a 1-D contact with the scene's integrator, for OZ_PREDICT_PHASES phases.
  */
 OzPredictedHits oz_predict_hits(OzIntegrator integrator, double step,
                                 const OzContactConstants *constants, OzAttraction attraction);
+
+/* The same of a hit by a Hertzian law. In units of step and approach speed its constants depend on
+ * the speed. */
+OzPredictedHits oz_predict_hertz_hits(const OzScene *scene, const OzContactValues *values,
+                                      const OzHertzHit *hertz);
 
 /* Eigenvalues of one lasting contact's map. rho exp(+-i theta) is the complex pair; theta (rad a
  * step) is 0 when there is none, and rho then the largest real one's magnitude. */
@@ -56,7 +44,3 @@ OzEigenvalues oz_predict_eigenvalues(OzIntegrator integrator, double stiffness, 
 /* The step below which a lasting contact of stiffness kappa (1/s^2) and damping gamma (1/s) is
  * stable, s; INFINITY without either, 0 when no step is stable (explicit Euler without damping). */
 double oz_predict_largest_step(OzIntegrator integrator, double stiffness, double damping);
-
-/* *rows receives one row for pairs of grains, then one for each wall; the caller frees it. */
-OzStatus oz_predict_scene(OzPrediction **rows, int *count, const OzScene *scene,
-                          const OzGrains *grains);

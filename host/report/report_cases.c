@@ -2,6 +2,7 @@
 #include "report/report_cases.h"
 
 #include "model/contact.h"
+#include "report/report_energy.h"
 #include "report/report_parallel.h"
 
 #include <math.h>
@@ -104,39 +105,11 @@ static double value_apex(const OzSnapshot *end)
            0.5 * speed * speed / end->scene->gravity[2];
 }
 
-static double energy(const OzSnapshot *now, const double *position, const double *quaternion,
-                     const double *velocity, const double *angular_velocity)
-{
-    const OzGrains *g = now->grains;
-    double sum = 0, axis[3];
-    for (int64_t i = 0; i < now->count;
-         i++, position += 3, quaternion += 4, velocity += 3, angular_velocity += 3) {
-        oz_grains_axis(quaternion, axis);
-        double about = dot(angular_velocity, axis);
-        sum += 0.5 * g->mass[i] * dot(velocity, velocity) +
-               0.5 * g->inertia[i] * dot(angular_velocity, angular_velocity) +
-               0.5 * (g->inertia_axis[i] - g->inertia[i]) * about * about -
-               g->mass[i] * dot(now->scene->gravity, position);
-    }
-    return sum;
-}
-
-double oz_report_cases_energy(const OzSnapshot *now)
-{
-    return energy(now, now->position, now->quaternion, now->velocity, now->angular_velocity);
-}
-
-double oz_report_cases_energy_start(const OzSnapshot *now)
-{
-    const OzGrains *g = now->grains;
-    return energy(now, g->position, g->quaternion, g->velocity, g->angular_velocity);
-}
-
 /* What the ledger cannot account for, as a share of the energy at the start. */
 static double value_residual(const OzSnapshot *end)
 {
-    double start = oz_report_cases_energy_start(end);
-    double now = oz_report_cases_energy(end) + end->ledger.elastic + end->ledger.dissipated +
+    double start = oz_report_energy_start(end);
+    double now = oz_report_energy_now(end) + end->ledger.elastic + end->ledger.dissipated +
                  end->ledger.friction - end->ledger.work_walls;
     return end->has_ledger ? (now - start) / start : NAN;
 }

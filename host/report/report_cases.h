@@ -25,7 +25,3 @@ const OzReportCase *oz_report_cases_find(const char *scene);
 
 /* Error of a value: a share of the truth where the case has no unit. */
 double oz_report_cases_error(const OzReportCase *row, double value, double truth);
-
-/* Kinetic, rotational and potential energy, J: now, and at the start. */
-double oz_report_cases_energy(const OzSnapshot *now);
-double oz_report_cases_energy_start(const OzSnapshot *now);

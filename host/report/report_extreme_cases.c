@@ -5,6 +5,7 @@
 #include "report/report_extreme_cases.h"
 
 #include "report/report_cases.h"
+#include "report/report_energy.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -67,7 +68,7 @@ static double rebound(const OzSnapshot *end)
 
 static double energy_share(const OzSnapshot *end)
 {
-    return oz_report_cases_energy(end) / oz_report_cases_energy_start(end);
+    return oz_report_energy_now(end) / oz_report_energy_start(end);
 }
 
 static double energy_drift(const OzSnapshot *end)

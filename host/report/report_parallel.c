@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "model/insert.h"
-#include "report/report_cases.h"
+#include "report/report_energy.h"
 #include "scene/keys.h"
 #include "sim/reference.h"
 
@@ -47,7 +47,7 @@ static void take_torques(Torques *t, const double *angular_velocity, double step
 
 static double energy(const OzSnapshot *now)
 {
-    return oz_report_cases_energy(now) + now->ledger.elastic;
+    return oz_report_energy_now(now) + now->ledger.elastic;
 }
 
 static OzStatus walk(OzParallelNoise *noise, OzReference *reference, OzSnapshot *now)

@@ -2,7 +2,7 @@
 #include "report/report_refuse.h"
 
 #include "model/beam_limits.h"
-#include "model/predict.h"
+#include "model/prediction.h"
 
 #include <stdlib.h>
 
@@ -25,7 +25,7 @@ OzStatus oz_report_refuse_unstable(const OzScene *scene, const OzGrains *grains)
     if (scene->model == OZ_MODEL_TRIGRAINS) {
         return refuse_elements(scene, grains);
     }
-    OzStatus status = oz_predict_scene(&rows, &count, scene, grains);
+    OzStatus status = oz_prediction_rows(&rows, &count, scene, grains);
     for (int i = 0; status == OZ_OK && i < count; i++) {
         bool touched = rows[i].wall >= 0 || grains->count > 1;
         if (touched && !rows[i].stable) {

@@ -6,6 +6,7 @@
 #include "model/beam_limits.h"
 #include "model/insert.h"
 #include "model/predict.h"
+#include "model/prediction.h"
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
 #include "sim/sim.h"
@@ -44,7 +45,7 @@ static OzStatus find_hit(double *cycle, const OzScene *scene, const OzGrains *gr
     OzPrediction *rows = NULL;
     int count = 0;
     *cycle = 0;
-    OzStatus status = oz_predict_scene(&rows, &count, scene, grains);
+    OzStatus status = oz_prediction_rows(&rows, &count, scene, grains);
     for (int i = 0; status == OZ_OK && i < count; i++) {
         double hit = rows[i].steps * scene->step;
         bool touched = rows[i].wall >= 0 || grains->count > 1;
@@ -253,7 +254,7 @@ static OzStatus limit_pairs(double *largest, const OzScene *scene, const OzGrain
 {
     OzPrediction *rows = NULL;
     int count = 0;
-    OzStatus status = oz_predict_scene(&rows, &count, scene, grains);
+    OzStatus status = oz_prediction_rows(&rows, &count, scene, grains);
     for (int i = 0; status == OZ_OK && i < count; i++) {
         if (rows[i].wall >= 0 || grains->count > 1) {
             *largest = fmin(*largest, rows[i].largest_step);

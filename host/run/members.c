@@ -6,7 +6,7 @@
 #include "base/stage.h"
 #include "model/beam_limits.h"
 #include "model/insert.h"
-#include "model/predict.h"
+#include "model/prediction.h"
 #include "scene/sweep.h"
 #include "sim/part.h"
 #include "sim/resolution.h"
@@ -103,7 +103,7 @@ static OzStatus check_contacts(const OzScene *scene, const OzGrains *grains, boo
 {
     OzPrediction *rows = NULL;
     int count = 0;
-    OzStatus status = oz_predict_scene(&rows, &count, scene, grains);
+    OzStatus status = oz_prediction_rows(&rows, &count, scene, grains);
     for (int i = 0; status == OZ_OK && i < count; i++) {
         const char *between = rows[i].wall < 0 ? "two grains" : "a grain and a wall";
         if (!rows[i].stable && !force) {

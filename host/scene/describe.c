@@ -1,11 +1,13 @@
-/* Keys in words. Knows the list of keys and no scene. */
+/* Keys in words. Knows the list of keys and no value of any. */
 #include "scene/describe.h"
+
+#include "scene/scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LONGEST_NAME = 40 };
+enum { LONGEST_NAME = 40, EVERY_MODEL = 1 << OZ_MODEL_RODS | 1 << OZ_MODEL_TRIGRAINS };
 
 static void print_choices(const OzKey *key, FILE *file)
 {
@@ -243,4 +245,112 @@ void oz_describe_bits(unsigned bits, const char *path, char *text, size_t size)
                                      oz_keys_choice_name(path, i));
         }
     }
+}
+
+static void print_default(const OzKey *key, FILE *file)
+{
+    if (key->required) {
+        fprintf(file, "required%s%s", key->rival ? ", or " : "", key->rival ? key->rival : "");
+    } else if (key->fallback || key->fallback_help) {
+        fprintf(file, "default %s", key->fallback ? key->fallback : key->fallback_help);
+    } else if (key->inherits) {
+        fprintf(file, "%s: %s", key->shared ? "always" : "default", key->inherits);
+    } else {
+        fprintf(file, "optional%s%s", key->rival ? ", in place of " : "",
+                key->rival ? key->rival : "");
+    }
+}
+
+static void print_bits(unsigned bits, const char *path, const char *lead, FILE *file)
+{
+    char names[128];
+    oz_describe_bits(bits, path, names, sizeof names);
+    fprintf(file, "%s%s", bits ? lead : "", names);
+}
+
+static void print_owners(const OzKey *key, FILE *file)
+{
+    bool wall = strncmp(key->path, "walls", 5) == 0;
+    print_bits(key->kinds, wall ? "walls[].kind" : "grains[].kind", "; kind ", file);
+    print_bits(key->shapes, "grains[].shape", "; shape ", file);
+    print_bits(key->laws, "contact.law", "; law ", file);
+    bool of_elements = !key->models || (key->models >> OZ_MODEL_TRIGRAINS & 1);
+    if (of_elements && strncmp(key->path, "contact.", strlen("contact.")) == 0) {
+        fprintf(file, "; trigrains: discs only");
+    }
+}
+
+/* The next row with the path of `key`, or NULL. */
+static const OzKey *next_alike(const OzKey *key)
+{
+    for (const OzKey *other = key + 1; other->path; other++) {
+        if (strcmp(other->path, key->path) == 0) {
+            return other;
+        }
+    }
+    return NULL;
+}
+
+/* The models that have a key of this path, as bits. */
+static unsigned models_of(const char *path)
+{
+    unsigned models = 0;
+    for (const OzKey *key = oz_keys_find(path); key; key = next_alike(key)) {
+        models |= key->models ? key->models : ~0u;
+    }
+    return models & EVERY_MODEL;
+}
+
+static void print_row(const OzKey *key, FILE *file)
+{
+    char expected[256];
+    oz_describe_expected(key, expected, sizeof expected);
+    fprintf(file, "%s; ", expected);
+    print_default(key, file);
+    print_owners(key, file);
+    fputc('\n', file);
+}
+
+/* All rows of a path: what they mean, said once where they mean the same, and what each model
+ * expects. */
+static void print_path(const OzKey *first, FILE *file)
+{
+    const OzKey *second = next_alike(first);
+    bool same = !second || strcmp(first->help, second->help) == 0;
+    fprintf(file, "%s\n", first->path);
+    if (same) {
+        fprintf(file, "    %s\n", first->help);
+    }
+    for (const OzKey *key = first; key; key = next_alike(key)) {
+        fputs("    ", file);
+        print_bits(second ? key->models : 0, "model", "model ", file);
+        fputs(second ? ": " : "", file);
+        if (!same) {
+            fprintf(file, "%s\n        ", key->help);
+        }
+        print_row(key, file);
+    }
+}
+
+bool oz_describe_keys(const char *part, FILE *file)
+{
+    static const unsigned sections[] = {EVERY_MODEL, 1u << OZ_MODEL_RODS, 1u << OZ_MODEL_TRIGRAINS};
+    bool any = false;
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        bool begun = false;
+        for (const OzKey *key = oz_keys_all(); key->path; key++) {
+            if ((part && !strstr(key->path, part)) || oz_keys_find(key->path) != key ||
+                models_of(key->path) != sections[i]) {
+                continue;
+            }
+            if (!begun) {
+                fprintf(file, "%s== ", any ? "\n" : "");
+                print_bits(i ? sections[i] : 0, "model", "only of model ", file);
+                fputs(i ? "\n" : "of every model\n", file);
+            }
+            begun = any = true;
+            print_path(key, file);
+        }
+    }
+    return any;
 }

@@ -85,8 +85,3 @@ const char *oz_keys_choice_name(const char *path, int value);
 
 /* The bytes that a row's value takes at its offset, without what it points to. */
 size_t oz_keys_size(const OzKey *key);
-
-/* Every key whose path holds this part (NULL: every key), once, those of every model first, then
- * those of one alone: meaning, type, range, unit, default and what it belongs to. False when there
- * is none. */
-bool oz_keys_print(const char *part, FILE *file);

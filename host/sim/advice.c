@@ -1,7 +1,7 @@
 /* From the contacts of one grain to what would have held it. */
 #include "sim/advice.h"
 
-#include "model/predict.h"
+#include "model/prediction.h"
 #include "sim/contacts.h"
 #include "sim/stiffness.h"
 
@@ -30,7 +30,7 @@ static bool blame_step(char *text, size_t size, const OzSnapshot *now)
     int count = 0;
     double stable = INFINITY;
     const char *of = "a contact of two bodies";
-    OzStatus status = oz_predict_scene(&rows, &count, scene, now->grains);
+    OzStatus status = oz_prediction_rows(&rows, &count, scene, now->grains);
     for (int i = 0; status == OZ_OK && i < count; i++) {
         stable = rows[i].stable ? stable : fmin(stable, rows[i].largest_step);
     }

@@ -43,7 +43,7 @@ static void look_at_pair(Look *look, OzElementPair pair)
                               .behind = m.broken};
     look->start->energy += m.energy;
     if (m.broken || (overlap.share > OZ_START_ROUNDING && m.force > look->load)) {
-        oz_start_add(look->start, &overlap, OZ_START_MOST, m.broken);
+        oz_start_overlap_add(look->start, &overlap, OZ_START_MOST, m.broken);
         look->start->count -= look->met[body] == overlap.a + 1; /* pairs come grain by grain */
         look->met[body] = overlap.a + 1;
     }
@@ -126,7 +126,7 @@ OzStatus oz_element_start_look(OzStart *start, const OzScene *scene, const OzGra
     Look look = {.start = start, .scene = scene, .grains = grains};
     bool falls = hypot(scene->gravity[0], scene->gravity[1]) > 0;
     OZ_TRY(OZ_NEW(&look.met, grains->elements->grain_count + grains->elements->wall_count));
-    look.load = oz_start_load(scene, grains);
+    look.load = oz_start_overlap_load(scene, grains);
     OZ_TRY(oz_element_pairs_renew(&pairs, grains->elements, grains->elements->position));
     for (int64_t k = 0; k < pairs.count; k++) {
         look_at_pair(&look, pairs.pair[k]);

@@ -12,16 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-OzParametersHead *oz_sim_parameters(const OzSim *sim, int member)
-{
-    return (void *)((char *)sim->parameters + (size_t)member * sim->model->parameters_bytes);
-}
-
-OzControlHead *oz_sim_control(const OzSim *sim, int member)
-{
-    return (void *)((char *)sim->control + (size_t)member * sim->model->control_bytes);
-}
-
 OzStatus oz_sim_write_parameters(OzSim *sim)
 {
     for (int m = 0; m < sim->batch.member_count; m++) {

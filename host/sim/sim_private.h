@@ -21,8 +21,15 @@ struct OzSim {
 };
 
 /* What all models' parameters and control words of a member begin with. */
-OzParametersHead *oz_sim_parameters(const OzSim *sim, int member);
-OzControlHead *oz_sim_control(const OzSim *sim, int member);
+static inline OzParametersHead *oz_sim_parameters(const OzSim *sim, int member)
+{
+    return (void *)((char *)sim->parameters + (size_t)member * sim->model->parameters_bytes);
+}
+
+static inline OzControlHead *oz_sim_control(const OzSim *sim, int member)
+{
+    return (void *)((char *)sim->control + (size_t)member * sim->model->control_bytes);
+}
 
 /* As oz_sim_create, for scenes of the same grains that shall go on from those of a running
  * simulation (NULL: none), in whose units it counts; its state has still to be moved. */

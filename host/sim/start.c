@@ -12,37 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A force chain bears some three times the mean load (Radjai et al. 1996: forces fall off
- * exponentially above the mean, by 1.4 a mean). */
-static const double chain = 3;
-
-double oz_start_load(const OzScene *scene, const OzGrains *grains)
-{
-    const double *g = scene->gravity;
-    double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    double low = INFINITY, high = -INFINITY, mass = 0, diameter = INFINITY;
-    for (int64_t i = 0; i < grains->count; i++) {
-        const double *x = &grains->position[3 * i];
-        double height = size > 0 ? -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size : 0;
-        low = fmin(low, height);
-        high = fmax(high, height);
-        mass = fmax(mass, grains->mass[i]);
-        diameter = fmin(diameter, grains->diameter[i]);
-    }
-    return grains->count > 0 ? chain * mass * size * (1 + (high - low) / diameter) : 0;
-}
-
-void oz_start_add(OzStart *start, const OzStartOverlap *overlap, double most, bool refuse)
-{
-    bool refused = refuse || overlap->share > most;
-    start->count++;
-    if ((refused && start->refused == 0) ||
-        (overlap->share > start->worst.share && refused == (start->refused > 0))) {
-        start->worst = *overlap;
-    }
-    start->refused += refused;
-}
-
 /* What looking at rods needs. */
 typedef struct Look {
     OzStart *start;
@@ -75,8 +44,8 @@ static void take(Look *look, OzStartOverlap overlap, double radius, double stop,
     overlap.behind = overlap.b < 0 && last->overlap > radius;
     look->start->energy += last->energy;
     if (overlap.share > OZ_START_ROUNDING && force > look->load) {
-        oz_start_add(look->start, &overlap, read ? fmax(stop, OZ_START_MOST) : OZ_START_MOST,
-                     false);
+        oz_start_overlap_add(look->start, &overlap,
+                             read ? fmax(stop, OZ_START_MOST) : OZ_START_MOST, false);
     }
 }
 
@@ -109,7 +78,7 @@ static OzStatus look_at_rods(OzStart *start, const OzScene *scene, const OzGrain
     OzStatus status = OZ_OK;
     OzPairs pairs = {0};
     Look look = {.start = start, .scene = scene, .grains = grains};
-    look.load = oz_start_load(scene, grains);
+    look.load = oz_start_overlap_load(scene, grains);
     OZ_TRY(oz_snapshot_create(&look.now, scene, grains));
     for (int64_t i = 0; i < grains->count; i++) {
         oz_grains_axis(&grains->quaternion[4 * i], &look.now.axis[3 * i]);
