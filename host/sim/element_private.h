@@ -11,27 +11,5 @@ typedef struct OzTrigrains {
     cl_kernel begin;
 } OzTrigrains;
 
-static inline OzTrigrains *oz_element_own(const OzSim *sim)
-{
-    return sim->own;
-}
-
-static inline const OzElementSwitches *oz_element_switches(const OzSim *sim)
-{
-    return sim->arrays.switches;
-}
-
-static inline const OzElementSizes *oz_element_sizes(const OzSim *sim)
-{
-    return sim->arrays.sizes;
-}
-
-static inline OzElementControl *oz_element_control(const OzSim *sim, int member)
-{
-    return (OzElementControl *)sim->control + member;
-}
-
-static inline OzElementParameters *oz_element_parameters(const OzSim *sim, int member)
-{
-    return (OzElementParameters *)sim->parameters + member;
-}
+OZ_SIM_VIEWS(oz_element, OzTrigrains, OzElementSwitches, OzElementSizes, OzElementControl,
+             OzElementParameters)

@@ -1,12 +1,13 @@
-/* Rods' part of a simulation, and the model's row. */
+/* Rods' part of a simulation, what its guards say, and the model's row. */
 #include "sim/rods.h"
 
 #include "base/memory.h"
 #include "model/motion.h"
+#include "sim/advice.h"
+#include "sim/constants.h"
 #include "sim/host_lists.h"
 #include "sim/launch.h"
 #include "sim/pack.h"
-#include "sim/rods_guard.h"
 #include "sim/rods_private.h"
 #include "sim/rods_read_snapshot.h"
 #include "sim/sides.h"
@@ -14,6 +15,7 @@
 #include "sim/units.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { JUDGE_STEPS = 128 };
@@ -201,6 +203,50 @@ static OzStatus adopt(OzSim *sim, const OzSim *from, int member, double step)
     return OZ_OK;
 }
 
+static const OzStop stops[] = {
+    {OZ_STOP_NAN, "its state is not a number"},
+    {OZ_STOP_ESCAPED, "it has left its container"},
+    {OZ_STOP_MET, "it overlaps another body so far that shafts meet, or a centre lies behind "
+                  "a wall"},
+    {OZ_STOP_DEEP, "it overlaps another body by more than guards.overlap.stop"},
+    {OZ_STOP_FAST, "an end of it moves more than half its radius in one step"},
+};
+
+static int grain_of(const OzGrains *grains, int index)
+{
+    (void)grains;
+    return index;
+}
+
+/* A grain beyond the domain. */
+static void advise_escaped(char *text, size_t size, const OzSnapshot *now)
+{
+    OzParameters parameters;
+    int order[OZ_WALLS_MAX];
+    bool is_float = now->scene->precision == OZ_PRECISION_FLOAT;
+    snprintf(text, size, "no wall holds it");
+    if (oz_constants_fill(&parameters, order, now->scene, now->grains) == OZ_OK) {
+        snprintf(text, size, "it is beyond %.3g m, where no wall holds it%s",
+                 parameters.domain * parameters.length_unit,
+                 is_float ? " and precision: float no place (double does)" : "");
+    }
+}
+
+/* What would help: the guards of depth know, the others say where to look. */
+static void advise(char *text, size_t size, const OzControlHead *control,
+                          const OzSnapshot *now)
+{
+    if (control->stop_bits & OZ_STOP_NAN) {
+        snprintf(text, size, "`orzo check` says what step is stable");
+    } else if (control->stop_bits & OZ_STOP_FAST) {
+        snprintf(text, size, "try a smaller time.step (`orzo check` says what is stable)");
+    } else if (control->stop_bits & (OZ_STOP_DEEP | OZ_STOP_MET)) {
+        oz_advice_write(text, size, now, control->stop_index);
+    } else {
+        advise_escaped(text, size, now);
+    }
+}
+
 const OzModel oz_rods_model = {
     .name = "rods",
     .field_count = OZ_FIELD_COUNT,
@@ -239,8 +285,8 @@ const OzModel oz_rods_model = {
     .ledger_field = OZ_FIELD_ledger,
     .ledger_words = OZ_LEDGER_WORDS,
     .start_ledger = oz_rods_read_snapshot_start_ledger,
-    .stop_count = OZ_RODS_GUARD_STOPS,
-    .stops = oz_rods_guard_stops,
-    .grain_of = oz_rods_guard_grain,
-    .advise = oz_rods_guard_advise,
+    .stop_count = sizeof stops / sizeof stops[0],
+    .stops = stops,
+    .grain_of = grain_of,
+    .advise = advise,
 };

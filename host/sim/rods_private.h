@@ -12,30 +12,7 @@ typedef struct OzRods {
     bool primed;                  /* velocity-verlet knows its first acceleration     */
 } OzRods;
 
-static inline OzRods *oz_rods_own(const OzSim *sim)
-{
-    return sim->own;
-}
-
-static inline const OzSwitches *oz_rods_switches(const OzSim *sim)
-{
-    return sim->arrays.switches;
-}
-
-static inline const OzSizes *oz_rods_sizes(const OzSim *sim)
-{
-    return sim->arrays.sizes;
-}
-
-static inline OzControl *oz_rods_control(const OzSim *sim, int member)
-{
-    return (OzControl *)sim->control + member;
-}
-
-static inline OzParameters *oz_rods_parameters(const OzSim *sim, int member)
-{
-    return (OzParameters *)sim->parameters + member;
-}
+OZ_SIM_VIEWS(oz_rods, OzRods, OzSwitches, OzSizes, OzControl, OzParameters)
 
 /* Writes offset and velocity of every wall of a member for so many steps (at most
  * sizes.motion_steps) from the present one on, and for their end; all the present one's while the

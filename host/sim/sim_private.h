@@ -38,3 +38,27 @@ OzStatus oz_sim_create_after(OzSim **sim, const OzDevice *device, const OzMember
 
 /* Uploads all members' parameters. */
 OzStatus oz_sim_write_parameters(OzSim *sim);
+
+/* What the driver keeps for a model, as what it is: its own part, switches and sizes of a
+ * simulation, control words and parameters of a member. */
+#define OZ_SIM_VIEWS(prefix, Own, Switches, Sizes, Control, Parameters)                            \
+    static inline Own *prefix##_own(const OzSim *sim)                                              \
+    {                                                                                              \
+        return sim->own;                                                                           \
+    }                                                                                              \
+    static inline const Switches *prefix##_switches(const OzSim *sim)                              \
+    {                                                                                              \
+        return sim->arrays.switches;                                                               \
+    }                                                                                              \
+    static inline const Sizes *prefix##_sizes(const OzSim *sim)                                    \
+    {                                                                                              \
+        return sim->arrays.sizes;                                                                  \
+    }                                                                                              \
+    static inline Control *prefix##_control(const OzSim *sim, int member)                          \
+    {                                                                                              \
+        return (Control *)sim->control + member;                                                   \
+    }                                                                                              \
+    static inline Parameters *prefix##_parameters(const OzSim *sim, int member)                    \
+    {                                                                                              \
+        return (Parameters *)sim->parameters + member;                                             \
+    }

@@ -1,18 +1,23 @@
-/* Trigrains' part of a simulation, and the model's row. */
+/* Trigrains' part of a simulation, what its guards say, and the model's row. In a snapshot free
+ * elements are downloaded, those of walls follow from the time, and the host finds the contacts. */
 #include "sim/trigrains.h"
 
 #include "base/memory.h"
 #include "compute/cl_try.h"
-#include "sim/element_guard.h"
+#include "kernels/element_layout.h"
+#include "model/wall_motion.h"
+#include "sim/element_advice.h"
+#include "sim/element_forces.h"
 #include "sim/element_motion.h"
 #include "sim/element_pack.h"
 #include "sim/element_private.h"
-#include "sim/element_read_snapshot.h"
 #include "sim/element_sizes.h"
 #include "sim/element_upload.h"
 #include "sim/launch.h"
+#include "sim/read_snapshot.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { JUDGE_STEPS = 512 };
@@ -106,6 +111,97 @@ static OzStatus adopt(OzSim *sim, const OzSim *from, int member, double step)
                                  oz_element_parameters(sim, member)->dt / step);
 }
 
+static const OzStop stops[] = {
+    {OZ_ELEMENT_STOP_NAN, "its state is not a number"},
+    {OZ_ELEMENT_STOP_ESCAPED, "it has left its container"},
+    {OZ_ELEMENT_STOP_SWALLOWED, "a triangle of it is wholly inside another, or around one"},
+    {OZ_ELEMENT_STOP_DEEP, "an element of it overlaps another body by more than half"},
+    {OZ_ELEMENT_STOP_STRETCHED, "a beam of it is shorter than half or longer than 1.5 times its "
+                                "length at rest"},
+    {OZ_ELEMENT_STOP_BENT, "a beam of it is bent by more than 1 rad"},
+    {OZ_ELEMENT_STOP_FAST, "an element of it moves more than half its thickness in one step"},
+};
+
+static int grain_of(const OzGrains *grains, int slot)
+{
+    const OzElements *elements = grains->elements;
+    return slot >= 0 && slot < elements->free_count ? elements->body[slot] : -1;
+}
+
+/* What would help: the step only where it is to blame. */
+static void advise(char *text, size_t size, const OzControlHead *control,
+                             const OzSnapshot *now)
+{
+    static const struct {
+        int bits;
+        OzElementSoft soft;
+    } soft[] = {
+        {OZ_ELEMENT_STOP_SWALLOWED | OZ_ELEMENT_STOP_DEEP, OZ_ELEMENT_SOFT_CONTACT},
+        {OZ_ELEMENT_STOP_BENT, OZ_ELEMENT_SOFT_BENDING},
+        {OZ_ELEMENT_STOP_STRETCHED, OZ_ELEMENT_SOFT_STRETCH},
+    };
+    bool known = grain_of(now->grains, control->stop_index) >= 0;
+    snprintf(text, size, "`orzo check` says what step is stable");
+    if (control->stop_bits & OZ_ELEMENT_STOP_FAST) {
+        snprintf(text, size, "try a smaller time.step (`orzo check` says what is stable)");
+        return;
+    }
+    if (control->stop_bits == OZ_ELEMENT_STOP_ESCAPED) {
+        snprintf(text, size, "no wall holds it");
+        return;
+    }
+    for (size_t i = 0; i < sizeof soft / sizeof soft[0]; i++) {
+        if (known && !(control->stop_bits & OZ_ELEMENT_STOP_NAN) &&
+            (control->stop_bits & soft[i].bits)) {
+            oz_element_advice_write(text, size, now, control->stop_index, soft[i].soft);
+            return;
+        }
+    }
+}
+
+static OzStatus unpack(OzSim *sim, int member, OzSnapshot *snapshot)
+{
+    const OzScene *scene = sim->batch.members[member].scene;
+    OZ_PASS(
+        oz_element_pack_state(&sim->arrays, member, oz_element_parameters(sim, member), snapshot));
+    oz_wall_motion_place(snapshot->grains->elements, scene, snapshot->time, sim->batch.walls_still,
+                         snapshot->element_position, snapshot->element_angle,
+                         snapshot->element_velocity, snapshot->element_angular_velocity);
+    oz_snapshot_join_elements(snapshot);
+    return OZ_OK;
+}
+
+static OzStatus find_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
+{
+    if (sim->batch.stopped[member]) {
+        return OZ_OK;
+    }
+    OZ_PASS(oz_element_forces_contacts(snapshot));
+    if (oz_element_switches(sim)->ledger) {
+        double sum[OZ_ELEMENT_LEDGER_WORDS] = {0};
+        OZ_PASS(oz_read_snapshot_ledger(sim, member, sum));
+#define TAKE(NAME, entry, column, meaning) snapshot->element_ledger.entry = sum[OZ_PL_##NAME];
+        OZ_ELEMENT_LEDGER_LOSSES(TAKE)
+        OZ_LEDGER_WORK(TAKE)
+#undef TAKE
+        snapshot->has_ledger = true;
+    }
+    return OZ_OK;
+}
+
+/* Elements move against each other: the energy is theirs, not the grains'. */
+static double energy_of(const OzSnapshot *now)
+{
+    const OzElements *elements = now->grains->elements;
+    double energy = 0;
+    for (int64_t i = 0; i < elements->free_count; i++) {
+        const double *v = &now->element_velocity[2 * i], w = now->element_angular_velocity[i];
+        energy +=
+            0.5 * (elements->mass[i] * (v[0] * v[0] + v[1] * v[1]) + elements->inertia[i] * w * w);
+    }
+    return energy;
+}
+
 const OzModel oz_trigrains_model = {
     .name = "trigrains",
     .field_count = OZ_ELEMENT_FIELD_COUNT,
@@ -135,14 +231,14 @@ const OzModel oz_trigrains_model = {
     .prepare = oz_element_motion_prepare,
     .state = own_state,
     .adopt = adopt,
-    .unpack = oz_element_read_snapshot_state,
-    .contacts = oz_element_read_snapshot_contacts,
-    .energy = oz_element_read_snapshot_energy,
+    .unpack = unpack,
+    .contacts = find_contacts,
+    .energy = energy_of,
     .judge_steps = JUDGE_STEPS,
     .ledger_field = OZ_ELEMENT_FIELD_ledger,
     .ledger_words = OZ_ELEMENT_LEDGER_WORDS,
-    .stop_count = OZ_ELEMENT_GUARD_STOPS,
-    .stops = oz_element_guard_stops,
-    .grain_of = oz_element_guard_grain,
-    .advise = oz_element_guard_advise,
+    .stop_count = sizeof stops / sizeof stops[0],
+    .stops = stops,
+    .grain_of = grain_of,
+    .advise = advise,
 };
