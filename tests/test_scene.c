@@ -172,6 +172,13 @@ static void tells_what_is_wrong_with_settings(void **state)
                  "counted from 0",
                  SETTINGS("walls.7.kind=plane"));
     expect_error(SHAKEN,
+                 "--set walls.=1: walls has no entry ; expected one of its 1, counted from 0",
+                 SETTINGS("walls.=1")); /* which once put the list into itself */
+    expect_error(SHAKEN,
+                 "--set walls..0.kind=plane: walls has no group ; expected one of its 1, "
+                 "counted from 0",
+                 SETTINGS("walls..0.kind=plane"));
+    expect_error(SHAKEN,
                  "--set time.taps=3: time.taps contradicts duration; expected one of the two",
                  SETTINGS("time.duration=3", "time.taps=3"));
     expect_error(SMALL, "--set friction: no key and value; expected --set key=value",

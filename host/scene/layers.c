@@ -76,10 +76,17 @@ static OzStatus put_entry(OzNode *map, const char *name, OzNode *value)
     return oz_tree_add(map, value);
 }
 
+/* The entry of a name, which may be empty: there is none of that name, and a path of no names would
+ * be the node itself. */
+static OzNode *entry_of(OzNode *node, const char *name)
+{
+    return name[0] ? oz_tree_at(node, name) : NULL;
+}
+
 /* Puts value at place `name` of a list; a list never grows by a setting. */
 static void put_item(OzNode *list, const char *name, OzNode *value, OzFaults *faults)
 {
-    OzNode *old = oz_tree_at(list, name);
+    OzNode *old = entry_of(list, name);
     char path[256];
     oz_tree_path(list, false, path, sizeof path);
     if (!old) {
@@ -114,7 +121,7 @@ static OzStatus make_entry(OzNode **entry, OzNode *map, const char *name, const 
 static OzStatus enter(OzNode *node, const char *name, const OzSource *source, OzNode **next,
                       OzFaults *faults)
 {
-    OzNode *child = oz_tree_at(node, name);
+    OzNode *child = entry_of(node, name);
     bool scalar = child && child->kind == OZ_NODE_SCALAR;
     *next = NULL;
     if (node->kind == OZ_NODE_MAP && (!child || scalar)) {
