@@ -89,6 +89,43 @@ static void test_sets_keys(void **state)
     assert_true(contains("changed/reloads.csv", "contact.friction"));
 }
 
+static void await_answer(const char *text)
+{
+    for (int i = 0; i < 500 && !strstr(ask("GET", "/state", token, "", ""), text); i++) {
+        sleep_a_little();
+    }
+    if (!strstr(answer, text)) {
+        fail_msg("%s is not in %s", text, answer);
+    }
+}
+
+/* A change of the file, taken or refused, is on the page too; keys that take their value from
+ * others, or have none, are in its table. */
+static void test_hears_of_edits(void **state)
+{
+    (void)state;
+    write_file("edited.yaml", "extends: shown.yaml\ncontact: {friction: 0.2}\n");
+    remove("said");
+    pid_t child =
+        start_orzo("run edited.yaml -o edited --watch --serve --set time.taps=2000 --no-video");
+    find_page();
+    await_answer("{\"key\": \"walls.1.contact.friction\", \"value\": 0.2,");
+    await_answer("{\"key\": \"observe.contacts_interval\", \"value\": null,");
+    for (int i = 0; i < 500 && !contains("said", "first step"); i++) {
+        sleep_a_little();
+    }
+    write_file("edited.yaml", "extends: shown.yaml\ncontact: {friction: 0.35}\n");
+    await_answer("\"applied\": true, \"text\": \"contact.friction 0.2 -> 0.35\"");
+    await_answer("{\"key\": \"walls.1.contact.friction\", \"value\": 0.35,");
+    ask("POST", "/set", token, "", "{\"key\": \"walls.1.contact.friction\", \"value\": 0.6}");
+    assert_non_null(strstr(answer, "{\"applied\": true, "));
+    await_answer("{\"key\": \"walls.1.contact.friction\", \"value\": 0.6,");
+    write_file("edited.yaml", "extends: shown.yaml\ncontact: {frictoin: 0.35}\n");
+    await_answer("\"applied\": false, \"text\": \"edited.yaml:2: ");
+    kill(child, SIGINT);
+    assert_int_equal(wait_for(child, 10), 130);
+}
+
 static void test_words(void **state)
 {
     (void)state;
@@ -99,8 +136,8 @@ static void test_words(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_follows_the_run),
-                                       cmocka_unit_test(test_sets_keys),
-                                       cmocka_unit_test(test_words)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_follows_the_run), cmocka_unit_test(test_sets_keys),
+        cmocka_unit_test(test_hears_of_edits), cmocka_unit_test(test_words)};
     return cmocka_run_group_tests(tests, make_bed, leave_work);
 }

@@ -41,7 +41,7 @@ typedef struct OzPageStatus {
 
 /* A key that may be set. Texts are copied. */
 typedef struct OzPageKey {
-    const char *key, *value, *unit, *help; /* value as YAML                  */
+    const char *key, *value, *unit, *help; /* value as YAML; empty: none     */
     double low, high;                      /* NAN: no number                 */
     const char *const *choices;            /* ending with NULL; NULL: none   */
 } OzPageKey;

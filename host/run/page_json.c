@@ -96,6 +96,10 @@ static const char *skip_list(const char *at, bool texts)
 
 void oz_page_json_value(FILE *file, const char *yaml)
 {
+    if (!*yaml) {
+        fputs("null", file);
+        return;
+    }
     const char *end = *yaml == '[' ? skip_list(yaml, false) : skip_plain(yaml);
     if (end && *end == '\0') {
         fputs(yaml, file);

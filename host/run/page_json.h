@@ -10,7 +10,7 @@ void oz_page_json_text(FILE *file, const char *text);
 /* null for what is not finite. */
 void oz_page_json_number(FILE *file, double value);
 
-/* A key's value, written as YAML: as it is where it is JSON too (a number, a bool, a list of
+/* A key's value, written as YAML: null where it is empty, as it is where it is JSON too (a number, a bool, a list of
  * numbers), else quoted. */
 void oz_page_json_value(FILE *file, const char *yaml);
 

@@ -26,6 +26,7 @@ struct OzReload {
     OzReloadRequest **requests; /* of the group; NULL once every worker is done    */
     int64_t capacity;
     atomic_llong published; /* requests so far                                 */
+    OzReloadListener listener;
 };
 
 OzStatus oz_reload_create(OzReload **out, const OzOptions *options, const OzScene *scene)
@@ -253,6 +254,20 @@ bool oz_reload_read(OzReload *reload, char *message, size_t size)
         snprintf(message, size, "%s", oz_status_text());
     }
     return status == OZ_OK;
+}
+
+void oz_reload_listen(OzReload *reload, OzReloadListener listener)
+{
+    if (reload) {
+        reload->listener = listener;
+    }
+}
+
+void oz_reload_announce(const OzReload *reload, bool applied, const char *message)
+{
+    if (reload->listener.hear) {
+        reload->listener.hear(reload->listener.context, applied, message);
+    }
 }
 
 OzStatus oz_reload_scene(OzReload *reload, OzScene *copy)

@@ -39,6 +39,16 @@ bool oz_reload_set(OzReload *reload, char *const *settings, int count, char *mes
  * is set. Nothing to change: true, and an empty message. */
 bool oz_reload_read(OzReload *reload, char *message, size_t size);
 
+/* Who shall hear what becomes of changes that it did not ask for itself; set while nobody asks. */
+typedef struct OzReloadListener {
+    void (*hear)(void *context, bool applied, const char *message); /* NULL: nobody does */
+    void *context;
+} OzReloadListener;
+void oz_reload_listen(OzReload *reload, OzReloadListener listener);
+
+/* Tells the listener; from any thread. */
+void oz_reload_announce(const OzReload *reload, bool applied, const char *message);
+
 /* What runs now, sweep included, copied (phases of walls aside); the caller frees. */
 OzStatus oz_reload_scene(OzReload *reload, OzScene *copy);
 

@@ -134,7 +134,7 @@ static OzStatus open_live(Run *run)
     return options->stream ? oz_movie_stream_create(&live->stream, options->stream) : OZ_OK;
 }
 
-/* Whoever may ask for changes: the scene's files, or a signal. A run that repeats another one takes
+/* What takes changes. A run that repeats another one takes
  * that one's alone. */
 static OzStatus open_reload(Run *run)
 {
@@ -142,13 +142,13 @@ static OzStatus open_reload(Run *run)
     if (run->options->replay) {
         return OZ_OK;
     }
-    OZ_PASS(oz_reload_create(&run->reload, run->options, scene));
-    return run->options->watch ? oz_watch_start(&run->watch, run->reload, scene) : OZ_OK;
+    return oz_reload_create(&run->reload, run->options, scene);
 }
 
 static OzStatus open_run(Run *run)
 {
     const OzOptions *options = run->options;
+    const OzScene *scene = &run->groups.plan.scene;
     OZ_PASS(check_interrupt());
     if (!run->groups.resume && !run->groups.loaded) {
         return oz_status_fail(run->groups.loss, "%s: no member can be run",
@@ -167,9 +167,10 @@ static OzStatus open_run(Run *run)
     }
     run->groups.device = &run->device;
     OZ_PASS(open_reload(run));
-    return options->serve ? oz_serve_open(&run->serve, options, &run->groups.plan.scene,
-                                          run->reload, run->render_queue)
-                          : OZ_OK;
+    if (options->serve) {
+        OZ_PASS(oz_serve_open(&run->serve, options, scene, run->reload, run->render_queue));
+    }
+    return options->watch && run->reload ? oz_watch_start(&run->watch, run->reload, scene) : OZ_OK;
 }
 
 static int choose_worker_count(const Run *run)
@@ -353,7 +354,6 @@ done:
 
 static void close_run(Run *run)
 {
-    oz_watch_end(run->watch);
     oz_reload_free(run->reload);
     oz_replay_free(&run->replay);
     oz_render_queue_free(run->render_queue);
@@ -389,6 +389,7 @@ done:
     if (status != OZ_OK && run.owned.path && oz_resume_has_state(run.owned.path)) {
         oz_log_line("to go on from the last state: orzo resume %s", run.owned.path);
     }
+    oz_watch_end(run.watch); /* which tells the page */
     oz_serve_close(run.serve, status);
     close_run(&run);
     oz_log_use(before);

@@ -78,6 +78,14 @@ OzStatus oz_serve_renew(OzServe *serve)
     return status;
 }
 
+/* What others have asked for: the scene's files, a signal. */
+static void hear(void *context, bool applied, const char *message)
+{
+    OzServe *serve = context;
+    oz_page_say(serve->page, applied, message);
+    oz_serve_renew(serve); /* else the table stays as it was */
+}
+
 OzStatus oz_serve_open(OzServe **serve, const OzOptions *options, const OzScene *scene,
                        OzReload *reload, OzRenderQueue *render_queue)
 {
@@ -92,6 +100,7 @@ OzStatus oz_serve_open(OzServe **serve, const OzOptions *options, const OzScene 
     settings.context = *serve;
     OZ_TRY(oz_page_open(&(*serve)->page, &settings));
     OZ_TRY(oz_serve_renew(*serve));
+    oz_reload_listen(reload, (OzReloadListener){hear, *serve});
     oz_page_show((*serve)->page, &(*serve)->status);
     if (scene->movie.present && !options->no_video) {
         (*serve)->live = oz_render_queue_live(render_queue);
@@ -103,6 +112,7 @@ OzStatus oz_serve_open(OzServe **serve, const OzOptions *options, const OzScene 
     fflush(oz_log_stream());
 done:
     if (status != OZ_OK && *serve) {
+        oz_reload_listen(reload, (OzReloadListener){0});
         oz_page_close((*serve)->page);
         free(*serve);
         *serve = NULL;
@@ -115,6 +125,7 @@ void oz_serve_close(OzServe *serve, OzStatus status)
     if (!serve) {
         return;
     }
+    oz_reload_listen(serve->reload, (OzReloadListener){0});
     serve->status.done = status == OZ_OK;
     serve->status.stopped = status != OZ_OK;
     if (status != OZ_OK) {

@@ -11,7 +11,7 @@ typedef struct OzServe OzServe;
 
 /* Opens the page and prints its address, once, to the log's stream and not into log.txt. The
  * movie's frames, if there are any, come by the render queue, and what is set is asked of reload
- * (NULL: this run takes no changes). Of several members the first is shown. What is given is
+ * (NULL: this run takes no changes), to which the page listens while it is open. Of several members the first is shown. What is given is
  * borrowed. */
 OzStatus oz_serve_open(OzServe **serve, const OzOptions *options, const OzScene *scene,
                        OzReload *reload, OzRenderQueue *render_queue);

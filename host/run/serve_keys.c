@@ -45,12 +45,26 @@ static OzStatus print(char **text, const OzKey *key, const void *base, int item,
                                      : oz_status_fail(OZ_ERR_MEMORY, "out of memory for a key");
 }
 
+/* A row that takes its value from another one, which counts. */
+static bool inherits(const OzScene *scene, const OzKey *key, const void *base)
+{
+    const OzKey *from = key->inherits ? oz_keys_of(key->inherits, (int)scene->model) : NULL;
+    return from && !key->shared && oz_write_applies(scene, key, base) &&
+           oz_write_applies(scene, from, scene);
+}
+
+static bool has_value(const OzScene *scene, const OzKey *key, const void *base)
+{
+    return oz_write_has(scene, key, base) || inherits(scene, key, base);
+}
+
 static OzStatus add(Table *table, const OzKey *key, const void *base, int item)
 {
     OzStatus status = OZ_OK;
     char *name = NULL, *value = NULL;
     OZ_TRY(print(&name, key, base, item, false));
-    OZ_TRY(print(&value, key, base, item, true));
+    OZ_TRY(has_value(table->scene, key, base) ? print(&value, key, base, item, true)
+                                              : oz_memory_text(&value, ""));
     OZ_TRY(oz_memory_grow((void **)&table->rows, table->count, table->count + 1,
                           sizeof *table->rows, "keys of the page"));
     table->rows[table->count++] =
@@ -68,10 +82,12 @@ done:
     return status;
 }
 
-static OzStatus add_if_had(Table *table, const OzKey *key, const void *base, int item)
+/* Of the scene itself also a row without a value, which can be given one. */
+static OzStatus add_if_settable(Table *table, const OzKey *key, const void *base, int item)
 {
-    bool had = may_change(key) && oz_write_has(table->scene, key, base);
-    return had ? add(table, key, base, item) : OZ_OK;
+    bool settable =
+        item < 0 ? oz_write_applies(table->scene, key, base) : has_value(table->scene, key, base);
+    return settable && may_change(key) ? add(table, key, base, item) : OZ_OK;
 }
 
 /* The rows of each item of a list together. Returns the row after them. */
@@ -85,7 +101,7 @@ static const OzKey *add_items(Table *table, const OzKey *list, OzStatus *status)
     const char *items = *(char *const *)oz_value_at(list, table->scene);
     for (int i = 0; i < *oz_value_count(list, table->scene); i++) {
         for (const OzKey *key = list + 1; key < end && *status == OZ_OK; key++) {
-            *status = add_if_had(table, key, items + (size_t)i * list->item_size, i);
+            *status = add_if_settable(table, key, items + (size_t)i * list->item_size, i);
         }
     }
     return end;
@@ -109,7 +125,7 @@ OzStatus oz_serve_keys_show(OzPage *page, const OzScene *scene)
         if (key->type == OZ_KEY_ITEMS) {
             key = add_items(&table, key, &status);
         } else {
-            status = has_section(scene, key) ? add_if_had(&table, key, scene, -1) : OZ_OK;
+            status = has_section(scene, key) ? add_if_settable(&table, key, scene, -1) : OZ_OK;
             key++;
         }
     }

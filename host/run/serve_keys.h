@@ -4,5 +4,6 @@
 #include "run/page.h"
 #include "scene/scene.h"
 
-/* Every such key that the scene has a value for, with that value. */
+/* Every such key that applies to the scene, with its value or the one that it inherits; empty: it
+ * has none yet. */
 OzStatus oz_serve_keys_show(OzPage *page, const OzScene *scene);

@@ -210,7 +210,11 @@ static OzStatus give_up(OzWorker *worker, const char *why)
         return oz_status_fail(OZ_ERR_DEVICE, "the change cannot be made: %s", why);
     }
     oz_log_line("the change cannot be made, the run goes on without it: %s", why);
-    return oz_reload_withdraw(worker->reload, worker->taken);
+    char said[2048];
+    snprintf(said, sizeof said, "the change cannot be made: %s", why);
+    OZ_PASS(oz_reload_withdraw(worker->reload, worker->taken));
+    oz_reload_announce(worker->reload, false, said);
+    return OZ_OK;
 }
 
 static OzStatus end_build(OzWorker *worker)

@@ -99,6 +99,9 @@ void oz_watch_read(OzReload *reload)
     if (!taken) {
         oz_log_line("%s; the run goes on as it was", message);
     }
+    if (message[0]) {
+        oz_reload_announce(reload, taken, message);
+    }
 }
 
 /* Waits for an event or the time to look; false: it is over. */

@@ -14,5 +14,6 @@ OzStatus oz_watch_start(OzWatch **watch, OzReload *reload, const OzScene *scene)
 void oz_watch_end(OzWatch *watch);
 
 /* The file as it is now, tried again a fifth of a second later if it cannot be taken, as an editor
- * may be about to finish it; then what became of it is said in the log. From any thread. */
+ * may be about to finish it; then what became of it is said in the log
+ * and to who listens. From any thread. */
 void oz_watch_read(OzReload *reload);

@@ -193,7 +193,7 @@ static bool is_of_law(const OzScene *scene, const OzKey *key, const void *base)
                           (has_contacts(scene) || oz_value_holds(key, base)));
 }
 
-static bool is_sensible(const OzScene *scene, const OzKey *key, const void *base)
+bool oz_write_applies(const OzScene *scene, const OzKey *key, const void *base)
 {
     return key->type != OZ_KEY_EXTENDS && oz_keys_serves(key, (int)scene->model) &&
            is_of(key, key->kinds, "kind", base) && is_of(key, key->shapes, "shape", base) &&
@@ -203,7 +203,7 @@ static bool is_sensible(const OzScene *scene, const OzKey *key, const void *base
 bool oz_write_has(const OzScene *scene, const OzKey *key, const void *base)
 {
     bool in_item = strstr(key->path, "[]") != NULL;
-    if (!is_sensible(scene, key, base)) {
+    if (!oz_write_applies(scene, key, base)) {
         return false;
     }
     if (key->type == OZ_KEY_SECTION) {
