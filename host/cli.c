@@ -60,7 +60,8 @@ static const struct {
     {'u', "--until", "T", "stop at time T, s"},
     {'w', "--watch", NULL, "take what is changed in the scene file while it runs"},
     {'R', "--replay", NULL, "SCENE is a run's folder: that run again, with its changes"},
-    {'P', "--realtime", "F", "no faster than F simulated seconds a second (0: as the movie shows)"},
+    {'P', "--realtime", "[F]",
+     "no faster than F simulated seconds a second (default: as the movie shows; no movie: 1)"},
     {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later"},
     {'m', "--stream", "FILE|-",
      "the movie's frames as they are drawn, as Matroska: into a new file, a named pipe or a pipe"},
@@ -208,11 +209,14 @@ static OzStatus parse_until(OzOptions *options, const char *value)
 static OzStatus parse_pace(OzOptions *options, const char *value)
 {
     char *end = NULL;
-    options->pace = strtod(value, &end);
     options->has_pace = true;
+    if (!value) {
+        return OZ_OK;
+    }
+    options->pace = strtod(value, &end);
     if (*value == '\0' || *end || !isfinite(options->pace) || options->pace < 0) {
         return wrong(value,
-                     "--realtime with simulated seconds a second, as in 0.1; 0: as the movie");
+                     "--realtime with simulated seconds a second, as in 0.1, or none: as the movie");
     }
     return OZ_OK;
 }
@@ -377,6 +381,13 @@ static OzStatus take_option(OzOptions *options, char letter, const char *value)
     }
 }
 
+/* Whether an argument is the number that an option may have, or the next option, a name or none. */
+static bool is_number(const char *argument)
+{
+    bool begins = argument && (isdigit((unsigned char)*argument) || *argument == '.');
+    return begins && !argument[strspn(argument, "0123456789.e+-")];
+}
+
 static OzStatus take_argument(OzOptions *options, int command, int argc, char **argv, int *i)
 {
     const char *argument = argv[*i];
@@ -399,7 +410,7 @@ static OzStatus take_argument(OzOptions *options, int command, int argc, char **
         return wrong(argument, expected);
     }
     const char *wanted = option_rows[o].value, *next = *i + 1 < argc ? argv[*i + 1] : NULL;
-    if (wanted && wanted[0] == '[' && (!next || !*next || next[strspn(next, "0123456789")])) {
+    if (wanted && wanted[0] == '[' && !is_number(next)) {
         return take_option(options, option_rows[o].letter, NULL); /* its value may be left out */
     }
     if (wanted && !next) {

@@ -322,6 +322,20 @@ static void test_help_ends_with_an_example(void **state)
     }
 }
 
+/* --realtime may stand alone: then the movie says how fast, and without one it is 1. */
+static void test_realtime(void **state)
+{
+    (void)state;
+    char *alone[] = {"orzo", "run", "--realtime", "scene.yaml"};
+    char *given[] = {"orzo", "run", "scene.yaml", "--realtime", "2.5e-1"};
+    OzOptions options;
+    assert_int_equal(oz_cli_parse(&options, 4, alone), OZ_OK);
+    assert_true(options.has_pace && options.pace == 0);
+    assert_string_equal(options.paths[0], "scene.yaml");
+    assert_int_equal(oz_cli_parse(&options, 5, given), OZ_OK);
+    assert_true(options.has_pace && options.pace == 0.25);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -334,6 +348,7 @@ int main(void)
         cmocka_unit_test(test_resolution),
         cmocka_unit_test(test_empty_columns),
         cmocka_unit_test(test_help_ends_with_an_example),
+        cmocka_unit_test(test_realtime),
     };
     return cmocka_run_group_tests(tests, make_bed, leave_work);
 }
