@@ -196,60 +196,47 @@ static OzStatus parse_seeds(OzOptions *options, const char *value)
     return OZ_OK;
 }
 
-static OzStatus parse_until(OzOptions *options, const char *value)
+static bool read_number(const char *value, double *number)
 {
     char *end = NULL;
-    options->until = strtod(value, &end);
-    if (*value == '\0' || *end || !isfinite(options->until) || options->until < 0) {
-        return wrong(value, "--until with a time in s, 0 or later");
-    }
-    return OZ_OK;
+    *number = strtod(value, &end);
+    return *value && !*end && isfinite(*number);
+}
+
+static OzStatus parse_until(OzOptions *options, const char *value)
+{
+    bool good = read_number(value, &options->until) && options->until >= 0;
+    return good ? OZ_OK : wrong(value, "--until with a time in s, 0 or later");
 }
 
 static OzStatus parse_pace(OzOptions *options, const char *value)
 {
-    char *end = NULL;
     options->has_pace = true;
-    if (!value) {
-        return OZ_OK;
-    }
-    options->pace = strtod(value, &end);
-    if (*value == '\0' || *end || !isfinite(options->pace) || options->pace < 0) {
-        return wrong(value,
-                     "--realtime with simulated seconds a second, as in 0.1, or none: as the movie");
-    }
-    return OZ_OK;
+    bool good = !value || (read_number(value, &options->pace) && options->pace >= 0);
+    return good ? OZ_OK
+                : wrong(value, "--realtime with simulated seconds a second, as in 0.1, or none: as "
+                               "the movie shows");
 }
 
 static OzStatus parse_budget(OzOptions *options, const char *value)
 {
-    char *end = NULL;
-    options->budget = strtod(value, &end);
-    if (*value == '\0' || *end || !isfinite(options->budget) || options->budget <= 0) {
-        return wrong(value, "--budget with seconds above 0");
-    }
-    return OZ_OK;
+    bool good = read_number(value, &options->budget) && options->budget > 0;
+    return good ? OZ_OK : wrong(value, "--budget with seconds above 0");
 }
 
 static OzStatus parse_tolerance(OzOptions *options, const char *value)
 {
-    char *end = NULL;
-    options->tolerance = strtod(value, &end);
-    if (*value == '\0' || *end || !isfinite(options->tolerance) || options->tolerance <= 0) {
-        return wrong(value, "--tolerance with an error above 0, as in 0.01");
-    }
-    return OZ_OK;
+    bool good = read_number(value, &options->tolerance) && options->tolerance > 0;
+    return good ? OZ_OK : wrong(value, "--tolerance with an error above 0, as in 0.01");
 }
 
 /* Below a hundredth more spans of touching could count than are kept. */
 static OzStatus parse_share(OzOptions *options, const char *value)
 {
-    char *end = NULL;
-    options->share = strtod(value, &end);
-    if (*value == '\0' || *end || !(options->share >= 0.01 && options->share <= 1)) {
-        return wrong(value, "--share with a number from 0.01 to 1, as in 0.05");
-    }
-    return OZ_OK;
+    bool good = read_number(value, &options->share) && options->share >= 0.01;
+    return good && options->share <= 1 ? OZ_OK
+                                       : wrong(value, "--share with a number from 0.01 to 1, as "
+                                                      "in 0.05");
 }
 
 static OzStatus parse_every(OzOptions *options, const char *value)
