@@ -59,36 +59,34 @@ out vec4 colour;
 const vec3 LIGHT = vec3(-0.41, 0.58, 0.70);
 const vec3 HALFWAY = vec3(-0.225, 0.318, 0.921); /* between the light and the eye */
 
+/* The eye's ray through this pixel, longer than 1 by less than a hundredth. */
+vec3 ray()
+{
+    return vec3((capsule_centre.xy + offset) / (lens.z - capsule_centre.z), -1.0);
+}
+
 /* Where the ray q + t d (q relative to the centre) meets the capsule, which = -1 for entering and 1 for
  * leaving; beside the capsule, where it comes closest. The infinite cylinder is met first; if that is
- * beyond an end, the sphere there decides. spine receives the nearest point's place on the axis. */
-float meet(vec3 q, vec3 d, float which, out float spine)
+ * beyond an end, the sphere there decides. spine receives the nearest point's place on the axis, miss
+ * how far the ray passes beside the surface, negative when it hits. */
+float meet(vec3 q, vec3 d, float which, out float spine, out float miss)
 {
     vec3 u = capsule_axis.xyz;
     float h = capsule_axis.w, r = capsule_centre.w;
-    float uq = dot(u, q), ud = dot(u, d);
-    vec3 w = q - uq * u;
-    float a = max(1.0 - ud * ud, 1e-9), b = dot(w, d), c = dot(w, w) - r * r;
-    float t = (which * sqrt(max(b * b - a * c, 0.0)) - b) / a;
+    float uq = dot(u, q), ud = dot(u, d), qd = dot(q, d), qq = dot(q, q), dd = dot(d, d);
+    float inverse = 1.0 / max(dd - ud * ud, 1e-9);
+    float b = (qd - uq * ud) * inverse, depth = b * b - (qq - uq * uq - r * r) * inverse;
+    float t = which * sqrt(max(depth, 0.0)) - b;
     float y = uq + t * ud;
+    float thickness = depth * (dd - ud * ud);
     spine = clamp(y, -h, h);
     if (y != spine) {
-        vec3 e = q - spine * u;
-        b = dot(e, d);
-        t = which * sqrt(max(b * b - dot(e, e) + r * r, 0.0)) - b;
+        b = (qd - spine * ud) / dd;
+        thickness = dd * b * b - (qq - 2.0 * spine * uq + spine * spine - r * r);
+        t = which * sqrt(max(thickness / dd, 0.0)) - b;
     }
+    miss = sqrt(max(r * r - thickness, 0.0)) - r;
     return t;
-}
-
-/* How far the ray passes beside the capsule's surface; negative when it hits. */
-float miss_distance(vec3 q, vec3 d)
-{
-    vec3 u = capsule_axis.xyz;
-    float uq = dot(u, q), ud = dot(u, d);
-    vec3 w = q - uq * u;
-    float closest = uq - dot(w, d) * ud / max(1.0 - ud * ud, 1e-9);
-    vec3 e = q - clamp(closest, -capsule_axis.w, capsule_axis.w) * u;
-    return length(e - dot(e, d) * d) - capsule_centre.w;
 }
 
 /* Pixels from here, along rows or along columns, to where a distance that is negative within becomes
@@ -130,8 +128,9 @@ vec3 shade_section(vec3 p)
 #ifdef OZ_OUTLINED
 void main()
 {
-    vec3 d = normalize(vec3(capsule_centre.xy + offset, capsule_centre.z - lens.z));
-    float inside = -miss_distance(vec3(offset, 0.0), d) / pixel;
+    float spine, miss;
+    meet(vec3(offset, 0.0), ray(), -1.0, spine, miss);
+    float inside = -miss / pixel;
     float width = max(0.11 * capsule_centre.w / pixel, 1.5);
     float share = clamp(inside + 0.5, 0.0, 1.0) * clamp(width - inside + 0.5, 0.0, 1.0);
     gl_FragDepth = 0.5;
@@ -141,18 +140,16 @@ void main()
 void main()
 {
     vec3 q = vec3(offset, 0.0);
-    vec3 from_eye = vec3(capsule_centre.xy + offset, capsule_centre.z - lens.z);
-    vec3 d = normalize(from_eye);
-    float spine;
-    float miss = miss_distance(q, d);
-    float t = meet(q, d, -1.0, spine);
+    vec3 d = ray();
+    float spine, miss;
+    float t = meet(q, d, -1.0, spine, miss);
     vec2 outline = way_out(miss);
 #ifdef OZ_SLICED
     /* Convex: the kept half is hit exactly where the ray leaves the capsule behind the plane. */
-    float last_spine;
+    float last_spine, last_miss;
     float start = dot(plane.xyz, capsule_centre.xyz + q) - plane.w;
     float rise = dot(plane.xyz, d);
-    float left = start + meet(q, d, 1.0, last_spine) * rise;
+    float left = start + meet(q, d, 1.0, last_spine, last_miss) * rise;
     vec2 end = way_out(-left);
     outline = dot(end, end) < dot(outline, outline) ? end : outline;
     miss = max(miss, -left);

@@ -1,5 +1,5 @@
-/* Capsule records, sorted by the side of the cut plane on which they lie, and their two programs.
- * Knows nothing of containers, text or files. */
+/* Capsule records, sorted by the side of the cut plane on which they lie, and
+ * their two programs. Knows nothing of containers, text or files. */
 #include "draw/capsules.h"
 
 #include "base/memory.h"
@@ -24,7 +24,7 @@ typedef struct Upload {
     const OzSnapshot *snapshot;
     const OzLook *look;
     const OzCamera *camera;
-    double inward[3], offset;  /* the cut: its normal, and its distance along it     */
+    double inward[3], offset;  /* the cut: its normal, and its distance along it */
     OzBody *bodies;            /* count, in the snapshot's order                     */
     int64_t *order;            /* count: nearest first                               */
     int64_t *seen[SIDE_COUNT]; /* count each: those that a view shows, nearest first */
@@ -158,12 +158,12 @@ static void find_kept(const Upload *upload, const OzBody *body, bool is_cut, dou
 }
 
 /* Sorts out what a view shows, by the side of the cut on which it lies. */
-static OzStatus see_view(Upload *upload, int view, const OzBox *box, double radius)
+static OzStatus see_view(Upload *upload, int view, const OzBox *box)
 {
     OzOcclusion occlusion = {0};
     bool is_cut = upload->look->views[view] == OZ_VIEW_CUT;
     memset(upload->seen_count, 0, sizeof upload->seen_count);
-    OZ_PASS(oz_occlusion_begin(&occlusion, upload->camera, view, box, radius));
+    OZ_PASS(oz_occlusion_begin(&occlusion, upload->camera, view, box));
     for (int64_t k = 0; k < upload->snapshot->count; k++) {
         int64_t i = upload->order[k];
         const OzBody *body = &upload->bodies[i];
@@ -202,12 +202,7 @@ static OzStatus add_view(Upload *upload, OzCapsules *capsules, int view)
     const OzCamera *camera = upload->camera;
     OzBox box = oz_camera_box(camera, upload->look, view, capsules->low, capsules->high);
     OzCapsuleRanges *ranges = &capsules->views[view];
-    double radius = 0;
-    for (int64_t i = 0; i < upload->snapshot->count; i++) {
-        radius +=
-            camera->scale * (double)upload->bodies[i].radius / (double)upload->snapshot->count;
-    }
-    OZ_PASS(see_view(upload, view, &box, radius));
+    OZ_PASS(see_view(upload, view, &box));
     ranges->first = upload->record_count;
     OZ_PASS(add_records(upload, SIDE_BEHIND));
     ranges->crossing = upload->record_count;

@@ -1,5 +1,7 @@
-/* Depths of coarse cells. A body covers the cells that lie whole within its outline, and is looked
- * for in every cell that boxes about it touch. Knows no GL. */
+/* Depths of pixels, at their middles. What a body covers is taken a little
+ * smaller than it is, where it may show a little larger, and its depth is that
+ * of its axis against the nearest point of others, so that errors leave too
+ * much in the picture. Knows no GL. */
 #include "draw/occlusion.h"
 
 #include "base/memory.h"
@@ -12,7 +14,7 @@ static const float FAR = 1e9f; /* view units */
 
 enum { PIECES_MOST = 4 }; /* of an axis: boxes about these are hardly larger than the rod */
 
-/* A piece of a body, cells. */
+/* A piece of a body, pixels of the box. */
 typedef struct Piece {
     double ends[2][2], radius[2]; /* in the plane of each end */
     double far, near;             /* z of the end that lies further back, of the nearest point */
@@ -29,15 +31,11 @@ static double most(double a, double b)
 }
 
 OzStatus oz_occlusion_begin(OzOcclusion *occlusion, const OzCamera *camera, int panel,
-                            const OzBox *box, double radius)
+                            const OzBox *box)
 {
-    double cell = fmax(1, 0.2 * radius);
-    *occlusion = (OzOcclusion){.camera = camera,
-                               .columns = (int)ceil(box->width / cell),
-                               .rows = (int)ceil(box->height / cell),
-                               .cell = cell};
-    occlusion->middle[0] = ((double)lround(camera->panels[panel].middle_x) - box->x) / cell;
-    occlusion->middle[1] = ((double)lround(camera->panels[panel].middle_y) - box->y) / cell;
+    *occlusion = (OzOcclusion){.camera = camera, .columns = box->width, .rows = box->height};
+    occlusion->middle[0] = (double)lround(camera->panels[panel].middle_x) - box->x;
+    occlusion->middle[1] = (double)lround(camera->panels[panel].middle_y) - box->y;
     size_t count = (size_t)occlusion->columns * (size_t)occlusion->rows;
     OZ_PASS(OZ_NEW(&occlusion->nearest, count));
     for (size_t i = 0; i < count; i++) {
@@ -62,7 +60,7 @@ static Piece piece_of(const OzOcclusion *occlusion, const OzBody *body, double f
             point[k] = (double)body->centre[k] + at * (double)body->axis[k];
         }
         double nearer = camera->distance / most(camera->distance - point[2], 1e-6);
-        double scale = camera->scale * nearer / occlusion->cell;
+        double scale = camera->scale * nearer;
         piece.ends[e][0] = occlusion->middle[0] + scale * point[0];
         piece.ends[e][1] = occlusion->middle[1] - scale * point[1];
         piece.radius[e] = scale * (double)body->radius;
@@ -72,53 +70,15 @@ static Piece piece_of(const OzOcclusion *occlusion, const OzBody *body, double f
     return piece;
 }
 
-/* The cells from low to high along a row or column of so many. */
-static int first_cell(double low)
+/* The pixels from low to high along a row or column of so many. */
+static int first_pixel(double low)
 {
     return (int)most(least(low, 1e6), 0); /* rounded down: not negative */
 }
 
-static int end_cell(double high, int count)
+static int end_pixel(double high, int count)
 {
     return (int)least(most(high, -1) + 1, count); /* likewise */
-}
-
-/* A sphere looks a little larger than its disc, from nearby most; pixels at the outline are painted
- * too. */
-static bool shows(const OzOcclusion *occlusion, const Piece *piece)
-{
-    double reach = 1.05 * most(piece->radius[0], piece->radius[1]) + 0.6 / occlusion->cell;
-    const double *a = piece->ends[0], *b = piece->ends[1];
-    int left = first_cell(least(a[0], b[0]) - reach), top = first_cell(least(a[1], b[1]) - reach);
-    int right = end_cell(most(a[0], b[0]) + reach, occlusion->columns);
-    int bottom = end_cell(most(a[1], b[1]) + reach, occlusion->rows);
-    float near = (float)piece->near;
-    for (int y = top; y < bottom; y++) {
-        const float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
-        int open = 0;
-        for (int x = left; x < right; x++) {
-            open |= row[x] < near;
-        }
-        if (open) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool oz_occlusion_hides(const OzOcclusion *occlusion, const OzBody *body)
-{
-    double half = (double)body->half_shaft;
-    int pieces = (int)least(ceil(half / (double)body->radius), PIECES_MOST);
-    pieces = pieces < 1 ? 1 : pieces;
-    for (int i = 0; i < pieces; i++) {
-        Piece piece = piece_of(occlusion, body, half * (2.0 * i / pieces - 1),
-                               half * (2.0 * (i + 1) / pieces - 1));
-        if (shows(occlusion, &piece)) {
-            return false;
-        }
-    }
-    return true;
 }
 
 typedef struct Span {
@@ -133,7 +93,8 @@ static void narrow(Span *span, double start, double inverse, double low, double 
     span->high = least(span->high, most(one, other));
 }
 
-/* All points within a radius of the line between a piece's ends: what it takes to cut rows out. */
+/* All points within a radius of the line between a piece's ends: what it takes
+ * to cut rows out. */
 typedef struct Stadium {
     const Piece *piece;
     double radius, length, along[2], inverse[2]; /* along: a unit vector; inverse: of its parts */
@@ -173,23 +134,106 @@ static Span span_at(const Stadium *s, double y)
     return whole;
 }
 
-/* Cells whose middle lies within the outline less half a cell's diagonal lie within it whole. Of
- * thin rods, which have no such cells, a quarter of the radius is taken off. */
+/* The rows and columns whose middles a piece, with this radius, holds. */
+typedef struct Rows {
+    Stadium stadium;
+    int first, end;
+} Rows;
+
+static Rows rows_of(const OzOcclusion *occlusion, const Piece *piece, double radius)
+{
+    double low = least(piece->ends[0][1], piece->ends[1][1]) - radius;
+    double high = most(piece->ends[0][1], piece->ends[1][1]) + radius;
+    return (Rows){stadium_of(piece, radius), first_pixel(low + 0.5),
+                  end_pixel(high - 0.5, occlusion->rows)};
+}
+
+/* A sphere looks a little larger than its disc, off the picture's middle most.
+ */
+static bool shows(const OzOcclusion *occlusion, const Piece *piece)
+{
+    double radius = 1.02 * most(piece->radius[0], piece->radius[1]) + 0.05;
+    Rows rows = rows_of(occlusion, piece, radius);
+    float near = (float)piece->near;
+    for (int y = rows.first; y < rows.end; y++) {
+        const float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
+        Span span = span_at(&rows.stadium, y + 0.5);
+        int first = first_pixel(span.low + 0.5),
+            end = end_pixel(span.high - 0.5, occlusion->columns);
+        int open = 0;
+        for (int x = first; x < end; x++) {
+            open |= row[x] < near;
+        }
+        if (open) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void cover(OzOcclusion *occlusion, const Piece *piece)
 {
-    double thin = least(piece->radius[0], piece->radius[1]);
-    Stadium stadium = stadium_of(piece, thin - least(0.71, 0.25 * thin));
-    double low = least(piece->ends[0][1], piece->ends[1][1]) - stadium.radius;
-    double high = most(piece->ends[0][1], piece->ends[1][1]) + stadium.radius;
+    double radius = 0.99 * least(piece->radius[0], piece->radius[1]) - 0.02;
+    Rows rows = rows_of(occlusion, piece, radius);
     float far = (float)piece->far;
-    for (int y = first_cell(low + 0.5); y < end_cell(high - 0.5, occlusion->rows); y++) {
+    for (int y = rows.first; y < rows.end && radius > 0; y++) {
         float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
-        Span span = span_at(&stadium, y + 0.5);
-        int first = first_cell(span.low + 0.5), end = end_cell(span.high - 0.5, occlusion->columns);
+        Span span = span_at(&rows.stadium, y + 0.5);
+        int first = first_pixel(span.low + 0.5),
+            end = end_pixel(span.high - 0.5, occlusion->columns);
         for (int x = first; x < end; x++) {
             row[x] = row[x] > far ? row[x] : far;
         }
     }
+}
+
+/* Each piece has one depth: as many as a slanting axis is deep in diameters. */
+static int pieces_of(const OzBody *body, double length)
+{
+    double deep = fabs((double)body->axis[2]) * length / (2 * (double)body->radius);
+    int pieces = (int)least(ceil(deep), PIECES_MOST);
+    return pieces < 1 ? 1 : pieces;
+}
+
+/* A box about a body, which is found to be hidden sooner; deep in a bed most are. */
+static bool box_shows(const OzOcclusion *occlusion, const Piece *piece)
+{
+    double radius = 1.02 * most(piece->radius[0], piece->radius[1]) + 0.05;
+    const double *a = piece->ends[0], *b = piece->ends[1];
+    int left = first_pixel(least(a[0], b[0]) - radius),
+        top = first_pixel(least(a[1], b[1]) - radius);
+    int right = end_pixel(most(a[0], b[0]) + radius, occlusion->columns);
+    int bottom = end_pixel(most(a[1], b[1]) + radius, occlusion->rows);
+    float near = (float)piece->near;
+    for (int y = top; y < bottom; y++) {
+        const float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
+        int open = 0;
+        for (int x = left; x < right; x++) {
+            open |= row[x] < near;
+        }
+        if (open) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool oz_occlusion_hides(const OzOcclusion *occlusion, const OzBody *body)
+{
+    double half = (double)body->half_shaft;
+    Piece whole = piece_of(occlusion, body, -half, half);
+    if (!box_shows(occlusion, &whole)) {
+        return true;
+    }
+    int pieces = pieces_of(body, 2 * half);
+    for (int i = 0; i < pieces; i++) {
+        Piece piece = piece_of(occlusion, body, half * (2.0 * i / pieces - 1),
+                               half * (2.0 * (i + 1) / pieces - 1));
+        if (shows(occlusion, &piece)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 void oz_occlusion_add(OzOcclusion *occlusion, const OzBody *body, double from, double to)
@@ -197,10 +241,7 @@ void oz_occlusion_add(OzOcclusion *occlusion, const OzBody *body, double from, d
     if (from > to) {
         return;
     }
-    /* Each piece has one depth: as many as a slanting axis is deep in radii. */
-    double deep = fabs((double)body->axis[2]) * (to - from) / (2 * (double)body->radius);
-    int pieces = (int)least(ceil(deep), PIECES_MOST);
-    pieces = pieces < 1 ? 1 : pieces;
+    int pieces = pieces_of(body, to - from);
     for (int i = 0; i < pieces; i++) {
         Piece piece = piece_of(occlusion, body, from + (to - from) * i / pieces,
                                from + (to - from) * (i + 1) / pieces);

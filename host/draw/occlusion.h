@@ -1,5 +1,6 @@
-/* Which grains others hide wholly from the eye. A coarse picture of depths that grains, nearest
- * first, fill with what they surely cover. */
+/* Which grains others hide wholly from the eye: they are the nearest in no
+ * pixel's middle. A picture of depths that grains, nearest first, fill with
+ * what they surely cover. */
 #pragma once
 
 #include "draw/camera.h"
@@ -13,23 +14,22 @@ typedef struct OzBody {
 } OzBody;
 
 typedef struct OzOcclusion {
-    const OzCamera *camera; /* borrowed                                                   */
-    float *nearest;         /* columns x rows: z of what covers a whole cell              */
+    const OzCamera *camera; /* borrowed */
+    float *nearest;         /* columns x rows: z of what covers a pixel's middle */
     int columns, rows;
-    double cell;      /* pixels: a cell's side                                      */
-    double middle[2]; /* cells: where the origin of view coordinates lies           */
+    double middle[2]; /* pixels: where the origin of view coordinates lies */
 } OzOcclusion;
 
-/* An empty picture of the box of a panel. radius: pixels, of a typical grain, to which cells are
- * fitted. Freed with oz_occlusion_free. Fails with OZ_ERR_MEMORY. */
+/* An empty picture of the box of a panel. Freed with oz_occlusion_free. Fails
+ * with OZ_ERR_MEMORY. */
 OzStatus oz_occlusion_begin(OzOcclusion *occlusion, const OzCamera *camera, int panel,
-                            const OzBox *box, double radius);
+                            const OzBox *box);
 void oz_occlusion_free(OzOcclusion *occlusion); /* zeroed is fine */
 
-/* Whether nothing of it can be seen. Grains thinner than some pixels may count as hidden where less
- * than a pixel of them shows. */
+/* Whether it is hidden in every pixel. */
 bool oz_occlusion_hides(const OzOcclusion *occlusion, const OzBody *body);
 
-/* What comes later is hidden behind the part of this body whose axis runs between these places,
- * from -half_shaft to half_shaft; nothing is where the first is the larger. */
+/* What comes later is hidden behind the part of this body whose axis runs
+ * between these places, from -half_shaft to half_shaft; nothing is where the
+ * first is the larger. */
 void oz_occlusion_add(OzOcclusion *occlusion, const OzBody *body, double from, double to);
