@@ -1,5 +1,6 @@
 /* `orzo export`, and `export` of a scene: what is written, what is refused, what an interrupted run
- * leaves to later. That readers understand the files is tests/export.sh's to try. */
+ * leaves to later. That readers understand the files is tests/export.sh's to try.
+ * ORZO_NEEDS_DEVICE. */
 #include "program.h"
 
 static const char scene[] = "model: rods\n"

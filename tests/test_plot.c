@@ -1,5 +1,5 @@
 /* `orzo plot`: a curve a column, of an ensemble one more for each member and the mean; what cannot
- * be drawn is said. */
+ * be drawn is said. ORZO_NEEDS_DEVICE. */
 #include "program.h"
 
 static const char scene[] = "model: rods\n"
@@ -34,7 +34,7 @@ static const char curve[] = "<g id=\"gnuplot_plot_";
 static void a_run_is_drawn(void **state)
 {
     (void)state;
-    assert_int_equal(orzo("run scene.yaml -o run"), 0);
+    expect(0, "", "run scene.yaml -o run");
     expect(0, "run/plot.svg", "plot run kinetic speed_max contact_count");
     assert_int_equal(count_of("run/plot.svg", curve), 3);
     assert_true(contains("run/plot.svg", "kinetic, J") && contains("run/plot.svg", "time, s"));
@@ -43,26 +43,26 @@ static void a_run_is_drawn(void **state)
     free(png);
     expect(0, "other/plot.svg", "plot run kinetic --against step -o other");
     assert_true(contains("other/plot.svg", "step"));
-    assert_int_equal(orzo("run scene.yaml -o run --overwrite"), 0);
+    expect(0, "", "run scene.yaml -o run --overwrite");
     assert_false(is_there("run/plot.png")); /* it was orzo's, and of the run before */
 }
 
 static void an_ensemble_is_drawn(void **state)
 {
     (void)state;
-    assert_int_equal(orzo("run scene.yaml --seeds 1..3 -o many"), 0);
-    assert_int_equal(orzo("plot many kinetic"), 0);
+    expect(0, "", "run scene.yaml --seeds 1..3 -o many");
+    expect(0, "", "plot many kinetic");
     assert_int_equal(count_of("many/plot.svg", curve),
                      3 + 2 + 1); /* members, interval and mean, end */
-    assert_int_equal(orzo("run scene.yaml --set 'sweep={contact.friction: [0, 0.1]}' -o swept"), 0);
-    assert_int_equal(orzo("plot swept kinetic"), 0);
+    expect(0, "", "run scene.yaml --set 'sweep={contact.friction: [0, 0.1]}' -o swept");
+    expect(0, "", "plot swept kinetic");
     assert_true(contains("swept/plot.svg", "contact.friction 0.1"));
 }
 
 static void what_cannot_be_drawn_is_said(void **state)
 {
     (void)state;
-    assert_int_equal(orzo("run scene.yaml -o kept"), 0);
+    expect(0, "", "run scene.yaml -o kept");
     expect(2, "has no column nonsense", "plot kept nonsense");
     expect(2, "column density is empty", "plot kept density");
     expect(2, "--against tap", "plot kept kinetic --against tap"); /* no wall moves */
