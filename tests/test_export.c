@@ -45,7 +45,10 @@ static void a_folder_is_exported(void **state)
     assert_true(is_there("other/contacts.pvd") && is_there("other/walls_00000.vtp"));
     assert_true(is_there("other/grains.h5") && !is_there("other/grains.xyz"));
     expect(0, "6 frames", "export again --to csv -o other");
-    assert_false(is_there("other/grains.pvd")); /* an export replaces the one before */
+    assert_true(is_there("other/grains.pvd") && is_there("other/grains_00005.csv"));
+    expect(0, "2 frames", "export again --to csv --every 5 -o other");
+    assert_true(is_there("other/grains.pvd")); /* an export replaces its own formats alone */
+    assert_true(is_there("other/grains_00001.csv") && !is_there("other/grains_00002.csv"));
 }
 
 static void what_cannot_be_is_refused(void **state)
@@ -79,6 +82,27 @@ static void a_resumed_run_exports(void **state)
     assert_true(same_files("straight/export/contacts_00005.csv", "two/export/contacts_00005.csv"));
 }
 
+/* Every wall has its surface: six faces, a belt of 64 with two lids, 32 belts of 64. */
+static void all_walls_are_exported(void **state)
+{
+    (void)state;
+    write_file("walls.yaml",
+               "model: rods\n"
+               "time: {step: 1e-4, duration: 0.01}\n"
+               "contact: {contact_time: 5e-3, restitution: 0.5}\n"
+               "grains: [{kind: random, count: 20, diameter: 1e-3, fill: 0.1}]\n"
+               "walls:\n"
+               "  - {kind: box, size: [8e-3, 8e-3, 8e-3], point: [0, 0, -4e-3]}\n"
+               "  - {kind: cylinder, diameter: 9e-3, axis: [0, 1, 0], point: [0, -3.5e-3, 0],"
+               " length: 7e-3, ends: closed}\n"
+               "  - {kind: sphere, diameter: 10e-3}\n"
+               "export: [vtk]\n");
+    assert_int_equal(orzo("run walls.yaml -o walls"), 0);
+    char polygons[64];
+    snprintf(polygons, sizeof polygons, "NumberOfPolys=\"%d\"", 6 + 64 + 2 + 32 * 64);
+    assert_true(contains("walls/export/walls_00000.vtp", polygons));
+}
+
 static void each_member_exports(void **state)
 {
     (void)state;
@@ -97,6 +121,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_is_refused),
         cmocka_unit_test(a_resumed_run_exports),
         cmocka_unit_test(each_member_exports),
+        cmocka_unit_test(all_walls_are_exported),
     };
     return cmocka_run_group_tests(tests, begin, leave_work);
 }

@@ -326,8 +326,8 @@ static OzStatus take_over(const OzFolder *folder, const OzFolderUse *use)
     OzMarker marker = {0};
     OZ_TRY(oz_marker_read(&marker, folder->path));
     OZ_TRY(check_contents(folder->path, use, &marker));
-    if (!use->keep) {
-        OZ_TRY(oz_marker_clean(folder->path));
+    if (!use->keep || use->replaces) {
+        OZ_TRY(oz_marker_clean(folder->path, use->keep ? use->replaces : NULL));
     }
     const char *names = use->keep && marker.names ? marker.names : "";
     OZ_TRY(write_marker(folder, names + strspn(names, "\n")));

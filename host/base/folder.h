@@ -3,8 +3,8 @@
  * leaves none out.
  *
  * While a command works in a folder it holds an exclusive lock (flock) on the marker, a reader a
- * shared one; the system frees it when the process dies. On a file system without locks that is said in the log, and
- * there is none. */
+ * shared one; the system frees it when the process dies. On a file system without locks that is
+ * said in the log, and there is none. */
 #pragma once
 
 #include "base/status.h"
@@ -16,10 +16,11 @@
 typedef struct OzFolderUse {
     const char *const
         *writes; /* patterns (fnmatch) of what it writes: "log.txt", "snapshots/tap_*.png" */
-    const char *const *endings; /* names of files that only a run that has ended leaves       */
-    const char *const *results; /* names that are worth keeping, also of a run that was killed */
-    bool overwrite;             /* endings, results and members' folders there may go          */
-    bool keep;                  /* what orzo wrote there stays until it is replaced, file by file */
+    const char *const *endings;  /* names of files that only a run that has ended leaves       */
+    const char *const *results;  /* names that are worth keeping, also of a run that was killed */
+    bool overwrite;              /* endings, results and members' folders there may go          */
+    const char *const *replaces; /* with keep: patterns of what goes all the same              */
+    bool keep; /* what orzo wrote there stays until it is replaced, file by file */
 } OzFolderUse;
 
 /* A folder in use. Zeroed is valid: closed. */

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <fnmatch.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -146,7 +147,7 @@ static OzStatus remove_folder(const char *folder, char *name)
     if (lstat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {
         goto done;
     }
-    OZ_TRY(oz_marker_clean(path));
+    OZ_TRY(oz_marker_clean(path, NULL));
     OZ_TRY(oz_file_join(&marker, path, OZ_MARKER));
     unlink(marker);
     rmdir(path);
@@ -156,7 +157,17 @@ done:
     return status;
 }
 
-OzStatus oz_marker_clean(const char *folder)
+/* Without patterns every name does. */
+static bool fits(const char *name, const char *const *patterns)
+{
+    bool found = !patterns;
+    for (; patterns && *patterns; patterns++) {
+        found |= fnmatch(*patterns, name, 0) == 0;
+    }
+    return found;
+}
+
+OzStatus oz_marker_clean(const char *folder, const char *const *patterns)
 {
     OzStatus status = OZ_OK;
     OzMarker marker = {0};
@@ -165,7 +176,7 @@ OzStatus oz_marker_clean(const char *folder)
     const char *at = marker.names;
     while (oz_marker_next(&at, name)) {
         bool is_folder = name[strlen(name) - 1] == '/';
-        if (is_below(name)) {
+        if (is_below(name) && fits(name, patterns)) {
             OZ_TRY(is_folder ? remove_folder(folder, name) : remove_file(folder, name));
         }
     }

@@ -31,6 +31,6 @@ bool oz_marker_next(const char **at, char name[OZ_MARKER_NAME]);
 
 bool oz_marker_has(const OzMarker *marker, const char *name);
 
-/* Removes what the folder's marker names, and in named folders what their own markers name; a
+/* Removes what the folder's marker names and one of the patterns (fnmatch; NULL: any) fits, and in named folders what their own markers name; a
  * folder stays when something else is in it. Follows no link. The folder's own marker stays. */
-OzStatus oz_marker_clean(const char *folder);
+OzStatus oz_marker_clean(const char *folder, const char *const *patterns);

@@ -61,7 +61,8 @@ static OzStatus read_kinds(Work *work, const char *list)
 
 static OzStatus open_folder(Work *work)
 {
-    OzFolderUse use = {.writes = oz_export_patterns};
+    const char *replaces[OZ_EXPORT_REPLACES];
+    OzFolderUse use = oz_export_use(work->kinds, work->kind_count, replaces);
     OZ_PASS(oz_inputs_add(&work->inputs, work->frames_path));
     OZ_PASS(oz_inputs_add_scene(&work->inputs, &work->scene));
     OZ_PASS(oz_inputs_check(&work->inputs, work->out, &use));

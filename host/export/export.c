@@ -11,9 +11,22 @@
 static const OzExportFormat *const formats[] = {OZ_EXPORTS(FORMAT)};
 #undef FORMAT
 
-const char *const oz_export_patterns[] = {
+static const char *const all_files[] = {
     "grains.xyz",   "grains.h5",   "frames.csv",     "grains_*.csv", "contacts_*.csv",
     "grains_*.vtp", "walls_*.vtp", "contacts_*.vtp", "*.pvd",        NULL};
+
+OzFolderUse oz_export_use(const OzExportKind *kinds, int count,
+                          const char *replaces[OZ_EXPORT_REPLACES])
+{
+    int used = 0;
+    for (int k = 0; k < count; k++) {
+        for (const char *const *file = formats[kinds[k]]->files; *file; file++) {
+            replaces[used++] = *file;
+        }
+    }
+    replaces[used] = NULL;
+    return (OzFolderUse){.writes = all_files, .keep = true, .replaces = replaces};
+}
 
 /* A file of frames that is being read. */
 typedef struct Reading {

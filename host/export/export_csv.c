@@ -100,4 +100,4 @@ static OzStatus add_csv(void *data, const OzSnapshot *now)
     return OZ_OK;
 }
 
-const OzExportFormat oz_export_csv_format = {"csv", open_csv, add_csv, finish_csv};
+const OzExportFormat oz_export_csv_format = {"csv", {"*.csv"}, open_csv, add_csv, finish_csv};

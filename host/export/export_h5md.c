@@ -336,4 +336,4 @@ done:
     return status;
 }
 
-const OzExportFormat oz_export_h5md_format = {"h5md", open_h5md, add_h5md, finish_h5md};
+const OzExportFormat oz_export_h5md_format = {"h5md", {NAME}, open_h5md, add_h5md, finish_h5md};

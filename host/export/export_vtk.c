@@ -284,4 +284,5 @@ static OzStatus finish_vtk(void *data)
     return status;
 }
 
-const OzExportFormat oz_export_vtk_format = {"vtk", open_vtk, add_vtk, finish_vtk};
+const OzExportFormat oz_export_vtk_format = {
+    "vtk", {"*.vtp", "*.pvd"}, open_vtk, add_vtk, finish_vtk};

@@ -93,4 +93,4 @@ static OzStatus add_xyz(void *data, const OzSnapshot *now)
     return OZ_OK;
 }
 
-const OzExportFormat oz_export_xyz_format = {"xyz", open_xyz, add_xyz, finish_xyz};
+const OzExportFormat oz_export_xyz_format = {"xyz", {NAME}, open_xyz, add_xyz, finish_xyz};

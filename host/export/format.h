@@ -15,6 +15,7 @@ typedef struct OzExport {
 /* Files of a format are whole once finish has returned OZ_OK. */
 typedef struct OzExportFormat {
     const char *name;
+    const char *files[3]; /* patterns (fnmatch) of their names, ending with NULL */
     OzStatus (*open)(void **writer, const OzExport *target); /* target outlives the writer */
     OzStatus (*add)(void *writer, const OzSnapshot *snapshot);
     OzStatus (*finish)(void *writer); /* frees, also after a failure; NULL is fine */

@@ -142,19 +142,114 @@ static OzStatus add_plane(OzSurface *s, const OzWall *wall, double offset, const
     return oz_surface_add(s, corners, 4, number);
 }
 
-/* As high as the grains reach. */
-static OzStatus add_cylinder(OzSurface *s, const OzWall *wall, const Ball *ball, int64_t number)
+/* The middle of a round wall, its axis and two directions across. */
+typedef struct Round {
+    double middle[3], axis[3], across[2][3];
+} Round;
+
+static void put_on_circle(const Round *round, double along, double radius, int step,
+                          double place[3])
 {
-    double radius = 0.5 * wall->diameter, low = ball->low, high = ball->high;
+    double angle = 2 * PI * step / AROUND;
+    for (int k = 0; k < 3; k++) {
+        place[k] = round->middle[k] + along * round->axis[k] +
+                   radius * (cos(angle) * round->across[0][k] + sin(angle) * round->across[1][k]);
+    }
+}
+
+/* A belt between two circles about the axis. */
+static OzStatus add_belt(OzSurface *s, const Round *round, const double along[2],
+                         const double radius[2], int64_t number)
+{
     for (int i = 0; i < AROUND; i++) {
-        double a = 2 * PI * i / AROUND, b = 2 * PI * (i + 1) / AROUND;
-        double corners[4][3] = {{radius * cos(a), radius * sin(a), low},
-                                {radius * cos(b), radius * sin(b), low},
-                                {radius * cos(b), radius * sin(b), high},
-                                {radius * cos(a), radius * sin(a), high}};
+        double corners[4][3];
+        for (int c = 0; c < 4; c++) {
+            put_on_circle(round, along[c / 2], radius[c / 2], i + (c == 1 || c == 2), corners[c]);
+        }
         OZ_PASS(oz_surface_add(s, corners, 4, number));
     }
     return OZ_OK;
+}
+
+/* With its ends where it has some; endless, as far as the grains reach. */
+static OzStatus add_cylinder(OzSurface *s, const OzWall *wall, const Round *round, const Ball *ball,
+                             int64_t number)
+{
+    double radius = 0.5 * wall->diameter, middle = 0, along[2] = {0, wall->length};
+    for (int k = 0; k < 3; k++) {
+        middle += (ball->middle[k] - round->middle[k]) * round->axis[k];
+    }
+    if (wall->length == 0) {
+        bool upright = oz_wall_shape_is_upright(wall);
+        along[0] = upright ? ball->low - round->middle[2] : middle - ball->radius;
+        along[1] = upright ? ball->high - round->middle[2] : middle + ball->radius;
+    }
+    for (int e = 0; wall->length > 0 && e < 2; e++) {
+        double lid[AROUND][3];
+        for (int i = 0; i < AROUND; i++) {
+            put_on_circle(round, along[e], radius, i, lid[i]);
+        }
+        OZ_PASS(oz_surface_add(s, lid, AROUND, number));
+    }
+    return add_belt(s, round, along, (double[2]){radius, radius}, number);
+}
+
+static OzStatus add_sphere(OzSurface *s, const OzWall *wall, const Round *round, int64_t number)
+{
+    double radius = 0.5 * wall->diameter;
+    for (int i = 0; i < AROUND / 2; i++) {
+        double a = 2 * PI * i / AROUND, b = 2 * PI * (i + 1) / AROUND;
+        OZ_PASS(add_belt(s, round, (double[2]){-radius * cos(a), -radius * cos(b)},
+                         (double[2]){radius * sin(a), radius * sin(b)}, number));
+    }
+    return OZ_OK;
+}
+
+static OzStatus add_box(OzSurface *s, const OzWall *wall, const double shift[3], int64_t number)
+{
+    for (int side = 0; side < 6; side++) {
+        int k = side / 2, i = (k + 1) % 3, j = (k + 2) % 3;
+        double corners[4][3];
+        for (int c = 0; c < 4; c++) {
+            double place[3];
+            place[k] = side % 2 - 0.5;
+            place[i] = (c == 1 || c == 2) - 0.5;
+            place[j] = (c >= 2) - 0.5;
+            for (int n = 0; n < 3; n++) {
+                double middle = wall->point[n] + shift[n] + (n == 2 ? wall->size[2] / 2 : 0);
+                corners[c][n] = middle + place[n] * wall->size[n];
+            }
+        }
+        OZ_PASS(oz_surface_add(s, corners, 4, number));
+    }
+    return OZ_OK;
+}
+
+static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, int w)
+{
+    const OzWall *wall = &now->scene->walls[w];
+    Round round = {.axis = {0, 0, 1}};
+    double shift[3];
+    oz_wall_shape_shift(wall, now->wall_offset[w], shift);
+    for (int k = 0; k < 3; k++) {
+        round.middle[k] = wall->point[k] + shift[k];
+    }
+    if (wall->kind == OZ_WALL_CYLINDER) {
+        oz_wall_shape_axis(wall, round.axis);
+    }
+    find_across(round.axis, round.across[0], round.across[1]);
+    switch (wall->kind) {
+    case OZ_WALL_PLANE:
+        return add_plane(s, wall, now->wall_offset[w], ball, w);
+    case OZ_WALL_CYLINDER:
+        return add_cylinder(s, wall, &round, ball, w);
+    case OZ_WALL_SPHERE:
+        return add_sphere(s, wall, &round, w);
+    case OZ_WALL_BOX:
+        return add_box(s, wall, shift, w);
+    default:
+        return OZ_OK;
+    }
 }
 
 OzStatus oz_surface_add_walls(OzSurface *s, const OzSnapshot *now)
@@ -164,12 +259,7 @@ OzStatus oz_surface_add_walls(OzSurface *s, const OzSnapshot *now)
         return add_flat_walls(s, now);
     }
     for (int w = 0; w < now->scene->wall_count; w++) {
-        const OzWall *wall = &now->scene->walls[w];
-        if (wall->kind == OZ_WALL_PLANE) {
-            OZ_PASS(add_plane(s, wall, now->wall_offset[w], &ball, w));
-        } else if (oz_wall_shape_is_upright(wall)) {
-            OZ_PASS(add_cylinder(s, wall, &ball, w));
-        }
+        OZ_PASS(add_wall(s, now, &ball, w));
     }
     return OZ_OK;
 }

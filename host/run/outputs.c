@@ -269,7 +269,8 @@ OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
 static OzStatus export_frames(const OzOutputs *o)
 {
     OzStatus status = OZ_OK;
-    OzFolderUse use = {.writes = oz_export_patterns};
+    const char *replaces[OZ_EXPORT_REPLACES];
+    OzFolderUse use = oz_export_use(o->scene.exports, o->scene.export_count, replaces);
     OzFolder owned = {0};
     char *frames = NULL, *folder = NULL;
     int64_t count = 0;
