@@ -28,8 +28,7 @@ choose() {
     case ${1:-} in
     '') cat "$folder/all" ;;
     --sample)
-        grep -lE '#include "(compute/device|sim/sim|run/run|device_rig)\.h|ORZO_NEEDS_DEVICE' \
-            tests/test_*.c | sed 's,.*/,,; s,\.c$,,' >"$folder/device"
+        device_test_files | sed 's,.*/,,; s,\.c$,,' >"$folder/device"
         grep -vwFf "$folder/device" "$folder/all" | awk -F '\t' '$3 == "caught"' >"$folder/host"
         awk -v wanted="$2" -v all="$(wc -l <"$folder/host")" \
             'int(NR * wanted / all) > int((NR - 1) * wanted / all)' "$folder/host"

@@ -5,10 +5,11 @@
 cd "$(dirname "$0")/.." || exit 1
 . tests/setup.sh
 
-# Test programs that open a device, run whole scenes or say that they need one, as a pattern for ctest.
+# Test programs that need a device, as a pattern for ctest. The leak checker now and then dies of the driver's threads,
+# so that these, and the short run below, go without it; tests/leaks.h counts what a run gives back.
 device_tests() {
     pattern='^none$'
-    for file in $(grep -lE '#include "(compute/device|sim/sim|run/run)\.h|ORZO_NEEDS_DEVICE' tests/test_*.c); do
+    for file in $(device_test_files); do
         pattern="$pattern|^$(basename "$file" .c)\$"
     done
     printf '%s' "$pattern"
@@ -26,7 +27,8 @@ export UBSAN_OPTIONS=print_stacktrace=1
 ctest --test-dir build-sanitize --parallel "$(nproc)" --output-on-failure -E "$(device_tests)" ||
     stop "tests failed (Sanitize)"
 say "one short run on a device (Sanitize)"
-build-sanitize/orzo run scenes/two_rods.yaml -o build-sanitize/smoke --overwrite --device cpu ||
+ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 \
+    build-sanitize/orzo run scenes/two_rods.yaml -o build-sanitize/smoke --overwrite --device cpu ||
     stop "the short run on a device failed (Sanitize)"
 
 say "fuzzing what is read, 20 s each"

@@ -73,3 +73,9 @@ build_orzo() {
     cmake --build "$1" >"$log" 2>&1 ||
         { cat "$log" >&2; stop "the build in $1/ failed"; }
 }
+
+# The sources of the tests that open a device or run whole scenes: they name a device, or say that they need one.
+device_test_files() {
+    grep -lE 'OzDevice|#include "(compute/device|device_rig|sim/sim|run/run)\.h|ORZO_NEEDS_DEVICE' \
+        tests/test_*.c
+}
