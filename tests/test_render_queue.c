@@ -8,6 +8,8 @@
 
 #include <dirent.h>
 #include <math.h>
+#include <semaphore.h>
+#include <time.h>
 
 enum { PICTURES = 2 * OZ_RENDER_QUEUE_JOBS + 3 };
 
@@ -221,7 +223,7 @@ static void draw_on(Show *show, const char *folder, bool anew, OzState *state)
         must(oz_render_queue_add(show->render_queue, pictures, &show->now, both));
     }
     OzStateVisit visit = state->count == 0 ? oz_state_save(state) : oz_state_load(state);
-    must(oz_render_queue_state(show->render_queue, pictures, &show->grains, &visit));
+    must(oz_render_queue_state(show->render_queue, pictures, &show->now, &visit));
     must(oz_state_finish(&visit));
     set_moment(show, 9);
     must(oz_render_queue_add(show->render_queue, pictures, &show->now, both));
@@ -264,7 +266,7 @@ static void add_moments(Show *show, OzPictures *pictures, int first, int last)
 static void visit_pictures(Show *show, OzPictures *pictures, OzState *state)
 {
     OzStateVisit visit = state->count == 0 ? oz_state_save(state) : oz_state_load(state);
-    must(oz_render_queue_state(show->render_queue, pictures, &show->grains, &visit));
+    must(oz_render_queue_state(show->render_queue, pictures, &show->now, &visit));
     must(oz_state_finish(&visit));
 }
 
@@ -296,6 +298,91 @@ static void test_movie_goes_on(void **state)
     assert_true(is_playable("killed/movie.mp4"));
     assert_true(same_files("whole/movie.mp4", "killed/movie.mp4"));
     assert_int_equal(count_entries("killed"), 1);
+}
+
+/* One who looks on and holds up the first picture until it is let go. */
+typedef struct Gate {
+    sem_t opened;
+    bool is_passed, gave_up; /* gave up: a test that fails must end */
+} Gate;
+
+static bool wants(void *context)
+{
+    (void)context;
+    return true;
+}
+
+static void hold(void *context, const OzImage *image)
+{
+    Gate *gate = context;
+    struct timespec end;
+    (void)image;
+    clock_gettime(CLOCK_REALTIME, &end);
+    end.tv_sec += 20;
+    gate->gave_up = !gate->is_passed && sem_timedwait(&gate->opened, &end) != 0;
+    gate->is_passed = true;
+}
+
+static void set_colour(Show *show, const char *colour)
+{
+    const char *set[] = {colour};
+    oz_scene_free(&show->scene);
+    must(oz_scene_parse(&show->scene, "show.yaml", text, (char *const *)(uintptr_t)set, 1));
+}
+
+/* Pictures 0 to JOBS - 1 before the change and one after it, drawn on the spot. */
+static void draw_changed(Show *show, const char *folder)
+{
+    OzPicturesSettings settings;
+    OzScene next;
+    set_colour(show, "movie.colour=angle");
+    OzPictures *pictures = open_gallery(show, &settings, folder, false);
+    for (int i = 0; i <= OZ_RENDER_QUEUE_JOBS; i++) {
+        set_moment(show, i);
+        if (i == OZ_RENDER_QUEUE_JOBS) {
+            set_colour(show, "movie.colour=type");
+            must(oz_scene_copy(&next, &show->scene));
+            oz_pictures_take(pictures, &next, "");
+        }
+        must(oz_pictures_add(pictures, &show->now, OZ_FRAME_MOVIE | OZ_FRAME_SNAPSHOT));
+    }
+    must(oz_pictures_finish(pictures));
+}
+
+/* A change is handed in at once, however many pictures wait, and these show the scene before it. */
+static void test_change_waits_for_no_picture(void **state)
+{
+    (void)state;
+    const int both = OZ_FRAME_MOVIE | OZ_FRAME_SNAPSHOT;
+    Gate gate = {0};
+    Show show;
+    OzPicturesSettings settings;
+    open_show(&show);
+    sem_init(&gate.opened, 0, 0);
+    draw_changed(&show, "spot");
+    set_colour(&show, "movie.colour=angle");
+    OzPictures *pictures = open_gallery(&show, &settings, "queued", true);
+    settings.live = oz_render_queue_live(show.render_queue);
+    settings.live->watcher = (OzLiveWatcher){wants, hold, &gate};
+    for (int i = 0; i < OZ_RENDER_QUEUE_JOBS; i++) {
+        set_moment(&show, i);
+        must(oz_render_queue_add(show.render_queue, pictures, &show.now, both));
+    }
+    set_colour(&show, "movie.colour=type");
+    must(oz_render_queue_take(show.render_queue, pictures, &show.scene, ""));
+    assert_int_equal(count_entries("queued/snapshots"), 0);
+    sem_post(&gate.opened);
+    set_moment(&show, OZ_RENDER_QUEUE_JOBS);
+    must(oz_render_queue_add(show.render_queue, pictures, &show.now, both));
+    must(oz_render_queue_finish(show.render_queue, pictures));
+    close_show(&show);
+    sem_destroy(&gate.opened);
+    assert_false(gate.gave_up);
+    assert_true(same_files("spot/movie.mp4", "queued/movie.mp4"));
+    assert_true(
+        same_files("spot/snapshots/time_0.007000.png", "queued/snapshots/time_0.007000.png"));
+    assert_true(
+        same_files("spot/snapshots/time_0.008000.png", "queued/snapshots/time_0.008000.png"));
 }
 
 /* A picture that cannot be written fails a later call with its text, and the movie so far is whole.
@@ -333,6 +420,7 @@ int main(void)
         cmocka_unit_test(test_queue_is_bounded),
         cmocka_unit_test(test_taken_up_again),
         cmocka_unit_test(test_movie_goes_on),
+        cmocka_unit_test(test_change_waits_for_no_picture),
         cmocka_unit_test(test_failure_comes_back),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);

@@ -17,7 +17,7 @@
 
 struct OzPictures {
     const OzPicturesSettings *settings;
-    const OzScene *scene;
+    OzScene scene;
     OzRenderer *renderer; /* owned unless shared */
     OzLook look, still;   /* of the movie, of single pictures */
     OzImage image, still_image;
@@ -42,11 +42,14 @@ typedef struct Trial {
 OzStatus oz_pictures_create(OzPictures **pictures, const OzPicturesSettings *settings,
                             const OzScene *scene)
 {
-    OzStatus status = OZ_NEW(pictures, 1);
-    if (status == OZ_OK) {
-        (*pictures)->settings = settings;
-        (*pictures)->scene = scene;
-        (*pictures)->decimals = oz_picture_name_decimals(scene);
+    OZ_PASS(OZ_NEW(pictures, 1));
+    (*pictures)->settings = settings;
+    (*pictures)->decimals = oz_picture_name_decimals(scene);
+    OzStatus status = oz_scene_copy(&(*pictures)->scene, scene);
+    if (status != OZ_OK) {
+        oz_scene_free(&(*pictures)->scene);
+        free(*pictures);
+        *pictures = NULL;
     }
     return status;
 }
@@ -69,13 +72,13 @@ static OzStatus open_renderer(OzPictures *pictures)
 
 void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot)
 {
-    pictures->look = oz_renderer_look(pictures->scene, snapshot);
+    pictures->look = oz_renderer_look(&pictures->scene, snapshot);
     if (pictures->has_frame) {
         oz_framing_keep(&pictures->look, &pictures->frame);
     }
     pictures->frame = pictures->look;
     pictures->has_frame = true;
-    pictures->still = oz_framing_still(pictures->scene, &pictures->look);
+    pictures->still = oz_framing_still(&pictures->scene, &pictures->look);
     pictures->is_framed = true;
 }
 
@@ -102,8 +105,8 @@ static OzStatus open_movie(OzPictures *pictures)
 {
     OzStatus status = OZ_OK;
     char *path = NULL, seed[32];
-    const char *title = pictures->scene->title ? pictures->scene->title : pictures->scene->name;
-    snprintf(seed, sizeof seed, "%llu", (unsigned long long)pictures->scene->seed);
+    const char *title = pictures->scene.title ? pictures->scene.title : pictures->scene.name;
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)pictures->scene.seed);
     const char *metadata[] = {"title",
                               title,
                               "comment",
@@ -119,7 +122,7 @@ static OzStatus open_movie(OzPictures *pictures)
                               NULL};
     OZ_TRY(claim_movie(&path, pictures));
     OZ_TRY(oz_movie_create(&pictures->movie, path, pictures->look.width, pictures->look.height,
-                           pictures->scene->movie.fps, metadata));
+                           pictures->scene.movie.fps, metadata));
 done:
     free(path);
     return status;
@@ -199,7 +202,7 @@ done:
 static OzStatus draw_strobe(OzPictures *pictures)
 {
     OzLook look = pictures->still;
-    look.strobe = pictures->scene->snapshots.strobe;
+    look.strobe = pictures->scene.snapshots.strobe;
     if (pictures->state_count > 0) {
         OZ_PASS(
             draw(pictures, pictures->states, pictures->state_count, &look, &pictures->still_image));
@@ -217,7 +220,7 @@ static OzStatus add_picture(OzPictures *pictures, const OzSnapshot *snapshot, bo
     } else {
         OZ_PASS(draw(pictures, snapshot, 1, &pictures->still, image));
     }
-    oz_picture_name_make(pictures->scene, snapshot->time, pictures->decimals, name, sizeof name);
+    oz_picture_name_make(&pictures->scene, snapshot->time, pictures->decimals, name, sizeof name);
     return write_image(pictures, image, name);
 }
 
@@ -231,12 +234,12 @@ static OzStatus draw_on_trial(void *argument)
     OzPictures *pictures = trial->pictures;
     OZ_PASS(open_renderer(pictures));
     oz_pictures_frame(pictures, trial->snapshot);
-    if (pictures->scene->snapshots.count > 0 && !looks_are_one(pictures)) {
+    if (pictures->scene.snapshots.count > 0 && !looks_are_one(pictures)) {
         OZ_PASS(draw(pictures, trial->snapshot, 1, &pictures->still, &pictures->still_image));
     }
     OZ_PASS(draw(pictures, trial->snapshot, 1, &pictures->look, &pictures->image));
     double start = oz_clock_now();
-    bool tries_movie = pictures->scene->movie.present && !pictures->movie; /* none that goes on */
+    bool tries_movie = pictures->scene.movie.present && !pictures->movie; /* none that goes on */
     for (int i = 0; tries_movie && i < FRAMES; i++) {
         OZ_PASS(oz_clock_now() - start < longest ? add_to_movie(pictures) : OZ_OK);
     }
@@ -254,7 +257,7 @@ static OzStatus try_drawing(OzPictures *pictures, const OzSnapshot *snapshot)
         return OZ_OK;
     }
     status = oz_tryout_run(draw_on_trial, &trial);
-    if (pictures->scene->movie.present && !pictures->movie &&
+    if (pictures->scene.movie.present && !pictures->movie &&
         oz_file_join(&part, pictures->settings->folder, "movie.mp4.part") == OZ_OK) {
         remove(part); /* the trial's */
     }
@@ -266,20 +269,22 @@ static void show(const OzPictures *pictures)
 {
     const OzPicturesSettings *settings = pictures->settings;
     if (settings->live) {
-        oz_live_show(settings->live, &pictures->image, pictures->scene->movie.fps,
-                     settings->folder);
+        oz_live_show(settings->live, &pictures->image, pictures->scene.movie.fps, settings->folder);
     }
 }
 
-void oz_pictures_take(OzPictures *pictures, const char *caption)
+void oz_pictures_take(OzPictures *pictures, OzScene *next, const char *caption)
 {
     const double seconds = 2;
+    oz_scene_free(&pictures->scene);
+    pictures->scene = *next;
+    *next = (OzScene){0};
     pictures->is_framed = false;
-    pictures->decimals = oz_picture_name_decimals(pictures->scene);
+    pictures->decimals = oz_picture_name_decimals(&pictures->scene);
     oz_image_free(&pictures->still_image); /* of another size, perhaps */
     if (caption[0]) {
         snprintf(pictures->caption, sizeof pictures->caption, "%s", caption);
-        pictures->caption_frames = (int64_t)(seconds * pictures->scene->movie.fps);
+        pictures->caption_frames = (int64_t)(seconds * pictures->scene.movie.fps);
     }
 }
 
@@ -294,9 +299,12 @@ static OzStatus draw_frame(OzPictures *pictures, const OzSnapshot *snapshot)
     return draw(pictures, snapshot, 1, &look, &pictures->image);
 }
 
-OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose)
+OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *added, int purpose)
 {
     double start = oz_clock_now();
+    OzSnapshot shown = *added; /* the same arrays */
+    const OzSnapshot *snapshot = &shown;
+    shown.scene = &pictures->scene;
     if (!pictures->renderer) {
         OZ_PASS(try_drawing(pictures, snapshot));
         OZ_PASS(open_renderer(pictures));
@@ -330,7 +338,7 @@ static OzStatus strobe_state(OzPictures *pictures, const OzGrains *grains, OzSta
     }
     for (int64_t i = 0; i < count; i++) {
         if (i == pictures->state_count) {
-            OZ_PASS(oz_snapshot_create(&pictures->states[i], pictures->scene, grains));
+            OZ_PASS(oz_snapshot_create(&pictures->states[i], &pictures->scene, grains));
             pictures->state_count++;
         }
         oz_state_enter_one(visit, "strobe", i);
@@ -361,13 +369,24 @@ static OzStatus caption_state(OzPictures *pictures, OzStateVisit *visit)
     return OZ_OK;
 }
 
-OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit)
+/* Loading takes the scene as it is now. */
+static OzStatus scene_state(OzPictures *pictures, const OzScene *scene, const OzStateVisit *visit)
 {
+    if (!visit->is_loading) {
+        return OZ_OK;
+    }
+    oz_scene_free(&pictures->scene);
+    return oz_scene_copy(&pictures->scene, scene);
+}
+
+OzStatus oz_pictures_state(OzPictures *pictures, const OzSnapshot *now, OzStateVisit *visit)
+{
+    OZ_PASS(scene_state(pictures, now->scene, visit));
     OZ_PASS(oz_state_enter(visit, "pictures", 3));
     OZ_PASS(oz_state_bool(visit, "has_frame", &pictures->has_frame));
     OZ_PASS(oz_framing_state(&pictures->frame, visit));
     OZ_PASS(caption_state(pictures, visit));
-    OZ_PASS(strobe_state(pictures, grains, visit));
+    OZ_PASS(strobe_state(pictures, now->grains, visit));
     OZ_PASS(movie_state(pictures, visit));
     oz_state_leave(visit);
     return OZ_OK;
@@ -404,6 +423,7 @@ OzStatus oz_pictures_finish(OzPictures *pictures)
     }
     oz_image_free(&pictures->image);
     oz_image_free(&pictures->still_image);
+    oz_scene_free(&pictures->scene);
     free(pictures);
     return status;
 }

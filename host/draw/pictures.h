@@ -20,26 +20,29 @@ typedef struct OzPicturesSettings {
     OzLive *live;          /* is shown the movie's frames; borrowed, NULL: nobody           */
 } OzPicturesSettings;
 
-/* settings and scene are borrowed and must outlive the pictures. */
+/* settings are borrowed and must outlive the pictures; of the scene they keep a copy. */
 OzStatus oz_pictures_create(OzPictures **pictures, const OzPicturesSettings *settings,
                             const OzScene *scene);
 
 /* Fixes the framing of all pictures by this snapshot; left out, the first one added does. */
 void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot);
 
-/* Draws a snapshot and hands it to the movie and (or) writes it into snapshots/ (names:
- * draw/picture_name.h) in the look of `snapshots`; purpose: OZ_FRAME_ bits of observe/frames.h. Of
- * those for the strobe copies are kept, at most OZ_PICTURES_STATES of them. */
+/* Draws a snapshot, by the pictures' own scene and not by the snapshot's, and hands it to the movie
+ * and (or) writes it into snapshots/ (names: draw/picture_name.h) in the look of `snapshots`;
+ * purpose: OZ_FRAME_ bits of observe/frames.h. Of those for the strobe copies are kept, at most
+ * OZ_PICTURES_STATES of them. */
 OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose);
 
-/* The scene has changed: pictures keep their framing and take its colours and views from now on,
- * and the movie shows the caption (empty: none) for two seconds. None may wait to be drawn. */
-void oz_pictures_take(OzPictures *pictures, const char *caption);
+/* Another scene takes over: it becomes the pictures' own, and *next empty. They keep their framing
+ * and take its colours and views from now on, and the movie shows the caption (empty: none) for two
+ * seconds. */
+void oz_pictures_take(OzPictures *pictures, OzScene *next, const char *caption);
 
 /* Saves or loads (base/state.h) all that later pictures depend on: the framing, the states kept for
- * the strobe, of these grains, and the movie (oz_movie_state: saving puts all its frames so far on
- * the disk, loading goes on with the movie that is in the folder). */
-OzStatus oz_pictures_state(OzPictures *pictures, const OzGrains *grains, OzStateVisit *visit);
+ * the strobe, and the movie (oz_movie_state: saving puts all its frames so far on the disk, loading
+ * goes on with the movie that is in the folder). The snapshot has the grains of those states;
+ * loading copies its scene, whose walls move as they did by then. */
+OzStatus oz_pictures_state(OzPictures *pictures, const OzSnapshot *now, OzStateVisit *visit);
 
 /* The movie's last frame once more; there must be one. */
 OzStatus oz_pictures_repeat(OzPictures *pictures);

@@ -16,11 +16,16 @@
 /* Copies in the queue take no more than this, unless two do, bytes. */
 static const double WAITING_MOST = 64e6;
 
-/* A picture to draw, or with purpose 0 pictures to finish. */
+enum { ROOM = 2 * OZ_RENDER_QUEUE_JOBS }; /* pictures, and what need not wait for them */
+
+/* What is to be done with pictures. */
 typedef struct Job {
     OzPictures *pictures;
-    OzSnapshot snapshot;
+    enum { DRAW, TAKE, FINISH } kind;
+    OzSnapshot snapshot; /* to draw, for this purpose */
     int purpose;
+    OzScene scene; /* to take, with this caption */
+    char caption[200];
 } Job;
 
 struct OzRenderQueue {
@@ -28,9 +33,9 @@ struct OzRenderQueue {
     pthread_mutex_t lock;   /* of everything below, but for the renderer */
     pthread_cond_t changed; /* what was added or done, or closing */
     bool started, closing;
-    Job jobs[OZ_RENDER_QUEUE_JOBS]; /* number n is in place n % OZ_RENDER_QUEUE_JOBS */
-    int64_t added, done;            /* so many so far; the difference waits or is in hand */
-    OzStatus failure;               /* the first, with its text */
+    Job jobs[ROOM];      /* number n is in place n % ROOM */
+    int64_t added, done; /* so many so far; the difference waits or is in hand */
+    OzStatus failure;    /* the first, with its text */
     char text[2048];
     OzRenderQueueTimes times;
     OzRenderer *renderer; /* of the thread alone */
@@ -75,7 +80,7 @@ static Job *take(OzRenderQueue *render_queue)
         pthread_cond_wait(&render_queue->changed, &render_queue->lock);
     }
     bool any = render_queue->added > render_queue->done;
-    Job *job = any ? &render_queue->jobs[render_queue->done % OZ_RENDER_QUEUE_JOBS] : NULL;
+    Job *job = any ? &render_queue->jobs[render_queue->done % ROOM] : NULL;
     unlock(render_queue);
     return job;
 }
@@ -84,6 +89,7 @@ static Job *take(OzRenderQueue *render_queue)
 static void put_away(OzRenderQueue *render_queue, Job *job, OzStatus status)
 {
     oz_snapshot_free(&job->snapshot);
+    oz_scene_free(&job->scene);
     lock(render_queue);
     if (status != OZ_OK && render_queue->failure == OZ_OK) {
         render_queue->failure = status;
@@ -106,6 +112,21 @@ static OzStatus finish(OzRenderQueue *render_queue, OzPictures *pictures)
     return status;
 }
 
+static OzStatus serve(OzRenderQueue *render_queue, Job *job)
+{
+    if (job->kind == FINISH) {
+        return finish(render_queue, job->pictures);
+    }
+    if (render_queue->failure != OZ_OK) { /* which this thread alone writes */
+        return OZ_OK;
+    }
+    if (job->kind == TAKE) {
+        oz_pictures_take(job->pictures, &job->scene, job->caption);
+        return OZ_OK;
+    }
+    return oz_pictures_add(job->pictures, &job->snapshot, job->purpose);
+}
+
 static void *work(void *argument)
 {
     OzRenderQueue *render_queue = argument;
@@ -113,13 +134,7 @@ static void *work(void *argument)
      * its cores to them. GL's and the encoder's own threads inherit this. */
     setpriority(PRIO_PROCESS, (id_t)gettid(), 10);
     for (Job *job = take(render_queue); job; job = take(render_queue)) {
-        OzStatus status = OZ_OK;
-        if (job->purpose == 0) {
-            status = finish(render_queue, job->pictures);
-        } else if (render_queue->failure == OZ_OK) { /* which this thread alone writes */
-            status = oz_pictures_add(job->pictures, &job->snapshot, job->purpose);
-        }
-        put_away(render_queue, job, status);
+        put_away(render_queue, job, serve(render_queue, job));
     }
     oz_renderer_free(render_queue->renderer);
     return NULL;
@@ -151,7 +166,7 @@ static void push(OzRenderQueue *render_queue, const Job *job, int most)
     while (render_queue->added - render_queue->done >= most) {
         pthread_cond_wait(&render_queue->changed, &render_queue->lock);
     }
-    render_queue->jobs[render_queue->added++ % OZ_RENDER_QUEUE_JOBS] = *job;
+    render_queue->jobs[render_queue->added++ % ROOM] = *job;
     pthread_cond_broadcast(&render_queue->changed);
 }
 
@@ -176,7 +191,7 @@ OzStatus oz_render_queue_add(OzRenderQueue *render_queue, OzPictures *pictures,
                              const OzSnapshot *snapshot, int purpose)
 {
     OzStatus status = OZ_OK;
-    Job job = {.pictures = pictures, .purpose = purpose};
+    Job job = {.pictures = pictures, .kind = DRAW, .purpose = purpose};
     double begin = oz_clock_now();
     lock(render_queue);
     OZ_TRY(tell_failure(render_queue));
@@ -191,14 +206,14 @@ done:
 
 OzStatus oz_render_queue_finish(OzRenderQueue *render_queue, OzPictures *pictures)
 {
-    Job job = {.pictures = pictures};
+    Job job = {.pictures = pictures, .kind = FINISH};
     OzStatus status = OZ_OK;
     if (!render_queue || !pictures) {
         return OZ_OK;
     }
     lock(render_queue);
     if (render_queue->started) {
-        push(render_queue, &job, OZ_RENDER_QUEUE_JOBS);
+        push(render_queue, &job, ROOM);
         wait_for_all(render_queue);
         status = tell_failure(render_queue);
     } else {
@@ -208,20 +223,33 @@ OzStatus oz_render_queue_finish(OzRenderQueue *render_queue, OzPictures *picture
     return status;
 }
 
-OzStatus oz_render_queue_wait(OzRenderQueue *render_queue, OzPictures *pictures)
+OzStatus oz_render_queue_take(OzRenderQueue *render_queue, OzPictures *pictures,
+                              const OzScene *scene, const char *caption)
 {
+    OzStatus status = OZ_OK;
+    Job job = {.pictures = pictures, .kind = TAKE};
     if (!render_queue || !pictures) {
         return OZ_OK;
     }
+    snprintf(job.caption, sizeof job.caption, "%s", caption);
     lock(render_queue);
-    wait_for_all(render_queue);
-    OzStatus status = tell_failure(render_queue);
+    OZ_TRY(tell_failure(render_queue));
+    OZ_TRY(oz_scene_copy(&job.scene, scene));
+    if (render_queue->started) {
+        push(render_queue, &job, ROOM);
+    } else {
+        oz_pictures_take(pictures, &job.scene, caption);
+    }
+done:
     unlock(render_queue);
+    if (status != OZ_OK) {
+        oz_scene_free(&job.scene);
+    }
     return status;
 }
 
 OzStatus oz_render_queue_state(OzRenderQueue *render_queue, OzPictures *pictures,
-                               const OzGrains *grains, OzStateVisit *visit)
+                               const OzSnapshot *now, OzStateVisit *visit)
 {
     OzStatus status = OZ_OK;
     if (!render_queue || !pictures) {
@@ -230,7 +258,7 @@ OzStatus oz_render_queue_state(OzRenderQueue *render_queue, OzPictures *pictures
     lock(render_queue);
     wait_for_all(render_queue);
     OZ_TRY(tell_failure(render_queue));
-    OZ_TRY(oz_pictures_state(pictures, grains, visit));
+    OZ_TRY(oz_pictures_state(pictures, now, visit));
 done:
     unlock(render_queue);
     return status;

@@ -5,9 +5,7 @@
 
 #include "draw/pictures.h"
 
-enum {
-    OZ_RENDER_QUEUE_JOBS = 8
-}; /* pictures that may wait or be in hand: a second or so of drawing */
+enum { OZ_RENDER_QUEUE_JOBS = 8 }; /* pictures that may wait or be in hand: a second's drawing */
 
 typedef struct OzRenderQueue OzRenderQueue;
 
@@ -36,14 +34,16 @@ OzLive *oz_render_queue_live(OzRenderQueue *render_queue);
 OzStatus oz_render_queue_add(OzRenderQueue *render_queue, OzPictures *pictures,
                              const OzSnapshot *snapshot, int purpose);
 
-/* Until every picture that waits is drawn; NULL for either is fine. Fails with the first failure so
- * far. */
-OzStatus oz_render_queue_wait(OzRenderQueue *render_queue, OzPictures *pictures);
+/* oz_pictures_take of a copy of the scene, once the pictures that wait are drawn by the scene
+ * before it; does not wait for them, but for room where as many changes wait as pictures may. NULL
+ * for either of the first two is fine. Fails with the first failure so far. */
+OzStatus oz_render_queue_take(OzRenderQueue *render_queue, OzPictures *pictures,
+                              const OzScene *scene, const char *caption);
 
-/* oz_pictures_state once every picture that waits is drawn; NULL for either visits nothing. Fails
- * with the first failure so far. */
+/* oz_pictures_state once every picture that waits is drawn; NULL for either of the first two visits
+ * nothing. Fails with the first failure so far. */
 OzStatus oz_render_queue_state(OzRenderQueue *render_queue, OzPictures *pictures,
-                               const OzGrains *grains, OzStateVisit *visit);
+                               const OzSnapshot *now, OzStateVisit *visit);
 
 /* oz_pictures_finish after every picture that waits; NULL for either is fine. Fails with the first
  * failure so far, and the movie holds the frames before it. */

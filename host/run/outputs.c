@@ -188,14 +188,12 @@ OzStatus oz_outputs_take(OzOutputs *outputs, OzScene *next, const char *caption)
 {
     bool wanted = next->movie.present && next->movie.captions;
     if (outputs->is_open) {
-        OZ_PASS(oz_render_queue_wait(outputs->render_queue, outputs->pictures));
+        OZ_PASS(oz_render_queue_take(outputs->render_queue, outputs->pictures, next,
+                                     wanted ? caption : ""));
     }
     oz_scene_free(&outputs->scene);
     outputs->scene = *next;
     *next = (OzScene){0};
-    if (outputs->is_open && outputs->pictures) {
-        oz_pictures_take(outputs->pictures, wanted ? caption : "");
-    }
     if (outputs->is_open) {
         oz_series_take(outputs->series);
     }

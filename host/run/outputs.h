@@ -26,8 +26,7 @@ typedef enum OzOutcome {
  * member, what saves or loads what it remembers of them, what closes it), of OzOutputs *o and
  * OzStateVisit *visit. What later rows or pictures depend on belongs to one of these. */
 #define OZ_OUTPUTS_OWNERS(X)                                                                       \
-    X(OzPictures, pictures,                                                                        \
-      oz_render_queue_state(o->render_queue, o->pictures, &o->grains, visit),                      \
+    X(OzPictures, pictures, oz_render_queue_state(o->render_queue, o->pictures, &o->now, visit),   \
       oz_render_queue_finish(o->render_queue, o->pictures))                                        \
     X(OzFrames, frames, oz_frames_state(o->frames, visit), oz_frames_finish(o->frames))            \
     X(OzContactRows, contact_rows, oz_contact_rows_state(o->contact_rows, visit),                  \
