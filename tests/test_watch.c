@@ -186,6 +186,43 @@ static void test_base_and_motion(void **state)
     run_again("based");
 }
 
+/* A run that ends when it is stopped, or when a change gives it an end; it can go on, and be
+ * repeated up to where it was stopped. */
+static void test_endless(void **state)
+{
+    (void)state;
+    char text[sizeof bed + 100];
+    snprintf(text, sizeof text, "%s", bed);
+    char *taps = strstr(text, "taps: 2}"), tail[sizeof bed];
+    snprintf(tail, sizeof tail, "%s", taps + strlen("taps: 2}"));
+    *taps = '\0';
+    write_file("bed.yaml", "%sduration: endless}%s", text, tail);
+    pid_t child = start("run bed.yaml -o stopped --no-video");
+    await("said", "first step");
+    await("said", "until it is stopped");
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    assert_true(contains("stopped/scene.yaml", "duration: endless"));
+    assert_reloads("stopped/reloads.csv", "key,old,new\nend,,interrupted\n");
+    child = start("resume stopped");
+    await("said", "until it is stopped");
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    run_again("stopped");
+    child = start("run bed.yaml -o given --watch --no-video");
+    await("said", "first step");
+    write_file("bed.yaml", "%staps: 3}%s", text, tail);
+    assert_int_equal(end_of(child), 0);
+    assert_reloads("given/reloads.csv",
+                   "key,old,new\ntime.duration,endless,\ntime.taps,,3\nend,,done\n");
+    run_again("given");
+    write_file("bed.yaml", "%sduration: endless}%s", text, tail);
+    assert_int_equal(end_of(start("run bed.yaml -o seeds --seeds 1..2")), 2);
+    assert_true(contains("said", "an endless run of an ensemble"));
+    assert_int_equal(end_of(start("run bed.yaml -o seeds --seeds 1..2 --until 1e-3 --no-video")),
+                     0);
+}
+
 /* SIGHUP reads the file again without --watch, which nobody else does. */
 static void test_signal(void **state)
 {
@@ -298,9 +335,13 @@ static void test_members(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),   cmocka_unit_test(test_base_and_motion),
-        cmocka_unit_test(test_signal),  cmocka_unit_test(test_replay_of_others),
-        cmocka_unit_test(test_members), cmocka_unit_test(test_resumed),
+        cmocka_unit_test(test_edits),
+        cmocka_unit_test(test_base_and_motion),
+        cmocka_unit_test(test_endless),
+        cmocka_unit_test(test_signal),
+        cmocka_unit_test(test_replay_of_others),
+        cmocka_unit_test(test_members),
+        cmocka_unit_test(test_resumed),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
 }

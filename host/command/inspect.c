@@ -80,9 +80,12 @@ static void print_heading(FILE *file, const OzScene *scene)
 
 static void print_steps(FILE *file, const OzScene *scene)
 {
-    fprintf(file, "integrator         %s, step %g s, %.0f steps\n",
-            oz_keys_choice_name("integrator", (int)scene->integrator), scene->step,
-            round(scene->duration / scene->step));
+    char steps[32] = "endless";
+    if (isfinite(scene->duration)) {
+        snprintf(steps, sizeof steps, "%.0f steps", round(scene->duration / scene->step));
+    }
+    fprintf(file, "integrator         %s, step %g s, %s\n",
+            oz_keys_choice_name("integrator", (int)scene->integrator), scene->step, steps);
     if (scene->step != scene->written_step) {
         fprintf(file, "  step             %.17g s, fitted to the contact time: %g was written\n",
                 scene->step, scene->written_step);

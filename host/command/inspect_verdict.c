@@ -226,12 +226,32 @@ static void print_sum(FILE *file, const OzScene *scene, double computing, double
     }
 }
 
+/* How fast a run goes that has no end. */
+static void print_pace(FILE *file, const OzVerdict *v)
+{
+    const OzRehearsal *r = v->rehearsal;
+    double a_step = r->spent / (double)r->steps, a_second = a_step / v->scene->step;
+    char words[WORDS];
+    oz_clock_words(a_second, words, sizeof words);
+    fprintf(file,
+            "  cost             endless, at %.3g us a step: a simulated second takes %s, its "
+            "pictures left out\n",
+            1e6 * a_step, words);
+}
+
 static OzStatus print_cost(FILE *file, const OzVerdict *v)
 {
     OzSchedule schedule = oz_schedule_create(v->scene, -1);
+    bool ends = isfinite(v->scene->duration);
     if (v->rehearsal->steps == 0) {
-        fprintf(file, "  cost             %lld steps, not timed%s\n", (long long)schedule.last_step,
+        char steps[32] = "endless";
+        if (ends) {
+            snprintf(steps, sizeof steps, "%lld steps", (long long)schedule.last_step);
+        }
+        fprintf(file, "  cost             %s, not timed%s\n", steps,
                 v->burst[0] ? ": a guard stops them" : "");
+    } else if (!ends) {
+        print_pace(file, v);
     } else {
         double computing = print_computing(file, v, schedule.last_step);
         double drawing = print_movie(file, v, &schedule);

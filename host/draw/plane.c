@@ -60,11 +60,14 @@ static double size_of(const Room *room)
 }
 
 /* Without gravity grains go straight on: room for the way of each, if it is not so long that
- * nothing could be seen any more. */
+ * nothing could be seen any more; an endless one is. */
 static void take_flights(Room *room, const OzScene *scene, const OzSnapshot *snapshot)
 {
     double most = 4 * size_of(room);
     Room flown = *room;
+    if (isinf(scene->duration)) {
+        return;
+    }
     for (int64_t g = 0; g < snapshot->count && hypot(scene->gravity[0], scene->gravity[1]) == 0;
          g++) {
         const double *x = &snapshot->position[3 * g], *v = &snapshot->velocity[3 * g];

@@ -15,7 +15,9 @@ double oz_step_clock_time(const OzStepClock *clock, int64_t step)
 
 int64_t oz_step_clock_nearest(const OzStepClock *clock, double time)
 {
-    return clock->first + llround((time - clock->start) / clock->dt);
+    const double most = 9e18; /* below what 64 bits hold */
+    double steps = (time - clock->start) / clock->dt;
+    return steps < most ? clock->first + llround(steps) : INT64_MAX;
 }
 
 /* The quotient may be rounded across a whole number; times of steps decide. */

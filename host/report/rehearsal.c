@@ -47,7 +47,8 @@ static OzStatus settle(OzRehearsal *r, OzSim *sim, const OzScene *scene, double 
 static OzStatus make_steps(OzRehearsal *r, OzSim *sim, const OzScene *scene, double stretch)
 {
     int64_t first = oz_sim_step(sim);
-    int64_t last = first + oz_step_clock_nearest(oz_sim_clock(sim), scene->duration);
+    int64_t whole = oz_step_clock_nearest(oz_sim_clock(sim), scene->duration);
+    int64_t last = whole < INT64_MAX - first ? first + whole : INT64_MAX;
     double start = oz_clock_now();
     for (int launches = 0; oz_sim_step(sim) < last && (launches < 2 || r->spent < stretch);
          launches++) {

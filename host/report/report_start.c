@@ -227,6 +227,13 @@ OzStatus oz_report_start_find(OzReportStart *start, const char *path, const OzOp
     OzSnapshot now = {0};
     *start = (OzReportStart){.how = "grains as placed"};
     OZ_TRY(load(start, path, options));
+    if (isinf(start->scene.duration)) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "%s: an endless run has no end to compare at; expected "
+                                "--set time.duration=T",
+                                start->scene.path);
+        goto done;
+    }
     OZ_TRY(oz_snapshot_create(&now, &start->scene, &start->grains));
     status = prepare(start, &now, options, device);
     if (status == OZ_ERR_BLOWUP) {

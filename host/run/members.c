@@ -14,6 +14,7 @@
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,6 +68,12 @@ static OzStatus load_scene(const OzMembers *plan, int64_t i, OzScene *scene)
     }
     OzStatus status = oz_scene_load(scene, options->paths[0], settings, count);
     oz_sweep_free(&scene->sweep);
+    if (status == OZ_OK && plan->is_ensemble && isinf(scene->duration) && options->until < 0) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: an endless run of an ensemble, whose others might never begin; "
+                              "expected --until, or a time.duration in s",
+                              scene->path);
+    }
     return status;
 }
 

@@ -10,6 +10,7 @@
 #include "observe/schedule.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -126,7 +127,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
                                  : oz_contact_rows_create)(&outputs->contact_rows, contacts));
     }
     OZ_TRY(oz_reload_log_create(&outputs->reloads, outputs->folder, outputs->goes_on));
-    if (options->watch) {
+    if (options->watch || isinf(scene->duration)) { /* whose end is noted nowhere else */
         OZ_TRY(oz_reload_log_begin(outputs->reloads));
     }
     if (stores) {

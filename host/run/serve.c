@@ -150,7 +150,8 @@ void oz_serve_show(OzServe *serve, const OzScene *scene, int64_t step, double ti
     s->step = step;
     s->time = time;
     s->tap = scene->period > 0 ? oz_motion_tap(scene, time) : NAN;
-    s->progress = last_step > 0 ? (double)step / (double)last_step : NAN;
+    bool ends = last_step > 0 && last_step < INT64_MAX;
+    s->progress = ends ? (double)step / (double)last_step : NAN;
     if (now - serve->rate_start >= RATE_SPAN) {
         s->steps_per_second = (double)(step - serve->rate_step) / (now - serve->rate_start);
         serve->rate_step = step;

@@ -23,7 +23,7 @@ void oz_serve_close(OzServe *serve, OzStatus status);
 /* Another scene has taken over: the table of keys shows its values. NULL is fine. */
 OzStatus oz_serve_renew(OzServe *serve);
 
-/* Where the run is, and the scene that runs, from one thread; last_step 0: it has no end. NULL is
+/* Where the run is, and the scene that runs, from one thread; last_step 0 or INT64_MAX: it has no end. NULL is
  * fine. */
 void oz_serve_show(OzServe *serve, const OzScene *scene, int64_t step, double time,
                    int64_t last_step);

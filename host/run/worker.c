@@ -160,6 +160,11 @@ static void show_progress(const OzWorker *worker)
     double step = (double)oz_sim_step(worker->sim), last = (double)worker->schedule.last_step;
     double spent = oz_clock_now() - worker->first_step, rate = spent > 0 ? step / spent : 0;
     char left[48];
+    if (worker->schedule.last_step == INT64_MAX) {
+        oz_log_progress("%.4g s simulated, %.0f steps/s, until it is stopped",
+                        oz_sim_time(worker->sim), rate);
+        return;
+    }
     oz_clock_words(rate > 0 ? (last - step) / rate : 0, left, sizeof left);
     oz_log_progress("%.1f %%: %.4g s simulated, %.0f steps/s, %s left",
                     last > 0 ? 100 * step / last : 100, oz_sim_time(worker->sim), rate, left);

@@ -113,6 +113,16 @@ static bool check_taps(Checker *checker, const char *path)
     return false;
 }
 
+/* s between rows where nothing says it. Without a duration there is no second row. */
+static double own_interval(const OzScene *scene)
+{
+    if (isinf(scene->duration)) {
+        double shown = scene->movie.speed > 0 ? scene->movie.speed : 1;
+        return fmax(0.1 * shown, scene->step);
+    }
+    return scene->duration > 0 ? scene->duration / 100 : 1;
+}
+
 static void derive_times(Checker *checker)
 {
     OzScene *scene = checker->scene;
@@ -126,11 +136,11 @@ static void derive_times(Checker *checker)
     if (scene->observe.interval_taps > 0) {
         scene->observe.interval = scene->observe.interval_taps * scene->period;
     }
-    if (scene->observe.interval == 0) { /* without a duration there is no second row */
-        scene->observe.interval = scene->duration > 0 ? scene->duration / 100 : 1;
-    }
     if (scene->movie.speed == 0 && scene->movie.length == 0) {
         scene->movie.speed = 1;
+    }
+    if (scene->observe.interval == 0) {
+        scene->observe.interval = own_interval(scene);
     }
 }
 
@@ -231,7 +241,7 @@ static void check_grain_count(Checker *checker)
 static void check_interval(Checker *checker, const char *key, double interval, const char *file)
 {
     double rows = checker->scene->duration / interval, step = checker->scene->step;
-    if (interval > 0 && rows > OZ_CHECK_ROWS_MAX) {
+    if (interval > 0 && isfinite(rows) && rows > OZ_CHECK_ROWS_MAX) {
         fault(checker, key, "%.3g rows of %s; expected at most %g", rows, file, OZ_CHECK_ROWS_MAX);
     }
     if (is_written(checker, key) && interval < step) {
@@ -243,9 +253,10 @@ static void check_run_length(Checker *checker)
 {
     const OzScene *scene = checker->scene;
     const char *own = "observe.contacts_interval";
-    if (scene->step > 0 && scene->duration / scene->step > OZ_CHECK_STEPS_MAX) {
+    double steps = scene->step > 0 ? scene->duration / scene->step : 0;
+    if (isfinite(steps) && steps > OZ_CHECK_STEPS_MAX) {
         fault(checker, is_written(checker, "time.taps") ? "time.taps" : "time.duration",
-              "%.3g steps; expected at most %g", scene->duration / scene->step, OZ_CHECK_STEPS_MAX);
+              "%.3g steps; expected at most %g", steps, OZ_CHECK_STEPS_MAX);
     }
     check_interval(checker, "observe.interval", scene->observe.interval, "series.csv");
     check_interval(checker, own, scene->observe.contacts_interval, "contacts.csv");
@@ -298,8 +309,14 @@ static void check_movie(Checker *checker)
               "movie.size is %d x %d; expected even numbers, video halves its colours",
               movie->width, movie->height);
     }
+    bool is_endless = isinf(checker->scene->duration);
+    if (is_endless && movie->length > 0) {
+        fault(checker, "movie.length",
+              "movie.length of an endless run, over which its pictures cannot be spread; expected "
+              "movie.speed");
+    }
     double length = movie->length > 0 ? movie->length : checker->scene->duration / movie->speed;
-    if (length * movie->fps > OZ_CHECK_FRAMES_MAX) {
+    if (!is_endless && length * movie->fps > OZ_CHECK_FRAMES_MAX) {
         fault(checker, movie->length > 0 ? "movie.length" : "movie.speed",
               "%.3g pictures of movie; expected at most %g", length * movie->fps,
               OZ_CHECK_FRAMES_MAX);

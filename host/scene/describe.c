@@ -88,6 +88,9 @@ static void print_expected(const OzKey *key, FILE *file)
     } else if (key->high > key->low) {
         print_limits(key, file);
     }
+    if (key->infinite) {
+        fprintf(file, ", or %s", key->infinite);
+    }
 }
 
 void oz_describe_expected(const OzKey *key, char *text, size_t size)

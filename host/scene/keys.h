@@ -52,6 +52,7 @@ typedef struct OzKey {
     size_t item_size, line_offset; /* OZ_KEY_ITEMS: of one item, and of its int line        */
     int width;
     double scale;         /* NUMBER: what is stored over what is written; 0: 1       */
+    const char *infinite; /* NUMBER: the word for INFINITY; NULL: there is none      */
     unsigned models;      /* bit i: belongs to the model i; 0: to all                */
     bool required;        /* this or its rival; where kind, law and section ask      */
     unsigned kinds;       /* bit i: belongs to items whose kind is i; 0: to all      */

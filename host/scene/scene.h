@@ -311,7 +311,7 @@ typedef struct OzScene {
     double gravity[3];   /* m/s^2 */
     double step;         /* s     */
     double written_step; /* s, before restitution_calibration fitted it to the contact time */
-    double duration;     /* s; taps x period is put here */
+    double duration;     /* s; taps x period is put here; INFINITY: until it is stopped */
     double taps;         /* as written; 0: duration was */
     double period;       /* s, of the first moving wall; 0 without one: `tap` is then empty */
     OzIntegrator integrator;

@@ -57,9 +57,12 @@ static bool parse_number(const char *text, double *number)
 static bool read_number(const OzKey *key, const OzNode *node, double *number, OzFaults *faults)
 {
     double value = 0;
-    bool good = node->kind == OZ_NODE_SCALAR && !node->quoted && !node->refused &&
-                parse_number(node->text, &value) && value >= key->low && value <= key->high;
-    if (!good) {
+    bool plain = node->kind == OZ_NODE_SCALAR && !node->quoted && !node->refused;
+    if (plain && key->infinite && strcmp(node->text, key->infinite) == 0) {
+        *number = INFINITY;
+        return true;
+    }
+    if (!plain || !parse_number(node->text, &value) || value < key->low || value > key->high) {
         return complain(key, node, faults);
     }
     *number = key->scale != 0 ? value * key->scale : value;

@@ -108,6 +108,10 @@ static void print_element(const OzKey *key, const void *place, int i, FILE *file
         print_text(*(char *const *)place, file);
         break;
     default:
+        if (key->infinite && isinf(((const double *)place)[i])) {
+            fputs(key->infinite, file);
+            break;
+        }
         print_number(((const double *)place)[i], key->scale != 0 ? key->scale : 1, file);
         break;
     }

@@ -64,9 +64,10 @@ static Pace pace_of(const OzScene *scene, const OzGrains *grains)
 {
     Pace pace = {.gravity = length3(scene->gravity), .start = fastest_start(scene, grains)};
     double time = scene->duration + (scene->settle.present ? scene->settle.time_max : 0);
-    double fall = pace.gravity * time;
+    double fall = 0;
     if (pace.gravity > 0) {
-        fall = fmin(fall, sqrt(2 * pace.gravity * room_to_fall(scene, grains, pace.gravity)));
+        fall = fmin(pace.gravity * time,
+                    sqrt(2 * pace.gravity * room_to_fall(scene, grains, pace.gravity)));
     }
     pace.most = pace.start + fall;
     return pace;
