@@ -87,15 +87,46 @@ static void test_members(void **state)
 static void test_refusals(void **state)
 {
     (void)state;
-    expect(2, "--stream shows the movie's frames, and there is none", "run bed.yaml --stream x");
-    expect(2, "--latest shows the movie's frames, and there is none", "run bed.yaml --latest");
-    expect(2, "there is none", "run shown.yaml -o no --stream x --no-video");
     expect(2, "expected --stream with the name of a file", "run shown.yaml --stream ''");
     expect(2, "FILE|- is missing", "run shown.yaml --stream");
     write_file("mine.mkv", "mine");
     expect(2, "mine.mkv is there already", "run shown.yaml -o no --overwrite --stream mine.mkv");
     assert_true(contains("mine.mkv", "mine"));
     assert_false(is_there("no") || is_there("x"));
+}
+
+/* Without a movie, or with a slow one, pictures are drawn for those who look on, and no file is
+ * another for it. */
+static void test_without_movie(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"series.csv", "final.csv"};
+    static const char *const folders[] = {"plain/", "glanced/", "no_video/"};
+    assert_int_equal(orzo("run bed.yaml -o plain"), 0);
+    assert_int_equal(orzo("run bed.yaml -o glanced --latest --stream glanced.mkv"), 0);
+    assert_int_equal(orzo("run shown.yaml -o no_video --no-video --latest"), 0);
+    assert_matroska("glanced.mkv");
+    assert_true(is_there("glanced/latest.png") && is_there("no_video/latest.png"));
+    assert_false(is_there("glanced/movie.mp4") || is_there("no_video/movie.mp4") ||
+                 is_there("glanced/frames.bin"));
+    for (int i = 0; i < 4; i++) {
+        char one[64], other[64];
+        snprintf(one, sizeof one, "%s%s", folders[0], names[i % 2]);
+        snprintf(other, sizeof other, "%s%s", folders[1 + i / 2], names[i % 2]);
+        assert_true(same_files(one, other));
+    }
+    /* Paced so that wall seconds lie between the movie's two frames. */
+    assert_int_equal(orzo("run shown.yaml -o slow --realtime 0.02 --set movie.length=0.2"), 0);
+    assert_int_equal(orzo("run shown.yaml -o between --realtime 0.02 --set movie.length=0.2 "
+                          "--stream between.mkv"),
+                     0);
+    assert_true(same_files("slow/movie.mp4", "between/movie.mp4"));
+    assert_true(same_files("slow/snapshots/tap_00001.png", "between/snapshots/tap_00001.png"));
+    int taken = 0, shown = 0;
+    char *log = read_file("between/log.txt", NULL), *line = strstr(log, "stream: ");
+    assert_int_equal(line ? sscanf(line, "stream: %d of %d", &taken, &shown) : 0, 2);
+    assert_true(shown > 2); /* which are the movie's */
+    free(log);
 }
 
 /* What cannot be written is said, and the run is none the worse. */
@@ -112,7 +143,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stream_and_latest), cmocka_unit_test(test_standard_output),
         cmocka_unit_test(test_members),           cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_nowhere),
+        cmocka_unit_test(test_nowhere),           cmocka_unit_test(test_without_movie),
     };
     return cmocka_run_group_tests(tests, make_bed, leave_work);
 }

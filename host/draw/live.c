@@ -8,7 +8,8 @@
 
 #include <stdlib.h>
 
-static const double PAUSE = 0.5; /* s between two latest.png */
+static const double PAUSE = 0.5;  /* s between two latest.png                                   */
+static const double GLANCE = 0.2; /* s between two pictures for others: five a second look smooth */
 
 static OzStatus write_latest(OzLive *live, const OzImage *image, const char *folder)
 {
@@ -39,6 +40,7 @@ static void keep_latest(OzLive *live, const OzImage *image, const char *folder)
 
 void oz_live_show(OzLive *live, const OzImage *image, double fps, const char *folder)
 {
+    atomic_store(&live->shown, oz_clock_now());
     if (live->stream) {
         oz_movie_stream_show(live->stream, image, fps);
     }
@@ -48,6 +50,25 @@ void oz_live_show(OzLive *live, const OzImage *image, double fps, const char *fo
     live->is_stale = true;
     if (atomic_load(&live->wants_latest) && oz_clock_now() - live->written >= PAUSE) {
         keep_latest(live, image, folder);
+    }
+}
+
+bool oz_live_waits(const OzLive *live)
+{
+    double since = oz_clock_now() - atomic_load(&live->shown);
+    bool watched =
+        since >= GLANCE && live->watcher.wants && live->watcher.wants(live->watcher.context);
+    if (atomic_load(&live->is_over)) {
+        return false;
+    }
+    return watched || (since >= GLANCE && live->stream && oz_movie_stream_is_on(live->stream)) ||
+           (since >= PAUSE && atomic_load(&live->wants_latest));
+}
+
+void oz_live_fail(OzLive *live)
+{
+    if (!atomic_exchange(&live->is_over, true)) {
+        oz_log_line("no pictures to look at: %s; the run goes on without them", oz_status_text());
     }
 }
 

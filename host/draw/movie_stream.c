@@ -247,6 +247,11 @@ void oz_movie_stream_show(OzMovieStream *stream, const OzImage *image, double fp
     }
 }
 
+bool oz_movie_stream_is_on(const OzMovieStream *stream)
+{
+    return !atomic_load(&stream->is_over);
+}
+
 void oz_movie_stream_finish(OzMovieStream *stream)
 {
     if (!stream) {

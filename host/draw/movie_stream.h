@@ -21,6 +21,9 @@ OzStatus oz_movie_stream_create(OzMovieStream **stream, const char *path);
  * nobody else's work depends on it. */
 void oz_movie_stream_show(OzMovieStream *stream, const OzImage *image, double fps);
 
+/* False once it is over. From any thread. */
+bool oz_movie_stream_is_on(const OzMovieStream *stream);
+
 /* The last picture is still written, if the reader takes it within a second. Says how many pictures
  * it took and frees; NULL is fine. */
 void oz_movie_stream_finish(OzMovieStream *stream);

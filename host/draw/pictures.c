@@ -288,12 +288,12 @@ void oz_pictures_take(OzPictures *pictures, OzScene *next, const char *caption)
     }
 }
 
-/* A frame of the movie, with its caption while there is one. */
-static OzStatus draw_frame(OzPictures *pictures, const OzSnapshot *snapshot)
+/* A frame of the movie (or, with 0, one beside it), with its caption while there is one. */
+static OzStatus draw_frame(OzPictures *pictures, const OzSnapshot *snapshot, int frames)
 {
     OzLook look = pictures->look;
     if (pictures->caption_frames > 0) {
-        pictures->caption_frames--;
+        pictures->caption_frames -= frames;
         look.caption = pictures->caption;
     }
     return draw(pictures, snapshot, 1, &look, &pictures->image);
@@ -315,9 +315,13 @@ OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *added, int purp
     }
     bool plain = pictures->caption_frames == 0;
     if (purpose & OZ_FRAME_MOVIE) {
-        OZ_PASS(draw_frame(pictures, snapshot));
+        OZ_PASS(draw_frame(pictures, snapshot, 1));
         show(pictures);
         OZ_PASS(add_to_movie(pictures));
+    }
+    if (purpose & OZ_PICTURES_LIVE) {
+        OZ_PASS(draw_frame(pictures, snapshot, 0));
+        show(pictures);
     }
     if (purpose & OZ_FRAME_SNAPSHOT) {
         OZ_PASS(add_picture(pictures, snapshot, plain && purpose & OZ_FRAME_MOVIE));

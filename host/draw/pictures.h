@@ -8,7 +8,10 @@
 
 typedef struct OzPictures OzPictures;
 
-enum { OZ_PICTURES_STATES = 256 }; /* more would hide each other */
+enum {
+    OZ_PICTURES_STATES = 256,  /* more would hide each other                        */
+    OZ_PICTURES_LIVE = 1 << 16 /* a purpose: for those who look on alone, no file's */
+};
 
 typedef struct OzPicturesSettings {
     const char *folder;     /* movie.mp4 and snapshots/ go here; borrowed        */
@@ -29,8 +32,9 @@ void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot);
 
 /* Draws a snapshot, by the pictures' own scene and not by the snapshot's, and hands it to the movie
  * and (or) writes it into snapshots/ (names: draw/picture_name.h) in the look of `snapshots`;
- * purpose: OZ_FRAME_ bits of observe/frames.h. Of those for the strobe copies are kept, at most
- * OZ_PICTURES_STATES of them. */
+ * purpose: OZ_FRAME_ bits of observe/frames.h, or OZ_PICTURES_LIVE, which no later picture depends
+ * on where the first one that was added is the movie's. Of those for the strobe copies are kept, at
+ * most OZ_PICTURES_STATES of them. */
 OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *snapshot, int purpose);
 
 /* Another scene takes over: it becomes the pictures' own, and *next empty. They keep their framing

@@ -124,7 +124,12 @@ static OzStatus serve(OzRenderQueue *render_queue, Job *job)
         oz_pictures_take(job->pictures, &job->scene, job->caption);
         return OZ_OK;
     }
-    return oz_pictures_add(job->pictures, &job->snapshot, job->purpose);
+    OzStatus status = oz_pictures_add(job->pictures, &job->snapshot, job->purpose);
+    if (status != OZ_OK && job->purpose == OZ_PICTURES_LIVE) { /* is nobody's result */
+        oz_live_fail(&render_queue->live);
+        return OZ_OK;
+    }
+    return status;
 }
 
 static void *work(void *argument)
@@ -221,6 +226,14 @@ OzStatus oz_render_queue_finish(OzRenderQueue *render_queue, OzPictures *picture
     }
     unlock(render_queue);
     return status;
+}
+
+bool oz_render_queue_is_idle(OzRenderQueue *render_queue)
+{
+    lock(render_queue);
+    bool idle = render_queue->added == render_queue->done;
+    unlock(render_queue);
+    return idle;
 }
 
 OzStatus oz_render_queue_take(OzRenderQueue *render_queue, OzPictures *pictures,

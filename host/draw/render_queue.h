@@ -34,6 +34,9 @@ OzLive *oz_render_queue_live(OzRenderQueue *render_queue);
 OzStatus oz_render_queue_add(OzRenderQueue *render_queue, OzPictures *pictures,
                              const OzSnapshot *snapshot, int purpose);
 
+/* Whether nothing waits or is in hand: a picture that is added now delays nobody. */
+bool oz_render_queue_is_idle(OzRenderQueue *render_queue);
+
 /* oz_pictures_take of a copy of the scene, once the pictures that wait are drawn by the scene
  * before it; does not wait for them, but for room where as many changes wait as pictures may. NULL
  * for either of the first two is fine. Fails with the first failure so far. */

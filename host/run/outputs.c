@@ -95,6 +95,35 @@ OzStatus oz_outputs_write_scene(const OzScene *scene, const char *folder)
     return write_scene(scene, folder, "scene.yaml");
 }
 
+static bool has_pictures(const OzScene *scene)
+{
+    return scene->movie.present || scene->snapshots.count > 0 || scene->snapshots.strobe > 0;
+}
+
+/* What the scene asks for, and what those see who look on. */
+static OzStatus open_pictures(OzOutputs *o, const OzOptions *options, const char *device,
+                              OzRenderQueue *render_queue)
+{
+    bool draws = has_pictures(&o->scene) && !options->no_video;
+    bool has_movie = draws && o->scene.movie.present;
+    bool is_looked_at = o->number == 0 && (options->stream || options->latest || options->serve);
+    OzPicturesSettings settings = {.folder = o->folder,
+                                   .source_dir = options->source_dir,
+                                   .backend = options->gl,
+                                   .device = device,
+                                   .renderer = oz_render_queue_renderer(render_queue)};
+    OzPicturesSettings shown = settings;
+    shown.live = is_looked_at ? oz_render_queue_live(render_queue) : NULL;
+    o->picture_settings = has_movie ? shown : settings;
+    if (draws) {
+        o->render_queue = render_queue;
+        OZ_PASS(oz_pictures_create(&o->pictures, &o->picture_settings, &o->scene));
+    }
+    return is_looked_at ? oz_glances_open(&o->glances, render_queue, has_movie ? o->pictures : NULL,
+                                          &shown, &o->scene)
+                        : OZ_OK;
+}
+
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
                          OzRenderQueue *render_queue)
 {
@@ -102,9 +131,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     char *series = NULL, *contacts = NULL, *frames = NULL;
     const OzScene *scene = &outputs->scene;
     const OzGrains *grains = &outputs->grains;
-    bool pictures =
-        scene->movie.present || scene->snapshots.count > 0 || scene->snapshots.strobe > 0;
-    bool stores = pictures || scene->export_count > 0;
+    bool stores = has_pictures(scene) || scene->export_count > 0;
     outputs->is_open = true;
     if (outputs->name &&
         outputs->name[0]) { /* a plain run's folder is chosen, with its log in it */
@@ -135,17 +162,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
         OZ_TRY((outputs->goes_on ? oz_frames_go_on : oz_frames_create)(&outputs->frames, frames,
                                                                        scene, grains));
     }
-    if (pictures && !options->no_video) {
-        outputs->picture_settings = (OzPicturesSettings){
-            .folder = outputs->folder,
-            .source_dir = options->source_dir,
-            .backend = options->gl,
-            .device = device,
-            .renderer = oz_render_queue_renderer(render_queue),
-            .live = outputs->number == 0 ? oz_render_queue_live(render_queue) : NULL};
-        outputs->render_queue = render_queue;
-        OZ_TRY(oz_pictures_create(&outputs->pictures, &outputs->picture_settings, scene));
-    }
+    OZ_TRY(open_pictures(outputs, options, device, render_queue));
 done:
     free(series);
     free(contacts);
@@ -191,6 +208,7 @@ OzStatus oz_outputs_take(OzOutputs *outputs, OzScene *next, const char *caption)
     if (outputs->is_open) {
         OZ_PASS(oz_render_queue_take(outputs->render_queue, outputs->pictures, next,
                                      wanted ? caption : ""));
+        OZ_PASS(oz_glances_take(&outputs->glances, next));
     }
     oz_scene_free(&outputs->scene);
     outputs->scene = *next;
@@ -302,6 +320,7 @@ OzStatus oz_outputs_close(OzOutputs *o)
 {
     OzStatus status = OZ_OK;
     bool exports = o->frames && o->scene.export_count > 0;
+    OZ_AFTER(status, oz_glances_close(&o->glances));
 #define CLOSE(type, member, state, close)                                                          \
     OZ_AFTER(status, close);                                                                       \
     o->member = NULL;

@@ -8,6 +8,7 @@
 #include "observe/contact_rows.h"
 #include "observe/frames.h"
 #include "observe/series.h"
+#include "run/glances.h"
 #include "run/reload_log.h"
 #include "run/serve.h"
 
@@ -47,6 +48,7 @@ typedef struct OzOutputs {
 #define OZ_OUTPUTS_MEMBER(type, member, state, close) type *member;
     OZ_OUTPUTS_OWNERS(OZ_OUTPUTS_MEMBER)
 #undef OZ_OUTPUTS_MEMBER
+    OzGlances glances;
     OzPicturesSettings picture_settings;
     OzServe *serve;              /* borrowed: is shown the rows; NULL: none          */
     OzRenderQueue *render_queue; /* borrowed: draws the pictures' pictures */

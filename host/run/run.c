@@ -114,21 +114,11 @@ static OzStatus begin_log(const Run *run)
                : OZ_OK;
 }
 
-/* Those who look on see the movie's frames of the first member. */
+/* Those who look on see pictures of the first member. */
 static OzStatus open_live(Run *run)
 {
     const OzOptions *options = run->options;
-    const char *name = options->stream ? "--stream" : "--latest";
     OZ_PASS(oz_render_queue_create(&run->render_queue));
-    if (!options->stream && !options->latest) {
-        return OZ_OK;
-    }
-    if (!run->groups.plan.scene.movie.present || options->no_video) {
-        return oz_status_fail(OZ_ERR_INPUT,
-                              "%s shows the movie's frames, and there is none; expected a scene "
-                              "with a movie, as by --set movie.length=10, and no --no-video",
-                              name);
-    }
     OzLive *live = oz_render_queue_live(run->render_queue);
     atomic_store(&live->wants_latest, options->latest);
     return options->stream ? oz_movie_stream_create(&live->stream, options->stream) : OZ_OK;

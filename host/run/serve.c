@@ -10,6 +10,7 @@
 #include "run/serve_keys.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@ struct OzServe {
     OzPage *page;
     OzReload *reload;
     OzLive *live;
-    double pictured; /* when the last picture was copied, of the render queue's thread */
+    _Atomic double pictured; /* wall clock at which the last picture was copied */
     bool has_columns;
     OzPageStatus status;
     int64_t rate_step; /* where counting began, and when */
@@ -31,7 +32,8 @@ struct OzServe {
 static bool wants_picture(void *context)
 {
     OzServe *serve = context;
-    return oz_clock_now() - serve->pictured >= PICTURE_PAUSE && oz_page_wants_picture(serve->page);
+    return oz_clock_now() - atomic_load(&serve->pictured) >= PICTURE_PAUSE &&
+           oz_page_wants_picture(serve->page);
 }
 
 static void show_picture(void *context, const OzImage *image)
@@ -39,7 +41,7 @@ static void show_picture(void *context, const OzImage *image)
     OzServe *serve = context;
     char *png = NULL;
     size_t length = 0;
-    serve->pictured = oz_clock_now();
+    atomic_store(&serve->pictured, oz_clock_now());
     if (oz_image_png(image, &png, &length) == OZ_OK) { /* else the one before stays */
         oz_page_show_picture(serve->page, png, length);
     }
@@ -102,12 +104,8 @@ OzStatus oz_serve_open(OzServe **serve, const OzOptions *options, const OzScene 
     OZ_TRY(oz_serve_renew(*serve));
     oz_reload_listen(reload, (OzReloadListener){hear, *serve});
     oz_page_show((*serve)->page, &(*serve)->status);
-    if (scene->movie.present && !options->no_video) {
-        (*serve)->live = oz_render_queue_live(render_queue);
-        (*serve)->live->watcher = (OzLiveWatcher){wants_picture, show_picture, *serve};
-    } else {
-        oz_log_line("--serve shows the movie's frames, and there is none: no picture on the page");
-    }
+    (*serve)->live = oz_render_queue_live(render_queue);
+    (*serve)->live->watcher = (OzLiveWatcher){wants_picture, show_picture, *serve};
     fprintf(oz_log_stream(), "page: %s\n", oz_page_address((*serve)->page));
     fflush(oz_log_stream());
 done:

@@ -170,12 +170,30 @@ static void show_progress(const OzWorker *worker)
                     last > 0 ? 100 * step / last : 100, oz_sim_time(worker->sim), rate, left);
 }
 
+/* A picture between those of the movie, for those who look on, if any. Reading the state takes at
+ * most a twentieth of the time. A state that is no good is the next event's to find. */
+static OzStatus show_glance(OzWorker *worker)
+{
+    OzOutputs *first = worker->members[0];
+    double now = oz_clock_now();
+    if (now < worker->glance_after || !oz_glances_wait(&first->glances)) {
+        return OZ_OK;
+    }
+    OzStatus status = oz_read_snapshot_snapshot(worker->sim, 0, &first->now, false);
+    if (status == OZ_OK) {
+        status = oz_glances_show(&first->glances, &first->now);
+    }
+    worker->glance_after = now + 20 * (oz_clock_now() - now);
+    return status == OZ_ERR_BLOWUP ? OZ_OK : status;
+}
+
 static OzStatus launch(OzWorker *worker, int64_t step, double *shown)
 {
     OzStatus status = oz_sim_launch(worker->sim, step);
     OZ_AFTER(status, drop_stopped(worker));
     oz_serve_show(worker->serve, &worker->members[0]->scene, oz_sim_step(worker->sim),
                   oz_sim_time(worker->sim), worker->schedule.last_step);
+    status = status == OZ_OK ? show_glance(worker) : status;
     if (status == OZ_OK && worker->leads && oz_clock_now() - *shown > 0.2) {
         show_progress(worker);
         *shown = oz_clock_now();
@@ -263,6 +281,7 @@ static OzStatus end_member(OzWorker *worker, int64_t m, OzStatus so_far)
     OzOutputs *member = worker->members[m];
     if (has_state(so_far)) {
         OZ_TRY(oz_read_snapshot_snapshot(worker->sim, (int)m, &member->now, false));
+        OZ_TRY(oz_glances_end(&member->glances, &member->now));
         OZ_TRY(oz_outputs_write_final(member));
         OZ_TRY(oz_outputs_note_end(member, oz_sim_step(worker->sim), oz_sim_time(worker->sim),
                                    so_far == OZ_OK ? "done" : "interrupted"));

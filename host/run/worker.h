@@ -40,6 +40,7 @@ typedef struct OzWorker {
     OzDevice *device;         /* a branch, owned                                               */
     int64_t taken;            /* changes of the group that it has taken                        */
     OzSwap *swap;             /* NULL: nothing is being built                                  */
+    double glance_after;      /* wall clock before which nobody who looks on is shown a picture */
     double pace_clock, pace_time; /* wall clock, simulated time: where the pace is counted from */
     OzSim *sim;
     OzStage stage;            /* in hand, of the worker that leads                     */
