@@ -45,6 +45,13 @@ static int end_of(pid_t child)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
 static void rest(int milliseconds)
 {
     usleep((useconds_t)milliseconds * 1000);
@@ -109,6 +116,35 @@ static void write_bed(const char *name, const char *friction, const char *step)
     write_file(name, "%s%s", text, tail);
 }
 
+static int count_said(const char *text)
+{
+    char *all = read_file("said", NULL);
+    int count = 0;
+    for (char *at = strstr(all, text); at; at = strstr(at + 1, text)) {
+        count++;
+    }
+    free(all);
+    return count;
+}
+
+/* A bed of which half is there for a while, shorter than the run's patience of 0.2 s: no mistake.
+ * On a busy machine the while may come out longer, and is tried again. */
+static void write_slowly(const char *name, const char *friction)
+{
+    double held = 1;
+    for (int tries = 0; tries < 20 && held > 0.15; tries++) {
+        int before = count_said("goes on as it was");
+        double start = now();
+        write_file(name, "model: ro");
+        rest(80);
+        write_bed(name, friction, "2e-5");
+        held = now() - start;
+        rest(500);
+        assert_true(held > 0.15 || count_said("goes on as it was") == before);
+    }
+    assert_true(held <= 0.15);
+}
+
 /* In place, by rename, cut off first, wrong in three ways, gone and back; ten in a second. */
 static void test_edits(void **state)
 {
@@ -121,11 +157,8 @@ static void test_edits(void **state)
     write_bed("next.yaml", "0.3", "2e-5");
     rename("next.yaml", "bed.yaml");
     await("said", "contact.friction 0.2 -> 0.3");
-    write_file("bed.yaml", "model: ro");
-    rest(80);
-    write_bed("bed.yaml", "0.4", "2e-5");
+    write_slowly("bed.yaml", "0.4");
     await("said", "contact.friction 0.3 -> 0.4");
-    assert_false(contains("said", "goes on as it was"));
     write_file("bed.yaml", "model: rods\nfriction 0.5\n");
     await("said", "the run goes on as it was");
     write_bed("bed.yaml", "0.4", "5e-4");
