@@ -54,16 +54,80 @@ static void test_walls_feel_their_contacts(void **state)
     bed_free(&bed);
 }
 
+static void must(OzStatus status)
+{
+    if (status != OZ_OK) {
+        fail_msg("%s", oz_status_text());
+    }
+}
+
+static void assert_cell(int row, const char *name, const char *expected)
+{
+    char cell[64];
+    read_cell(in_folder("two.csv"), row, name, cell);
+    assert_string_equal(cell, expected);
+}
+
+static void set_walls(Bed *bed, OzSeries *series, bool wanted)
+{
+    bed->scene.observe.walls = wanted;
+    must(oz_series_take(series));
+}
+
+/* Columns that a change brings are empty in the rows before it, and in those after they are no
+ * longer asked for. A run that goes on from a state before the change has its rows as they were. */
+static void test_columns_come_with_a_change(void **state)
+{
+    (void)state;
+    Bed bed;
+    OzSeries *series = NULL;
+    OzState kept = {0};
+    OzStateVisit visit = oz_state_save(&kept);
+    char *before = NULL, *after = NULL;
+    bed_create(&bed, 2, 1e-3, 3e-3);
+    hand_contact(&bed.snapshot, (OzContactEntry){.a = 1, .b = -1, .push = 4, .normal = {0, 0, -1}});
+    must(oz_series_create(&series, in_folder("two.csv"), &bed.scene, &bed.grains));
+    must(oz_series_write(series, &bed.snapshot));
+    must(oz_series_write(series, &bed.snapshot));
+    must(oz_series_state(series, &visit));
+    must(oz_state_finish(&visit));
+    must(oz_file_read(&before, NULL, in_folder("two.csv")));
+    set_walls(&bed, series, true);
+    must(oz_series_write(series, &bed.snapshot));
+    set_walls(&bed, series, false);
+    must(oz_series_write(series, &bed.snapshot));
+    must(oz_series_free(series));
+    assert_cell(1, "wall0_fz", "");
+    assert_cell(2, "wall0_fz", "");
+    assert_cell(3, "wall0_fz", "-4");
+    assert_cell(4, "wall0_fz", "");
+    assert_cell(2, "deep_count", "0");
+    assert_cell(4, "deep_count", "0");
+    must(oz_series_go_on(&series, in_folder("two.csv"), &bed.scene, &bed.grains));
+    visit = oz_state_load(&kept);
+    must(oz_series_state(series, &visit));
+    must(oz_state_finish(&visit));
+    must(oz_series_free(series));
+    must(oz_file_read(&after, NULL, in_folder("two.csv")));
+    assert_string_equal(after, before);
+    assert_false(oz_file_exists(in_folder("two.csv.part")));
+    free(before);
+    free(after);
+    oz_state_free(&kept);
+    bed_free(&bed);
+}
+
 static int clean_up(void **state)
 {
     (void)state;
-    return remove_folder((const char *const[]){"one.csv", NULL});
+    return remove_folder((const char *const[]){"one.csv", "two.csv", NULL});
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_walls_feel_their_contacts),
+        cmocka_unit_test(test_columns_come_with_a_change),
     };
     return cmocka_run_group_tests(tests, make_folder, clean_up);
 }

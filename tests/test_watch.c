@@ -4,6 +4,7 @@
 #include "run_bed.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 
 /* Trigrains of test_state, in a drum-like vessel that is shaken. */
 static const char flat[] =
@@ -29,6 +30,7 @@ static pid_t start(const char *arguments)
     pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves no run behind */
         int said = open("said", O_CREAT | O_WRONLY | O_TRUNC, 0644);
         dup2(said, 1);
         dup2(said, 2);
@@ -256,6 +258,30 @@ static void test_endless(void **state)
                      0);
 }
 
+/* The ledger is asked for in mid-run, and given up: its columns come, and are empty before and
+ * after. */
+static void test_ledger(void **state)
+{
+    (void)state;
+    write_bed("bed.yaml", "0.1", "2e-5");
+    pid_t child = start("run bed.yaml --watch -o summed --set time.taps=1000000 --no-video");
+    await("said", "first step");
+    await("summed/series.csv", "\n500,");
+    char *text = read_file("bed.yaml", NULL), *at = strstr(text, "observe: {");
+    *at = '\0';
+    write_file("bed.yaml", "%sobserve: {interval_taps: 0.5, ledger: true, walls: true}\n", text);
+    await("said", "observe.ledger false -> true");
+    await("summed/series.csv", "wall0_fz");
+    rest(300);
+    write_file("bed.yaml", "%sobserve: {interval_taps: 0.5}\n", text);
+    await("said", "observe.ledger true -> false");
+    free(text);
+    rest(300);
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    run_again("summed");
+}
+
 /* SIGHUP reads the file again without --watch, which nobody else does. */
 static void test_signal(void **state)
 {
@@ -368,13 +394,10 @@ static void test_members(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),
-        cmocka_unit_test(test_base_and_motion),
-        cmocka_unit_test(test_endless),
-        cmocka_unit_test(test_signal),
-        cmocka_unit_test(test_replay_of_others),
-        cmocka_unit_test(test_members),
-        cmocka_unit_test(test_resumed),
+        cmocka_unit_test(test_edits),   cmocka_unit_test(test_base_and_motion),
+        cmocka_unit_test(test_endless), cmocka_unit_test(test_ledger),
+        cmocka_unit_test(test_signal),  cmocka_unit_test(test_replay_of_others),
+        cmocka_unit_test(test_members), cmocka_unit_test(test_resumed),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
 }

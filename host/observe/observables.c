@@ -394,13 +394,20 @@ const OzColumn *oz_observables_list(void)
     return list;
 }
 
-int oz_observables_cells(const OzColumn *column, const OzScene *scene)
+int oz_observables_width(const OzColumn *column, const OzScene *scene)
 {
     const int cells[] = {[ALWAYS] = 1,
-                         [LEDGER] = scene->observe.ledger,
+                         [LEDGER] = 1,
                          [LAYERS] = OZ_MEASURE_LAYERS,
-                         [WALLS] = scene->observe.walls ? scene->wall_count * axes_of(scene) : 0};
+                         [WALLS] = scene->wall_count * axes_of(scene)};
     return (column->models & 1 << scene->model) != 0 ? cells[column->need] : 0;
+}
+
+int oz_observables_cells(const OzColumn *column, const OzScene *scene)
+{
+    bool is_there = (column->need != LEDGER || scene->observe.ledger) &&
+                    (column->need != WALLS || scene->observe.walls);
+    return is_there ? oz_observables_width(column, scene) : 0;
 }
 
 void oz_observables_name(const OzColumn *column, const OzScene *scene, int cell,

@@ -73,6 +73,9 @@ const OzColumn *oz_observables_list(void);
 /* How many cells of a row are the column's: 0 in scenes that have not got it. */
 int oz_observables_cells(const OzColumn *column, const OzScene *scene);
 
+/* How many they are in a scene that has got it, alike in all else. */
+int oz_observables_width(const OzColumn *column, const OzScene *scene);
+
 /* The name of one of them, counted from 0. */
 void oz_observables_name(const OzColumn *column, const OzScene *scene, int cell,
                          char name[OZ_COLUMN_NAME]);

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "observe/rows_file.h"
 #include "observe/surplus.h"
 
 #include <errno.h>
@@ -23,7 +24,10 @@ struct OzSeries {
     char *path;
     int64_t whole; /* bytes of whole rows */
     const OzScene *scene;
-    double interval; /* s, between rows of the even series of a drum */
+    double interval;  /* s, between rows of the even series of a drum */
+    bool has_ledger;  /* the scene that runs keeps one             */
+    uint8_t *is_kept; /* of each column of the list: 0, or the file has it */
+    int column_count;
     OzMeasure measure;
     Ring mean[OZ_TAP_MEANS];
     double (*wall_force)[3]; /* of the row in hand; NULL: nobody asked */
@@ -70,26 +74,96 @@ static OzStatus end_row(OzSeries *series)
     return oz_file_commit(series->file, &series->whole, series->path);
 }
 
+/* Cells that the file has of a column. */
+static int width_of(const OzSeries *series, int column)
+{
+    return series->is_kept[column]
+               ? oz_observables_width(&oz_series_columns()[column], series->scene)
+               : 0;
+}
+
 static OzStatus write_header(OzSeries *series)
 {
-    const char *comma = "";
     char name[OZ_COLUMN_NAME];
-    for (const OzColumn *column = oz_series_columns(); column->name; column++) {
-        int cells = oz_observables_cells(column, series->scene);
-        for (int cell = 0; cell < cells; cell++, comma = ",") {
-            oz_observables_name(column, series->scene, cell, name);
-            fprintf(series->file, "%s%s", comma, name);
-        }
+    for (int cell = 0; cell < series->cell_count; cell++) {
+        oz_series_name(series, cell, name);
+        fprintf(series->file, "%s%s", cell ? "," : "", name);
     }
     return end_row(series);
 }
 
+/* Room for the columns that are kept. */
 static OzStatus make_row(OzSeries *series)
 {
-    for (const OzColumn *column = oz_series_columns(); column->name; column++) {
-        series->cell_count += oz_observables_cells(column, series->scene);
+    series->cell_count = 0;
+    for (int k = 0; k < series->column_count; k++) {
+        series->cell_count += width_of(series, k);
     }
+    free(series->row);
     return OZ_NEW(&series->row, series->cell_count);
+}
+
+/* Keeps the columns that the scene has, beside those that are kept already. *more: there were some.
+ */
+static void keep_columns(OzSeries *series, bool *more)
+{
+    *more = false;
+    for (int k = 0; k < series->column_count; k++) {
+        bool has = oz_observables_cells(&oz_series_columns()[k], series->scene) > 0;
+        *more |= has && !series->is_kept[k];
+        series->is_kept[k] = has || series->is_kept[k];
+    }
+}
+
+/* The list as flags, which are set where the scene has the column. */
+static OzStatus make_columns(OzSeries *series)
+{
+    bool more = false;
+    while (oz_series_columns()[series->column_count].name) {
+        series->column_count++;
+    }
+    OZ_PASS(OZ_NEW(&series->is_kept, series->column_count));
+    keep_columns(series, &more);
+    return make_row(series);
+}
+
+/* Where the scene asks for the walls' forces. */
+static OzStatus make_wall_forces(OzSeries *series)
+{
+    bool wanted = series->scene->observe.walls;
+    if (!wanted) {
+        free(series->wall_force);
+        series->wall_force = NULL;
+    }
+    return wanted && !series->wall_force ? OZ_NEW(&series->wall_force, series->scene->wall_count)
+                                         : OZ_OK;
+}
+
+/* The file with the columns that are kept by now, open at its end. */
+static OzStatus reshape(OzSeries *series)
+{
+    OzStatus status = OZ_OK;
+    char(*text)[OZ_COLUMN_NAME] = NULL;
+    const char **names = NULL;
+    OZ_TRY(make_row(series));
+    OZ_TRY(OZ_NEW(&text, series->cell_count));
+    OZ_TRY(OZ_NEW(&names, series->cell_count));
+    for (int cell = 0; cell < series->cell_count; cell++) {
+        oz_series_name(series, cell, text[cell]);
+        names[cell] = text[cell];
+    }
+    if (fclose(series->file) != 0) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
+    }
+    OZ_AFTER(status, oz_rows_file_reshape(series->path, names, series->cell_count));
+    series->file = fopen(series->path, "r+");
+    if (status == OZ_OK && !series->file) {
+        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
+    }
+done:
+    free(names);
+    free(text);
+    return status;
 }
 
 /* mode: of fopen; a header is written into an empty file. */
@@ -104,10 +178,9 @@ static OzStatus open_series(OzSeries **series, const char *path, const OzScene *
     (*series)->interval = scene->observe.interval;
     OZ_TRY(oz_memory_text(&(*series)->path, path));
     OZ_TRY(oz_measure_create(&(*series)->measure, scene, grains));
-    if (scene->observe.walls) {
-        OZ_TRY(OZ_NEW(&(*series)->wall_force, scene->wall_count));
-    }
-    OZ_TRY(make_row(*series));
+    (*series)->has_ledger = scene->observe.ledger;
+    OZ_TRY(make_wall_forces(*series));
+    OZ_TRY(make_columns(*series));
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         OZ_TRY(ring_create(&(*series)->mean[k], 2 * samples));
     }
@@ -148,7 +221,9 @@ static OzStatus ring_state(Ring *ring, OzStateVisit *visit)
 
 OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
 {
-    OZ_PASS(oz_state_enter(visit, "series", 1));
+    OZ_PASS(oz_state_enter(visit, "series", 2));
+    OZ_PASS(oz_state_items(visit, "columns", "none", OZ_STATE_BYTES, series->is_kept,
+                           series->column_count));
     OZ_PASS(oz_state_index(visit, "file_bytes", &series->whole, 0, INT64_MAX));
     OZ_PASS(oz_state_bool(visit, "has_start", &series->has_start));
     OZ_PASS(oz_state_double(visit, "energy_start", "J", &series->energy_start, 1));
@@ -160,18 +235,42 @@ OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
     OZ_PASS(oz_surplus_state(&series->surplus, visit));
     OZ_PASS(oz_flow_state(&series->flow, visit));
     oz_state_leave(visit);
-    if (visit->is_loading) {
+    if (visit->is_loading) { /* the run may have got columns after this state was made */
+        OZ_PASS(reshape(series));
         return oz_file_go_on(series->file, series->whole, series->path);
     }
     return OZ_OK;
 }
 
-void oz_series_take(OzSeries *series)
+/* Columns that came with a change. */
+static OzStatus grow_columns(OzSeries *series)
+{
+    bool more = false;
+    keep_columns(series, &more);
+    if (!more) {
+        return OZ_OK;
+    }
+    OZ_PASS(reshape(series));
+    if (fseeko(series->file, 0, SEEK_END) != 0) {
+        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
+    }
+    series->whole = ftello(series->file);
+    return OZ_OK;
+}
+
+OzStatus oz_series_take(OzSeries *series)
 {
     if (series->interval != series->scene->observe.interval) {
         series->flow.sample_count = 0;
         series->interval = series->scene->observe.interval;
     }
+    if (series->has_ledger != series->scene->observe.ledger) { /* whose sums begin anew */
+        series->has_ledger = series->scene->observe.ledger;
+        series->has_start = false;
+        series->surplus = (OzSurplus){0};
+    }
+    OZ_PASS(make_wall_forces(series));
+    return grow_columns(series);
 }
 
 void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot)
@@ -227,12 +326,13 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
     OzObservation observation = observe(series, snapshot);
     const char *comma = "";
     double *value = series->row;
-    for (const OzColumn *column = oz_series_columns(); column->name; column++) {
-        int cells = oz_observables_cells(column, series->scene);
-        for (int cell = 0; cell < cells; cell++, comma = ",") {
+    for (int k = 0; k < series->column_count; k++) {
+        const OzColumn *column = &oz_series_columns()[k];
+        bool has = oz_observables_cells(column, series->scene) > 0;
+        for (int cell = 0; cell < width_of(series, k); cell++, comma = ",") {
             fputs(comma, series->file);
             observation.index = column->index + cell;
-            *value++ = write_cell(series->file, column, &observation);
+            *value++ = has ? write_cell(series->file, column, &observation) : NAN;
         }
     }
     if (!series->has_start) {
@@ -251,13 +351,11 @@ int oz_series_row(const OzSeries *series, const double **cells)
 
 void oz_series_name(const OzSeries *series, int cell, char name[OZ_COLUMN_NAME])
 {
-    const OzColumn *column = oz_series_columns();
-    int cells;
-    while ((cells = oz_observables_cells(column, series->scene)) <= cell) {
-        cell -= cells;
-        column++;
+    int column = 0;
+    while (width_of(series, column) <= cell) {
+        cell -= width_of(series, column++);
     }
-    oz_observables_name(column, series->scene, cell, name);
+    oz_observables_name(&oz_series_columns()[column], series->scene, cell, name);
 }
 
 bool oz_series_has_spectrum(const OzSeries *series)
@@ -282,6 +380,7 @@ OzStatus oz_series_free(OzSeries *series)
     oz_measure_free(&series->measure);
     free(series->wall_force);
     free(series->row);
+    free(series->is_kept);
     oz_flow_free(&series->flow);
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         free(series->mean[k].value);

@@ -29,8 +29,11 @@ OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit);
  * before the first sample. */
 void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot);
 
-/* The scene has changed. Rows at another interval begin an even series of a drum anew. */
-void oz_series_take(OzSeries *series);
+/* The scene has changed. Columns that it has got are added to the file, empty in the rows so far;
+ * those that it has lost are empty from now on. Rows at another interval begin an even series of a
+ * drum anew, and energy_residual counts from the first row with another ledger. Fails with
+ * OZ_ERR_FILE or OZ_ERR_MEMORY. */
+OzStatus oz_series_take(OzSeries *series);
 
 /* Writes one row and flushes. Needs contacts and, with the ledger on, the ledger: their cells are
  * empty otherwise. energy_residual counts from the first row written. */

@@ -19,6 +19,7 @@ OzFolderUse oz_outputs_use(bool overwrite)
     static const char *const writes[] = {"log.txt",
                                          "scene.yaml",
                                          "series.csv",
+                                         "series.csv.part",
                                          "contacts.csv",
                                          "frames.bin",
                                          "scene_final.yaml",
@@ -213,10 +214,7 @@ OzStatus oz_outputs_take(OzOutputs *outputs, OzScene *next, const char *caption)
     oz_scene_free(&outputs->scene);
     outputs->scene = *next;
     *next = (OzScene){0};
-    if (outputs->is_open) {
-        oz_series_take(outputs->series);
-    }
-    return OZ_OK;
+    return outputs->is_open ? oz_series_take(outputs->series) : OZ_OK;
 }
 
 OzStatus oz_outputs_note_end(OzOutputs *outputs, int64_t step, double time, const char *how)
