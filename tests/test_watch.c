@@ -282,6 +282,30 @@ static void test_ledger(void **state)
     run_again("summed");
 }
 
+/* More grains than a small scene has: sorted anew as they move, of which a replay must make the
+ * same. */
+static void test_large(void **state)
+{
+    (void)state;
+    static const char lattice[] =
+        "model: rods\n"
+        "time: {step: 2e-5, duration: 0.03}\n"
+        "contact: {contact_time: 6e-4, restitution: 0.5, friction: %s}\n"
+        "grains: [{kind: random, count: 9000, diameter: 1e-3, aspect: 2}]\n"
+        "walls:\n"
+        "  - {kind: plane, motion: {frequency: 50, acceleration_ratio: 4}}\n"
+        "  - {kind: cylinder, diameter: 2e-2}\n"
+        "observe: {interval: 1e-3}\n";
+    write_file("large.yaml", lattice, "0.1");
+    pid_t child = start("run large.yaml --watch -o large --no-video");
+    await("large/series.csv", "\n100,");
+    write_file("large.yaml", lattice, "0.3");
+    await("said", "contact.friction 0.1 -> 0.3");
+    assert_int_equal(end_of(child), 0);
+    assert_reloads("large/reloads.csv", "key,old,new\ncontact.friction,0.1,0.3\nend,,done\n");
+    run_again("large");
+}
+
 /* SIGHUP reads the file again without --watch, which nobody else does. */
 static void test_signal(void **state)
 {
@@ -394,10 +418,15 @@ static void test_members(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),   cmocka_unit_test(test_base_and_motion),
-        cmocka_unit_test(test_endless), cmocka_unit_test(test_ledger),
-        cmocka_unit_test(test_signal),  cmocka_unit_test(test_replay_of_others),
-        cmocka_unit_test(test_members), cmocka_unit_test(test_resumed),
+        cmocka_unit_test(test_edits),
+        cmocka_unit_test(test_base_and_motion),
+        cmocka_unit_test(test_endless),
+        cmocka_unit_test(test_ledger),
+        cmocka_unit_test(test_large),
+        cmocka_unit_test(test_signal),
+        cmocka_unit_test(test_replay_of_others),
+        cmocka_unit_test(test_members),
+        cmocka_unit_test(test_resumed),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
 }
