@@ -15,7 +15,6 @@
 #include "report/report.h"
 #include "run/run.h"
 #include "scene/describe.h"
-#include "scene/keys.h"
 
 #include <stdio.h>
 #include <string.h>

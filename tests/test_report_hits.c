@@ -1,7 +1,7 @@
 /* Counting hits: spans of touching by hand, and `orzo report --hits` on dice at a coarse step. */
 #include "program.h"
 
-#include "report/report_hits.h"
+#include "observe/hits.h"
 
 #include <math.h>
 

@@ -34,27 +34,11 @@ static void test_stretches_add_up(void **state)
     assert_int_equal(oz_step_clock_nearest(&clock, 4.7), 19);
 }
 
-/* The first step that is not before a time: of every step's own time it is that step, though
- * quotients of these lie on both sides of a whole number. */
-static void test_first_step_after(void **state)
-{
-    (void)state;
-    OzStepClock clock = oz_step_clock_begin(0.1);
-    oz_step_clock_change(&clock, 3, 0.07);
-    for (int64_t step = 3; step < 1000; step++) {
-        double time = oz_step_clock_time(&clock, step);
-        assert_int_equal(oz_step_clock_after(&clock, time), step);
-        assert_int_equal(oz_step_clock_after(&clock, time + 0.01), step + 1);
-        assert_int_equal(oz_step_clock_after(&clock, time - 0.01), step);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_stretch),
         cmocka_unit_test(test_stretches_add_up),
-        cmocka_unit_test(test_first_step_after),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,17 @@ OzStatus oz_memory_grow(void **pointer, size_t old_count, size_t count, size_t s
     return OZ_OK;
 }
 
+OzStatus oz_memory_room(void **pointer, int64_t *capacity, int64_t wanted, size_t size,
+                        const char *what)
+{
+    int64_t next = wanted > 2 * *capacity ? wanted : 2 * *capacity;
+    if (wanted > *capacity) {
+        OZ_PASS(oz_memory_grow(pointer, (size_t)*capacity, (size_t)next, size, what));
+        *capacity = next;
+    }
+    return OZ_OK;
+}
+
 OzStatus oz_memory_text(char **copy, const char *text)
 {
     *copy = NULL;

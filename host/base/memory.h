@@ -5,6 +5,7 @@
 #include "base/status.h"
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* *pointer receives count zeroed items of size bytes (never NULL on success, also for count 0); the
  * caller frees it with free(). On failure *pointer is NULL. what names the array in the message. */
@@ -12,6 +13,11 @@ OzStatus oz_memory_new(void **pointer, size_t count, size_t size, const char *wh
 
 /* Grows *pointer to count items, new items zeroed from old_count on. On failure *pointer is kept. */
 OzStatus oz_memory_grow(void **pointer, size_t old_count, size_t count, size_t size,
+                        const char *what);
+
+/* Room for so many items: fewer become twice as many, or as many as wanted if that is more, new ones
+ * zeroed. On failure both are kept. */
+OzStatus oz_memory_room(void **pointer, int64_t *capacity, int64_t wanted, size_t size,
                         const char *what);
 
 /* A copy of text made with malloc, or NULL for NULL; the caller frees it. */
@@ -23,3 +29,5 @@ double oz_memory_most(void);
 
 #define OZ_NEW(pointer, count)                                                                     \
     oz_memory_new((void **)(pointer), (size_t)(count), sizeof **(pointer), #pointer)
+#define OZ_ROOM(pointer, capacity, wanted, what)                                                   \
+    oz_memory_room((void **)(pointer), capacity, wanted, sizeof **(pointer), what)

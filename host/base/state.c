@@ -23,11 +23,6 @@ size_t oz_state_kind_bytes(OzStateKind kind)
     return kinds[kind].bytes;
 }
 
-const char *oz_state_kind_name(OzStateKind kind)
-{
-    return kinds[kind].name;
-}
-
 static void free_entry(OzStateEntry *entry)
 {
     free(entry->name);
@@ -84,12 +79,7 @@ done:
 /* Without a look at whether the name is there already, which costs a pass over all. */
 static OzStatus append(OzState *state, const OzStateEntry *entry)
 {
-    if (state->count == state->capacity) {
-        int64_t wanted = state->capacity ? 2 * state->capacity : 64;
-        OZ_PASS(oz_memory_grow((void **)&state->entries, (size_t)state->capacity, (size_t)wanted,
-                               sizeof *state->entries, "entries of state"));
-        state->capacity = wanted;
-    }
+    OZ_PASS(OZ_ROOM(&state->entries, &state->capacity, state->count + 1, "entries of state"));
     OZ_PASS(copy_entry(&state->entries[state->count], entry));
     state->count++;
     return OZ_OK;

@@ -36,7 +36,6 @@ typedef struct OzState {
 void oz_state_free(OzState *state); /* zeroed is fine */
 
 size_t oz_state_kind_bytes(OzStateKind kind);
-const char *oz_state_kind_name(OzStateKind kind); /* "int64", "double", ... */
 
 /* Adds an entry with copies of what is given. Fails with OZ_ERR_INPUT when there is one of that
  * name already. */

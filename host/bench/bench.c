@@ -2,7 +2,6 @@
  * apart. */
 #include "bench/bench.h"
 
-#include "base/clock.h"
 #include "base/file.h"
 #include "base/folder.h"
 #include "base/log.h"
@@ -15,7 +14,6 @@
 #include "bench/bench_table.h"
 #include "bench/bench_yardstick.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

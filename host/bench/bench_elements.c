@@ -2,7 +2,6 @@
 #include "bench/bench_elements.h"
 
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/folder.h"
 #include "base/subprocess.h"
 #include "sim/element_stage_timing.h"
@@ -10,7 +9,6 @@
 #include "sim/settle.h"
 #include "sim/sim.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

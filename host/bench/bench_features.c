@@ -2,14 +2,13 @@
 #include "bench/bench_features.h"
 
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/folder.h"
+#include "base/order.h"
 #include "base/subprocess.h"
 #include "model/insert.h"
 #include "sim/counters.h"
 #include "sim/sim.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -219,18 +218,12 @@ static OzStatus make_changed(OzBenchBed *changed, const OzBenchBed *bed, const O
     return OZ_OK;
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The value below which a share of them lies. */
 static double quantile(const double *values, int count, double share)
 {
     double sorted[TURNS];
     memcpy(sorted, values, (size_t)count * sizeof *values);
-    qsort(sorted, (size_t)count, sizeof sorted[0], compare);
+    oz_order_sort(sorted, count);
     return sorted[(int)lround(share * (count - 1))];
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/order.h"
 #include "base/subprocess.h"
 #include "base/thread.h"
 #include "bench/bench_cost.h"
@@ -241,12 +242,6 @@ static OzStatus time_workers(Bench *bench)
     return status;
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double per(double count, double events)
 {
     return events > 0 ? count / events : NAN;
@@ -258,7 +253,7 @@ static double step_time(Worker *worker)
 {
     double made = worker->element_steps;
     bool whole = worker->element_steps == steps_of_tap(&worker->job->bed->scene);
-    qsort(worker->pieces, (size_t)worker->element_count, sizeof worker->pieces[0], compare);
+    oz_order_sort(worker->pieces, worker->element_count);
     double middle =
         whole ? worker->pieces[worker->element_count / 2] : worker->wall / worker->element_count;
     return 1e6 * middle / made;

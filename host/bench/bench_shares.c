@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/folder.h"
 #include "base/log.h"
+#include "base/order.h"
 #include "base/subprocess.h"
 #include "draw/pictures.h"
 #include "observe/frames.h"
@@ -17,7 +18,6 @@
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     MOMENTS = 4, /* of a piece at which the bed stands still; --quick: 1 */
@@ -91,12 +91,6 @@ static OzStatus open_shares(Shares *s)
     return oz_series_create(&s->series, "/dev/null", &s->bed->scene, &s->bed->grains);
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double per_step(double events, double steps)
 {
     return steps > 0 ? events / steps : 0;
@@ -128,7 +122,7 @@ static double element_time(double times[PIECES], bool whole_taps)
     for (int k = 0; k < PIECES; k++) {
         sum += times[k];
     }
-    qsort(times, PIECES, sizeof times[0], compare);
+    oz_order_sort(times, PIECES);
     return whole_taps ? 0.5 * (times[PIECES / 2 - 1] + times[PIECES / 2]) : sum / PIECES;
 }
 

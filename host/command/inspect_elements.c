@@ -9,7 +9,6 @@
 #include "sim/trial.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 static void print_bodies(FILE *file, const OzGrains *grains)
 {

@@ -171,11 +171,11 @@ static OzStatus draw_all(Redraw *r)
 {
     int64_t total = 0, count = 0;
     bool more = true;
-    for (size_t i = 0; i < r->plan.count; i++) {
+    for (int64_t i = 0; i < r->plan.count; i++) {
         total += r->plan.frames[i].purpose != 0;
     }
     r->started = oz_clock_now();
-    for (size_t i = 0; i < r->plan.count && count < total; i++) {
+    for (int64_t i = 0; i < r->plan.count && count < total; i++) {
         int stored = 0;
         OZ_PASS(oz_frame_reader_next(r->frames, &r->snapshot, &stored, &more));
         if (!more) {

@@ -13,12 +13,7 @@ enum { SNAPSHOTS_NAMED = 8 }; /* in the log, of those that are off */
 
 OzStatus oz_redraw_plan_note(OzRedrawPlan *plan, double time, int stored)
 {
-    if (plan->count == plan->capacity) {
-        size_t wanted = plan->capacity ? 2 * plan->capacity : 256;
-        OZ_PASS(oz_memory_grow((void **)&plan->frames, plan->capacity, wanted, sizeof *plan->frames,
-                               "stored frames"));
-        plan->capacity = wanted;
-    }
+    OZ_PASS(OZ_ROOM(&plan->frames, &plan->capacity, plan->count + 1, "stored frames"));
     plan->frames[plan->count++] = (OzRedrawFrame){.time = time, .stored = stored};
     return OZ_OK;
 }
@@ -32,9 +27,9 @@ void oz_redraw_plan_free(OzRedrawPlan *plan)
 /* The frame nearest to time; its distance in time, s, widens *off. */
 static OzRedrawFrame *find_nearest(const OzRedrawPlan *plan, double time, double *off)
 {
-    size_t low = 0, high = plan->count - 1;
+    int64_t low = 0, high = plan->count - 1;
     while (low < high) {
-        size_t middle = (low + high) / 2;
+        int64_t middle = (low + high) / 2;
         if (plan->frames[middle].time < time) {
             low = middle + 1;
         } else {
@@ -51,7 +46,7 @@ static OzRedrawFrame *find_nearest(const OzRedrawPlan *plan, double time, double
 /* What the run kept for one purpose is drawn again. */
 static void take_stored(OzRedrawPlan *plan, int purpose)
 {
-    for (size_t i = 0; i < plan->count; i++) {
+    for (int64_t i = 0; i < plan->count; i++) {
         plan->frames[i].purpose |= plan->frames[i].stored & purpose;
         plan->frames[i].repeats += plan->frames[i].stored & purpose & OZ_FRAME_MOVIE ? 1 : 0;
     }
@@ -77,7 +72,7 @@ static void take_evenly(OzRedrawPlan *plan, int purpose, double interval, double
 static bool keeps(const OzRedrawPlan *plan, int purpose)
 {
     bool any = false;
-    for (size_t i = 0; i < plan->count; i++) {
+    for (int64_t i = 0; i < plan->count; i++) {
         any |= (plan->frames[i].stored & purpose) != 0;
     }
     return any;
@@ -108,7 +103,7 @@ static void choose_movie(OzRedrawPlan *plan, const OzScene *run, const OzScene *
 static double find_end(const OzRedrawPlan *plan)
 {
     double gap = 0;
-    for (size_t i = 1; i < plan->count; i++) {
+    for (int64_t i = 1; i < plan->count; i++) {
         gap = fmax(gap, plan->frames[i].time - plan->frames[i - 1].time);
     }
     return last_time(plan) + gap;
@@ -193,7 +188,7 @@ OzStatus oz_redraw_plan_choose(OzRedrawPlan *plan, const OzScene *run, OzScene *
         choose_snapshots(plan, run, asked);
         choose_strobe(plan, run, asked);
     }
-    for (size_t i = 0; i < plan->count; i++) {
+    for (int64_t i = 0; i < plan->count; i++) {
         any |= plan->frames[i].purpose != 0;
     }
     return any ? OZ_OK

@@ -12,7 +12,7 @@ typedef struct OzRedrawFrame {
 
 typedef struct OzRedrawPlan {
     OzRedrawFrame *frames; /* in the file's order; owned */
-    size_t count, capacity;
+    int64_t count, capacity;
 } OzRedrawPlan;
 
 /* Notes a frame of the file, in order. The caller frees with oz_redraw_plan_free (zeroed is fine).

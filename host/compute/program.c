@@ -73,7 +73,7 @@ done:
     return status;
 }
 
-OzStatus oz_program_flatten(char **text, const char *source_dir, const char *name)
+static OzStatus flatten_file(char **text, const char *source_dir, const char *name)
 {
     Flat flat = {.source_dir = source_dir};
     size_t size = 0;
@@ -132,7 +132,7 @@ OzStatus oz_program_build(cl_program *program, const OzDevice *device, const cha
     cl_int code = CL_SUCCESS;
     char *text = NULL, all[2048];
     *program = NULL;
-    OZ_TRY(oz_program_flatten(&text, source_dir, name));
+    OZ_TRY(flatten_file(&text, source_dir, name));
     *program = clCreateProgramWithSource(device->context, 1, (const char **)&text, NULL, &code);
     CL_TRY(code);
     snprintf(all, sizeof all, "-cl-std=CL1.2 %s", options);

@@ -6,9 +6,7 @@
 #include "export/grain_columns.h"
 #include "observe/contact_rows.h"
 
-#include <errno.h>
 #include <stdlib.h>
-#include <string.h>
 
 typedef struct Writer {
     const OzExport *target;

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const char NAME[] = "grains.xyz";
 static const double PI = 3.14159265358979323846;

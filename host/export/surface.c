@@ -12,26 +12,14 @@
 static const double PI = 3.14159265358979323846;
 enum { AROUND = 64, DISC_CORNERS = 32 };
 
-static OzStatus grow(void **array, int64_t *capacity, int64_t wanted, size_t size)
-{
-    int64_t next = wanted > 2 * *capacity ? wanted : 2 * *capacity;
-    if (wanted <= *capacity) {
-        return OZ_OK;
-    }
-    OZ_PASS(oz_memory_grow(array, (size_t)*capacity, (size_t)next, size, "a surface"));
-    *capacity = next;
-    return OZ_OK;
-}
-
-OzStatus oz_surface_add(OzSurface *s, double (*points)[3], int64_t count, int64_t owner)
+static OzStatus add_polygon(OzSurface *s, double (*points)[3], int64_t count, int64_t owner)
 {
     int64_t cells = s->cell_capacity;
-    OZ_PASS(grow((void **)&s->points, &s->point_capacity, s->point_count + count,
-                 3 * sizeof *s->points));
-    OZ_PASS(grow((void **)&s->corners, &s->corner_capacity, s->corner_count + count,
-                 sizeof *s->corners));
-    OZ_PASS(grow((void **)&s->ends, &cells, s->cell_count + 1, sizeof *s->ends));
-    OZ_PASS(grow((void **)&s->owner, &s->cell_capacity, s->cell_count + 1, sizeof *s->owner));
+    OZ_PASS(oz_memory_room((void **)&s->points, &s->point_capacity, s->point_count + count,
+                           3 * sizeof *s->points, "a surface"));
+    OZ_PASS(OZ_ROOM(&s->corners, &s->corner_capacity, s->corner_count + count, "a surface"));
+    OZ_PASS(OZ_ROOM(&s->ends, &cells, s->cell_count + 1, "a surface"));
+    OZ_PASS(OZ_ROOM(&s->owner, &s->cell_capacity, s->cell_count + 1, "a surface"));
     for (int64_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
             s->points[3 * s->point_count + k] = (float)points[i][k];
@@ -55,7 +43,7 @@ static OzStatus add_element(OzSurface *s, const OzSnapshot *now, int64_t i, int6
         points[k][0] = is_disc ? centre[0] + elements->radius[i] * cos(turn) : corners[2 * k];
         points[k][1] = is_disc ? centre[1] + elements->radius[i] * sin(turn) : corners[2 * k + 1];
     }
-    return oz_surface_add(s, points, is_disc ? DISC_CORNERS : 3, owner);
+    return add_polygon(s, points, is_disc ? DISC_CORNERS : 3, owner);
 }
 
 OzStatus oz_surface_add_flat_grains(OzSurface *s, const OzSnapshot *now)
@@ -139,7 +127,7 @@ static OzStatus add_plane(OzSurface *s, const OzWall *wall, double offset, const
             corners[c][k] = foot + 1.5 * ball->radius * (a * u[k] + b * v[k]);
         }
     }
-    return oz_surface_add(s, corners, 4, number);
+    return add_polygon(s, corners, 4, number);
 }
 
 /* The middle of a round wall, its axis and two directions across. */
@@ -166,7 +154,7 @@ static OzStatus add_belt(OzSurface *s, const Round *round, const double along[2]
         for (int c = 0; c < 4; c++) {
             put_on_circle(round, along[c / 2], radius[c / 2], i + (c == 1 || c == 2), corners[c]);
         }
-        OZ_PASS(oz_surface_add(s, corners, 4, number));
+        OZ_PASS(add_polygon(s, corners, 4, number));
     }
     return OZ_OK;
 }
@@ -189,7 +177,7 @@ static OzStatus add_cylinder(OzSurface *s, const OzWall *wall, const Round *roun
         for (int i = 0; i < AROUND; i++) {
             put_on_circle(round, along[e], radius, i, lid[i]);
         }
-        OZ_PASS(oz_surface_add(s, lid, AROUND, number));
+        OZ_PASS(add_polygon(s, lid, AROUND, number));
     }
     return add_belt(s, round, along, (double[2]){radius, radius}, number);
 }
@@ -220,7 +208,7 @@ static OzStatus add_box(OzSurface *s, const OzWall *wall, const double shift[3],
                 corners[c][n] = middle + place[n] * wall->size[n];
             }
         }
-        OZ_PASS(oz_surface_add(s, corners, 4, number));
+        OZ_PASS(add_polygon(s, corners, 4, number));
     }
     return OZ_OK;
 }

@@ -14,10 +14,8 @@ typedef struct OzSurface {
     int64_t cell_count, cell_capacity;
 } OzSurface;
 
-/* Adds a polygon of count points, x y z each. Fails with OZ_ERR_MEMORY. */
-OzStatus oz_surface_add(OzSurface *surface, double (*points)[3], int64_t count, int64_t owner);
-
-/* Adds the triangles and discs (as polygons) of flat grains, as they are now. */
+/* Adds the triangles and discs (as polygons) of flat grains, as they are now. Fails with
+ * OZ_ERR_MEMORY. */
 OzStatus oz_surface_add_flat_grains(OzSurface *surface, const OzSnapshot *now);
 
 /* Adds the walls that are there now. Endless ones are cut to what encloses the grains now. */

@@ -2,7 +2,6 @@
 #include "export/vtk_file.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 
 /* The arrays are named twice, in the XML and behind it: the same walk does both. */
 typedef struct Walk {

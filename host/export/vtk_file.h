@@ -2,8 +2,6 @@
  * machine's order, which every reader of VTK takes. */
 #pragma once
 
-#include "base/status.h"
-
 #include <stdint.h>
 #include <stdio.h>
 

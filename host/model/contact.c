@@ -45,8 +45,8 @@ static double clamped_damping_ratio(double restitution)
  * integrated by Simpson's rule from phi = 0 to pi or to where the force becomes a pull, 1 + 2 zeta
  * cos = 0; u stays above 0 for zeta < 3 sqrt(3) / 4, but falls steeply to 1 / (2 zeta)^2 where a
  * strongly damped pull would begin: phi = end (1 - y^2) puts the panels there. 4000 of them leave
- * 1e-9 for e > 0.01. */
-double oz_contact_smooth_restitution(double damping_ratio, OzAttraction attraction,
+ * 1e-9 for e > 0.01. *duration receives the hit's, times sqrt(kappa). */
+static double smooth_restitution(double damping_ratio, OzAttraction attraction,
                                      double *duration)
 {
     enum { PANELS = 4000 };
@@ -72,11 +72,11 @@ static void solve_smooth(OzContactConstants *constants, const OzContactValues *v
     double low = 0, high = clamp ? 100 : 0.75 * sqrt(3), time = 0;
     for (int i = 0; i < 60; i++) {
         double middle = 0.5 * (low + high);
-        double e = oz_contact_smooth_restitution(middle, values->attraction, &time);
+        double e = smooth_restitution(middle, values->attraction, &time);
         *(e > constants->restitution ? &low : &high) = middle;
     }
     low = constants->restitution < 1 ? low : 0;
-    oz_contact_smooth_restitution(low, values->attraction, &time);
+    smooth_restitution(low, values->attraction, &time);
     double rate = time / values->contact_time;
     constants->stiffness = rate * rate;
     constants->damping = 2 * low * rate;

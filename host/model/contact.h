@@ -40,7 +40,3 @@ bool oz_contact_is_linear(OzLaw law);
  * 1 at 0, falling towards 0 (Schwager & Poeschel 2007). */
 double oz_contact_clamped_restitution(double damping_ratio);
 
-/* The same for a dashpot that grows from nothing, and the hit's duration times sqrt(kappa). Where
- * it may pull, damping_ratio must stay below 3 sqrt(3) / 4: beyond that, hits do not end. */
-double oz_contact_smooth_restitution(double damping_ratio, OzAttraction attraction,
-                                     double *duration);

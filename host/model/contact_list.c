@@ -9,12 +9,7 @@
 
 OzStatus oz_contact_list_add(OzContactList *list, const OzContactEntry *entry)
 {
-    if (list->count == list->capacity) {
-        int64_t more = list->capacity + list->capacity / 2 + 64;
-        OZ_PASS(oz_memory_grow((void **)&list->entry, (size_t)list->capacity, (size_t)more,
-                               sizeof *list->entry, "contacts"));
-        list->capacity = more;
-    }
+    OZ_PASS(OZ_ROOM(&list->entry, &list->capacity, list->count + 1, "contacts"));
     list->entry[list->count++] = *entry;
     return OZ_OK;
 }

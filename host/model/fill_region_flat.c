@@ -104,7 +104,8 @@ static double distance_to_line(const double *a, const double *b, const double *p
     return hypot(p[0] - a[0] - along * x, p[1] - a[1] - along * y);
 }
 
-double oz_fill_region_flat_distance(const double corners[6], const double point[2])
+/* From a point to a triangle, m; 0 inside. */
+static double distance_to(const double corners[6], const double point[2])
 {
     double nearest = INFINITY;
     int left = 0;
@@ -123,7 +124,7 @@ static bool touches_wall(const OzFillRegionFlat *fill_region, const double centr
     for (int w = 0; w < fill_region->wall_count; w++) {
         for (int t = 0; t < fill_region->walls[w].triangle_count; t++) {
             oz_triangle_set_corners(&fill_region->walls[w], t, corners);
-            if (oz_fill_region_flat_distance(corners, centre) <= radius) {
+            if (distance_to(corners, centre) <= radius) {
                 return true;
             }
         }

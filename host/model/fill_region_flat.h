@@ -30,6 +30,3 @@ void oz_fill_region_flat_draw(const OzFillRegionFlat *fill_region, OzRandom *ran
 /* True when a circle lies inside the container and touches no wall. */
 bool oz_fill_region_flat_holds(const OzFillRegionFlat *fill_region, const double centre[2],
                                double radius);
-
-/* The distance from a point to a triangle (x y of three corners), m; 0 inside. */
-double oz_fill_region_flat_distance(const double corners[6], const double point[2]);

@@ -157,24 +157,10 @@ static OzStatus grow_heads(OzOverlapGrid *overlap_grid)
     return OZ_OK;
 }
 
-static OzStatus grow(void *array, int64_t count, int64_t *capacity, size_t size)
-{
-    if (count < *capacity) {
-        return OZ_OK;
-    }
-    int64_t larger = *capacity ? 2 * *capacity : 1024;
-    OzStatus status =
-        oz_memory_grow(array, (size_t)*capacity, (size_t)larger, size, "placed grains");
-    if (status == OZ_OK) {
-        *capacity = larger;
-    }
-    return status;
-}
-
 static OzStatus add_entry(OzOverlapGrid *overlap_grid, uint64_t hash)
 {
-    OZ_PASS(grow(&overlap_grid->entries, overlap_grid->entry_count, &overlap_grid->entry_capacity,
-                 sizeof *overlap_grid->entries));
+    OZ_PASS(OZ_ROOM(&overlap_grid->entries, &overlap_grid->entry_capacity,
+                    overlap_grid->entry_count + 1, "placed grains"));
     if (overlap_grid->entry_count >= overlap_grid->head_count) {
         OZ_PASS(grow_heads(overlap_grid));
     }
@@ -199,8 +185,8 @@ OzStatus oz_overlap_grid_add(OzOverlapGrid *overlap_grid, const OzCapsule *capsu
     double cell = level_cell(level), point[3];
     Samples samples = sample_shaft(capsule, cell);
     uint64_t last = 0;
-    OZ_PASS(grow(&overlap_grid->members, overlap_grid->count, &overlap_grid->capacity,
-                 sizeof *overlap_grid->members));
+    OZ_PASS(OZ_ROOM(&overlap_grid->members, &overlap_grid->capacity, overlap_grid->count + 1,
+                    "placed grains"));
     for (int64_t i = 0; i < samples.count; i++) {
         sample_point(point, &samples, i);
         uint64_t hash = hash_of(level, cell_of(point[0], cell), cell_of(point[1], cell),

@@ -3,7 +3,6 @@
 
 #include <complex.h>
 #include <math.h>
-#include <string.h>
 
 /* One hit in units of step and approach speed: overlap grows while rate > 0. */
 typedef struct Hit {

@@ -3,11 +3,8 @@
  * Masses drop out: the map knows K = kappa dt^2 and G = gamma dt alone. */
 #pragma once
 
-#include "base/status.h"
 #include "model/contact.h"
 #include "model/hertz.h"
-
-#include <stdbool.h>
 
 /* Integrators that move rods: the first of the list (OzIntegrator). */
 #define OZ_PREDICT_INTEGRATORS 3

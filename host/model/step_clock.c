@@ -20,19 +20,6 @@ int64_t oz_step_clock_nearest(const OzStepClock *clock, double time)
     return steps < most ? clock->first + llround(steps) : INT64_MAX;
 }
 
-/* The quotient may be rounded across a whole number; times of steps decide. */
-int64_t oz_step_clock_after(const OzStepClock *clock, double time)
-{
-    int64_t step = clock->first + (int64_t)ceil((time - clock->start) / clock->dt);
-    while (oz_step_clock_time(clock, step) < time) {
-        step++;
-    }
-    while (oz_step_clock_time(clock, step - 1) >= time) {
-        step--;
-    }
-    return step;
-}
-
 void oz_step_clock_change(OzStepClock *clock, int64_t step, double dt)
 {
     if (dt != clock->dt) {

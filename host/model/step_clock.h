@@ -19,10 +19,8 @@ OzStepClock oz_step_clock_begin(double dt);
 /* Time of a step of the present stretch, s. */
 double oz_step_clock_time(const OzStepClock *clock, int64_t step);
 
-/* The step nearest to a time, s (INT64_MAX where none is, as for INFINITY); and the first one that
- * is not before it. */
+/* The step nearest to a time, s (INT64_MAX where none is, as for INFINITY). */
 int64_t oz_step_clock_nearest(const OzStepClock *clock, double time);
-int64_t oz_step_clock_after(const OzStepClock *clock, double time);
 
 /* A new stretch from this step on. With the same dt the clock stays as it is, to the bit. */
 void oz_step_clock_change(OzStepClock *clock, int64_t step, double dt);

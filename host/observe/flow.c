@@ -54,12 +54,8 @@ static void see_fall(OzFlow *flow)
 
 static OzStatus keep_sample(OzFlow *flow)
 {
-    if (flow->sample_count == flow->sample_capacity) {
-        int64_t wanted = flow->sample_capacity ? 2 * flow->sample_capacity : 256;
-        OZ_PASS(oz_memory_grow((void **)&flow->samples, (size_t)flow->sample_capacity,
-                               (size_t)wanted, sizeof *flow->samples, "inclinations"));
-        flow->sample_capacity = wanted;
-    }
+    OZ_PASS(OZ_ROOM(&flow->samples, &flow->sample_capacity, flow->sample_count + 1,
+                    "inclinations"));
     flow->samples[flow->sample_count++] = (OzFlowSample){flow->surface, flow->centre};
     return OZ_OK;
 }

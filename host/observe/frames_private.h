@@ -1,7 +1,6 @@
 /* What writing and reading frames.bin share. */
 #pragma once
 
-#include "observe/bytes.h"
 #include "observe/frame_elements.h"
 #include "observe/frames.h"
 

@@ -104,7 +104,7 @@ static void order_by_top(OzMeasure *measure, const OzSnapshot *snapshot)
     }
 }
 
-bool oz_measure_height(OzMeasure *measure, const OzSnapshot *snapshot, double *value)
+static bool find_height(OzMeasure *measure, const OzSnapshot *snapshot, double *value)
 {
     int64_t count = snapshot->count, *heap = measure->heap;
     if (count == 0 || measure->floor < 0) {
@@ -131,7 +131,7 @@ static bool fill_fraction(const OzMeasure *measure, double height, double *value
 bool oz_measure_density_all(OzMeasure *measure, const OzSnapshot *snapshot, double *value)
 {
     double height = 0;
-    return measure->area > 0 && oz_measure_height(measure, snapshot, &height) &&
+    return measure->area > 0 && find_height(measure, snapshot, &height) &&
            fill_fraction(measure, height, value);
 }
 

@@ -30,11 +30,9 @@ void oz_measure_free(OzMeasure *measure);
 /* Each function below returns true and *value, or false where the scene or the bed has no such
  * value (no cylinder, no floor, no rod, no grain). A NaN in the state gives NaN. */
 
-/* H, m: order the grains by their highest point and take them from the top while the volume taken
- * is at most 5 % of all (to 1e-9); H is the highest point of the rest above the moving floor. */
-bool oz_measure_height(OzMeasure *measure, const OzSnapshot *snapshot, double *value);
-
-/* All volume / (area H), and 0.95 of it, which is the density without the 5 %. */
+/* All volume / (area H), and 0.95 of it, which is the density without the 5 %. H: order the grains
+ * by their highest point and take them from the top while the volume taken is at most 5 % of all
+ * (to 1e-9); H is the highest point of the rest above the moving floor. */
 bool oz_measure_density_all(OzMeasure *measure, const OzSnapshot *snapshot, double *value);
 bool oz_measure_density(OzMeasure *measure, const OzSnapshot *snapshot, double *value);
 

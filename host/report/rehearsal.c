@@ -6,7 +6,6 @@
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Watches a settling for as long as patience lasts. */

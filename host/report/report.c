@@ -2,7 +2,6 @@
 #include "report/report.h"
 
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"

@@ -2,7 +2,6 @@
 #include "report/report_ensemble.h"
 
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/folder.h"
 #include "base/memory.h"
 #include "model/insert.h"

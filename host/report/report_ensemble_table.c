@@ -1,7 +1,6 @@
 /* Table, CSV and picture of ensembles. */
 #include "report/report_ensemble_table.h"
 
-#include "base/file.h"
 #include "base/folder.h"
 #include "base/gnuplot.h"
 #include "scene/keys.h"
@@ -15,7 +14,8 @@ OzMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int qua
     return oz_student_moments(point->value[quantity], point->members);
 }
 
-bool oz_report_ensemble_table_has(const OzEnsemblePoint *points, int count, int quantity)
+/* What a scene has no number of is left out of tables and pictures. */
+static bool has_number(const OzEnsemblePoint *points, int count, int quantity)
 {
     for (int i = 0; i < count; i++) {
         for (int m = 0; m < points[i].members; m++) {
@@ -38,7 +38,7 @@ static Shown choose_shown(const OzEnsemblePoint *points, int count)
     Shown shown;
     bool any = false;
     for (int q = 0; q < OZ_MEMBER_QUANTITIES; q++) {
-        shown.shown[q] = oz_report_ensemble_table_has(points, count, q);
+        shown.shown[q] = has_number(points, count, q);
         any |= shown.shown[q];
     }
     for (int q = 0; q < OZ_MEMBER_QUANTITIES && !any; q++) {

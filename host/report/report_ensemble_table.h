@@ -18,10 +18,6 @@ typedef struct OzEnsemblePoint {
     char reason[200]; /* why there are no members, or not all; empty: there are       */
 } OzEnsemblePoint;
 
-/* Whether any member of any point has a number of this quantity: what a scene has none of is left
- * out of tables and pictures. */
-bool oz_report_ensemble_table_has(const OzEnsemblePoint *points, int count, int quantity);
-
 /* Over the members of a point. */
 OzMoments oz_report_ensemble_table_moments(const OzEnsemblePoint *point, int quantity);
 

@@ -1,7 +1,6 @@
 /* Running the stiff and extreme cases. */
 #include "report/report_extreme.h"
 
-#include "base/log.h"
 #include "model/insert.h"
 #include "report/report_extreme_elements.h"
 #include "report/report_refuse.h"

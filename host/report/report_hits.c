@@ -2,12 +2,12 @@
  * numbers and a picture. */
 #include "report/report_hits.h"
 
-#include "base/file.h"
 #include "base/folder.h"
 #include "base/gnuplot.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "model/beam_limits.h"
+#include "observe/hits.h"
 #include "run/members.h"
 #include "sim/element_reference.h"
 
@@ -16,6 +16,14 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* One meeting of two grains. */
+typedef struct Meeting {
+    OzHits hits;                /* still touching: the scene ends too early           */
+    double speed;               /* m/s, relative, at the start                        */
+    double angular_velocity[2]; /* at the scene's end, x edge / speed: the edge of the
+                                   square of the grain's area                         */
+} Meeting;
 
 enum { LOOKS = 25, PATH_SIZE = 1024, SHARES_SIZE = 12 * OZ_HITS_SPANS };
 
@@ -61,7 +69,7 @@ static double edge_of(const OzElements *elements, int64_t grain)
     return sqrt(area);
 }
 
-static OzStatus walk(OzReportHits *meeting, OzElementReference *reference, OzSnapshot *now,
+static OzStatus walk(Meeting *meeting, OzElementReference *reference, OzSnapshot *now,
                      int64_t stride)
 {
     int64_t last = llround(now->scene->duration / now->scene->step);
@@ -76,13 +84,15 @@ static OzStatus walk(OzReportHits *meeting, OzElementReference *reference, OzSna
     return OZ_OK;
 }
 
-OzStatus oz_report_hits_follow(OzReportHits *meeting, const OzScene *scene, const OzGrains *grains)
+/* Follows the scene's two grains to its end, looking at them 25 times in a period of their fastest
+ * vibration, at every step at most. */
+static OzStatus follow(Meeting *meeting, const OzScene *scene, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
     OzElementReference *reference = NULL;
     OzSnapshot now = {0};
     int64_t stride;
-    *meeting = (OzReportHits){0};
+    *meeting = (Meeting){0};
     OZ_TRY(refuse(scene, grains));
     const double *v = grains->velocity;
     meeting->speed = hypot(v[0] - v[3], v[1] - v[4]);
@@ -117,7 +127,7 @@ static void list_shares(const OzHits *hits, char *text, size_t size)
     }
 }
 
-static void write_row(FILE *csv, const OzMembers *plan, int64_t i, const OzReportHits *m)
+static void write_row(FILE *csv, const OzMembers *plan, int64_t i, const Meeting *m)
 {
     char shares[SHARES_SIZE];
     const char *value = oz_members_value(plan, i);
@@ -133,7 +143,7 @@ static void write_row(FILE *csv, const OzMembers *plan, int64_t i, const OzRepor
     fflush(stdout);
 }
 
-static OzStatus follow_all(OzReportHits *meetings, const OzMembers *plan, FILE *csv)
+static OzStatus follow_all(Meeting *meetings, const OzMembers *plan, FILE *csv)
 {
     OzStatus status = OZ_OK;
     OzScene scene = {0};
@@ -146,7 +156,7 @@ static OzStatus follow_all(OzReportHits *meetings, const OzMembers *plan, FILE *
     fprintf(csv, "%s,seed,speed,hits,touching,spin_0,spin_1,shares\n", key ? key : "value");
     for (int64_t i = 0; i < plan->count; i++) {
         OZ_TRY(oz_members_load(plan, i, &scene, &grains));
-        OZ_TRY(oz_report_hits_follow(&meetings[i], &scene, &grains));
+        OZ_TRY(follow(&meetings[i], &scene, &grains));
         write_row(csv, plan, i, &meetings[i]);
         oz_grains_free(&grains);
         oz_scene_free(&scene);
@@ -158,12 +168,12 @@ done:
 }
 
 /* Neighbours in the order written, of one seed. */
-static void say_changes(const OzReportHits *meetings, const OzMembers *plan, double share)
+static void say_changes(const Meeting *meetings, const OzMembers *plan, double share)
 {
     const char *key = plan->scene.sweep.key;
     bool changed = false;
     for (int64_t i = 0; i + plan->seed_count < plan->count; i++) {
-        const OzReportHits *one = &meetings[i], *next = &meetings[i + plan->seed_count];
+        const Meeting *one = &meetings[i], *next = &meetings[i + plan->seed_count];
         int before = oz_hits_count(&one->hits, share), after = oz_hits_count(&next->hits, share);
         if (before != after) {
             printf("counted from %g %% of the impulse: hits change from %d to %d between %s = %s "
@@ -179,7 +189,7 @@ static void say_changes(const OzReportHits *meetings, const OzMembers *plan, dou
     }
 }
 
-static void say_all_changes(const OzReportHits *meetings, const OzMembers *plan)
+static void say_all_changes(const Meeting *meetings, const OzMembers *plan)
 {
     double asked = share_of(plan->options);
     say_changes(meetings, plan, asked);
@@ -191,11 +201,11 @@ static void say_all_changes(const OzReportHits *meetings, const OzMembers *plan)
     printf("spin: at the end, x edge / speed\n");
 }
 
-static void send_points(FILE *gnuplot, const OzReportHits *meetings, int64_t count, double share)
+static void send_points(FILE *gnuplot, const Meeting *meetings, int64_t count, double share)
 {
     fprintf(gnuplot, "$spins << EOD\n");
     for (int64_t i = 0; i < count; i++) {
-        const OzReportHits *m = &meetings[i];
+        const Meeting *m = &meetings[i];
         fprintf(gnuplot, "%.9g %.9g %.9g %d\n", m->speed, fabs(m->angular_velocity[0]),
                 fabs(m->angular_velocity[1]), oz_hits_count(&m->hits, share));
     }
@@ -208,7 +218,7 @@ static void send_points(FILE *gnuplot, const OzReportHits *meetings, int64_t cou
     fprintf(gnuplot, "EOD\n");
 }
 
-static OzStatus draw(const char *folder, const OzReportHits *meetings, int64_t count, double share)
+static OzStatus draw(const char *folder, const Meeting *meetings, int64_t count, double share)
 {
     FILE *gnuplot = NULL;
     OZ_PASS(oz_gnuplot_open(&gnuplot, folder, "hits.png"));
@@ -242,7 +252,7 @@ OzStatus oz_report_hits_run(const OzOptions *options, const char *folder)
     OzMembers plan = {0};
     const OzFolderUse use = {.keep = true};
     OzFolder owned = {0};
-    OzReportHits *meetings = NULL;
+    Meeting *meetings = NULL;
     FILE *csv = NULL;
     char path[PATH_SIZE];
     if (options->path_count != 1) {

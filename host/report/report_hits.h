@@ -3,23 +3,10 @@
 #pragma once
 
 #include "cli.h"
-#include "model/grains.h"
-#include "observe/hits.h"
-
-/* One meeting of two grains. */
-typedef struct OzReportHits {
-    OzHits hits;  /* still touching: the scene ends too early                         */
-    double speed; /* m/s, relative, at the start                                      */
-    double angular_velocity[2]; /* at the scene's end, x edge / speed: the edge of the square of the
-                       grain's area                                                     */
-} OzReportHits;
-
-/* Follows the scene's two grains to its end, looking at them 25 times in a period of their fastest
- * vibration, at every step at most. Fails with OZ_ERR_INPUT unless there are two grains of
- * trigrains that move relative to each other, no walls and no settling. */
-OzStatus oz_report_hits_follow(OzReportHits *meeting, const OzScene *scene, const OzGrains *grains);
 
 /* Prints a row for every value of the sweep and each seed of options->paths[0], and between which
  * values the number of hits changes, counted from options->share (0: OZ_HITS_SHARE) of the impulse
- * and from 3, 5 and 10 % of it; leaves folder/hits.csv and, with gnuplot, folder/hits.png. */
+ * and from 3, 5 and 10 % of it; leaves folder/hits.csv and, with gnuplot, folder/hits.png. Fails with
+ * OZ_ERR_INPUT unless there are two grains of trigrains that move relative to each other, no walls
+ * and no settling. */
 OzStatus oz_report_hits_run(const OzOptions *options, const char *folder);

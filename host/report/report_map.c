@@ -1,7 +1,6 @@
 /* The stability map. */
 #include "report/report_map.h"
 
-#include "base/file.h"
 #include "base/folder.h"
 #include "base/gnuplot.h"
 #include "base/log.h"

@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { SEEDS = 4, SEEDS_QUICK = 2, ROWS = 64 };
 

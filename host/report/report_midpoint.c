@@ -1,7 +1,6 @@
 /* Energy by force point, in a loop on the host and in a pile on the device. */
 #include "report/report_midpoint.h"
 
-#include "base/file.h"
 #include "base/folder.h"
 #include "model/insert.h"
 #include "observe/element_energy.h"
@@ -12,7 +11,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {

@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Diameters, without --tolerance. */
 static const double tolerance_default = 0.01;

@@ -1,7 +1,6 @@
 /* Aligned rods under `single` and `line`. */
 #include "report/report_parallel.h"
 
-#include "base/file.h"
 #include "base/folder.h"
 #include "base/gnuplot.h"
 #include "base/memory.h"

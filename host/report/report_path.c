@@ -5,12 +5,10 @@
 #include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "model/predict.h"
 #include "scene/keys.h"
 #include "sim/read_snapshot.h"
 #include "sim/sim.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -229,13 +227,21 @@ done:
     return status;
 }
 
+/* "velocity-verlet, 4 substeps" */
+static void name_path(const OzReportPath *path, char *text, size_t size)
+{
+    const char *name = oz_keys_choice_name("integrator", (int)path->integrator);
+    snprintf(text, size, path->substeps > 1 ? "%s, %lld substeps" : "%s", name,
+             (long long)path->substeps);
+}
+
 static OzStatus measure_all(OzReportPaths *paths, const Worker *truth, int look_of_truth,
                             const OzOptions *options, const OzDevice *device)
 {
     for (int i = 0; i < paths->count; i++) {
         OzReportPath *path = &paths->path[i];
         char name[64];
-        oz_report_path_name(path, name, sizeof name);
+        name_path(path, name, sizeof name);
         if (i == 0 || path->integrator != path[-1].integrator ||
             path->substeps != path[-1].substeps) {
             oz_log_line("paths: %s%s", name, i == 0 ? ", as written" : "");
@@ -323,17 +329,10 @@ done:
     return status;
 }
 
-void oz_report_path_name(const OzReportPath *path, char *text, size_t size)
-{
-    const char *name = oz_keys_choice_name("integrator", (int)path->integrator);
-    snprintf(text, size, path->substeps > 1 ? "%s, %lld substeps" : "%s", name,
-             (long long)path->substeps);
-}
-
 static void print_row(FILE *file, const OzReportPath *path, bool written)
 {
     char name[64];
-    oz_report_path_name(path, name, sizeof name);
+    name_path(path, name, sizeof name);
     fprintf(file, "  %-28s %8.1f %11.4g", name, path->steps, path->step);
     if (path->good) {
         fprintf(file, " %12.3g %12.4g", path->error, path->wall);

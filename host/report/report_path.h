@@ -48,6 +48,3 @@ void oz_report_path_print(FILE *file, const OzReportPaths *paths, const OzReport
 
 /* The same as numbers, into paths.csv of the folder. Fails with OZ_ERR_FILE. */
 OzStatus oz_report_path_write(const char *folder, const OzReportPaths *paths);
-
-/* "velocity-verlet, 4 substeps" */
-void oz_report_path_name(const OzReportPath *path, char *text, size_t size);

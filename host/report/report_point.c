@@ -2,6 +2,7 @@
 #include "report/report_point.h"
 
 #include "base/clock.h"
+#include "base/order.h"
 #include "report/report_refuse.h"
 #include "report/report_runs.h"
 #include "sim/element_reference.h"
@@ -100,17 +101,11 @@ done:
     return status;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median and extremes of wall times of one copy. */
 static void take_times(OzReportPoint *point, double *seconds, int count, const OzReportRuns *runs)
 {
     double simulated = (double)runs->steps * runs->scene.step;
-    qsort(seconds, (size_t)count, sizeof *seconds, by_size);
+    oz_order_sort(seconds, count);
     point->wall = 0.5 * (seconds[(count - 1) / 2] + seconds[count / 2]) / simulated;
     point->wall_low = seconds[0] / simulated;
     point->wall_high = seconds[count - 1] / simulated;

@@ -1,7 +1,6 @@
 /* What differs between a scene that runs and one that shall take over, key by key. */
 #pragma once
 
-#include "scene/keys.h"
 #include "scene/scene.h"
 #include "scene/tree.h"
 

@@ -2,11 +2,11 @@
 #include "scene/check.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "scene/check_flat.h"
 #include "scene/check_solid.h"
 #include "scene/keys.h"
 #include "scene/value.h"
-#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -144,18 +144,10 @@ static void derive_times(Checker *checker)
     }
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static int sort_unique(double *numbers, int count)
 {
     int kept = 0;
-    if (count) {
-        qsort(numbers, (size_t)count, sizeof *numbers, compare);
-    }
+    oz_order_sort(numbers, count);
     for (int i = 0; i < count; i++) {
         if (i == 0 || numbers[i] > numbers[kept - 1]) {
             numbers[kept++] = numbers[i];

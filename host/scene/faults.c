@@ -6,7 +6,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* More than anyone reads; a file of noise must not fill the memory with messages. */
 enum { MOST_FAULTS = 100 };

@@ -6,7 +6,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdio.h>
 
 /* What is stored at the row's offset. */
 typedef enum OzKeyType {

@@ -13,7 +13,6 @@
 #include "scene/value.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values)
+static OzLawConstants law_of(const OzScene *scene, const OzContactValues *values)
 {
     OzContactConstants constants = oz_calibrate_contact(scene, values);
     OzLawConstants law = {.stiffness = constants.stiffness,
@@ -76,7 +76,7 @@ static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *
         double units = to->shape.point[c] / unit;
         to->shape.point[c] = unit < 1 ? round(units) : units;
     }
-    to->law = oz_constants_law(scene, &from->contact);
+    to->law = law_of(scene, &from->contact);
 }
 
 static int fill_walls(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene)
@@ -145,7 +145,7 @@ static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], co
     parameters->inverse_unit = 1 / parameters->length_unit;
     parameters->dt = scene->step;
     memcpy(parameters->gravity, scene->gravity, sizeof scene->gravity);
-    parameters->law = oz_constants_law(scene, &scene->contact);
+    parameters->law = law_of(scene, &scene->contact);
     parameters->deep_warn = scene->guards.overlap_warn;
     parameters->deep_stop = scene->guards.overlap_stop;
     parameters->deep_look = fmin(1, fmin(parameters->deep_warn, parameters->deep_stop));

@@ -19,7 +19,3 @@ OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX
 OzStatus oz_constants_refill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
                              const OzScene *scene, const OzGrains *grains,
                              const OzParameters *running);
-
-/* The law of the scene's contacts of given values (of two grains: the scene's; of a wall: its own),
- * calibrated where the scene asks for it. */
-OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values);

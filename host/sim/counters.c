@@ -1,7 +1,6 @@
 /* Reading counts off the device's arrays. */
 #include "sim/counters.h"
 
-#include "base/memory.h"
 #include "sim/rods_private.h"
 
 #include <stdlib.h>

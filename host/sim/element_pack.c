@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Words of a slot's state: kernels know them as OZ_ELEMENT_STATE, a constant of their program. The
  * host serves programs of every order and takes it from the switches. */

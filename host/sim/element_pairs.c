@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,12 +44,7 @@ static bool still_holds(const OzElementPairs *pairs, const OzElements *elements,
 
 static OzStatus add_pair(OzElementPairs *pairs, int i, int j)
 {
-    if (pairs->count == pairs->capacity) {
-        int64_t more = 2 * pairs->capacity + 64;
-        OZ_PASS(oz_memory_grow((void **)&pairs->pair, (size_t)pairs->capacity, (size_t)more,
-                               sizeof *pairs->pair, "pairs of elements"));
-        pairs->capacity = more;
-    }
+    OZ_PASS(OZ_ROOM(&pairs->pair, &pairs->capacity, pairs->count + 1, "pairs of elements"));
     pairs->pair[pairs->count++] = (OzElementPair){i < j ? i : j, i < j ? j : i};
     return OZ_OK;
 }

@@ -6,7 +6,6 @@
 #include "sim/units.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Skins of an element in the lists, measured on a flowing hopper: larger ones are used up less

@@ -5,7 +5,6 @@
 #include "compute/cl_try.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* THE phases: kernel and whether one work-item does it all. */
 #define PHASES(X)                                                                                  \

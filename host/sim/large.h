@@ -6,7 +6,6 @@
 #include "sim/model.h"
 
 #include <stdbool.h>
-#include <stdint.h>
 
 typedef struct OzLarge OzLarge;
 

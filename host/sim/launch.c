@@ -21,7 +21,7 @@ OzStatus oz_launch_write_control(OzSim *sim)
     return OZ_OK;
 }
 
-OzStatus oz_launch_read_control(OzSim *sim)
+static OzStatus read_control(OzSim *sim)
 {
     for (int m = 0; m < sim->batch.member_count; m++) {
         OZ_PASS(oz_arrays_read(&sim->arrays, sim->model->control_field, m, oz_sim_control(sim, m),
@@ -69,7 +69,7 @@ OzStatus oz_launch_save_springs(OzSim *sim)
     kernel = clCreateKernel(sim->program, "oz_save_springs", &code);
     CL_TRY(code);
     OZ_TRY(oz_launch_enqueue(sim, kernel, -1));
-    OZ_TRY(oz_launch_read_control(sim));
+    OZ_TRY(read_control(sim));
 done:
     CL_RELEASE(Kernel, kernel);
     return status;
@@ -108,7 +108,7 @@ static OzStatus run(OzSim *sim, int steps)
         return oz_large_steps(sim->large, &sim->arrays, oz_sim_control(sim, 0), steps);
     }
     OZ_PASS(oz_launch_enqueue(sim, sim->advance, steps));
-    return oz_launch_read_control(sim);
+    return read_control(sim);
 }
 
 /* Whether a member has made its steps, with lists that hold: snapshots read them. */

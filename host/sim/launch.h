@@ -19,6 +19,5 @@ OzStatus oz_launch_save_springs(OzSim *sim);
  * last is its one argument of its own, unless negative. */
 OzStatus oz_launch_enqueue(OzSim *sim, cl_kernel kernel, int last);
 
-/* Control words of all members to the device, and back. */
+/* Control words of all members to the device. */
 OzStatus oz_launch_write_control(OzSim *sim);
-OzStatus oz_launch_read_control(OzSim *sim);

@@ -163,7 +163,7 @@ bool oz_resolution_is_fine(const OzScene *scene, const OzGrains *grains)
            r.overlap < OZ_RESOLUTION_ENOUGH * r.digit && walls_are_fine(scene);
 }
 
-OzStatus oz_resolution_find(OzResolution *resolution, const OzScene *scene, const OzGrains *grains)
+static OzStatus find_finest(OzResolution *resolution, const OzScene *scene, const OzGrains *grains)
 {
     OZ_PASS(find(resolution, scene, grains));
     if (resolution->overlap < OZ_RESOLUTION_ENOUGH * resolution->digit && walls_are_fine(scene)) {
@@ -183,7 +183,7 @@ OzStatus oz_resolution_print(FILE *file, const OzScene *scene, const OzGrains *g
     if (scene->precision != OZ_PRECISION_FLOAT) {
         return OZ_OK;
     }
-    OZ_PASS(oz_resolution_find(&r, scene, grains));
+    OZ_PASS(find_finest(&r, scene, grains));
     fprintf(file, "  resolution       float tells overlaps of %.3g m apart", r.digit);
     if (isfinite(r.overlap)) {
         fprintf(file, "; %s: %.3g m, %.3g of these", overlap_name(&r), r.overlap,
@@ -227,7 +227,7 @@ OzStatus oz_resolution_judge(const OzScene *scene, const OzGrains *grains, bool 
     if (scene->precision != OZ_PRECISION_FLOAT || grains->count == 0) {
         return OZ_OK;
     }
-    OZ_PASS(oz_resolution_find(&r, scene, grains));
+    OZ_PASS(find_finest(&r, scene, grains));
     if (describe(text, sizeof text, &r, OZ_RESOLUTION_LEAST, OZ_RESOLUTION_GAIN_LEAST) && !force) {
         return oz_status_fail(OZ_ERR_INPUT,
                               "%s: precision: float cannot hold this scene: %s; expected "

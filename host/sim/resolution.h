@@ -31,9 +31,6 @@ typedef struct OzResolution {
  * (kernels/fine.h): in single precision, where contacts are light. */
 bool oz_resolution_is_fine(const OzScene *scene, const OzGrains *grains);
 
-/* Fails as oz_constants_fill. */
-OzStatus oz_resolution_find(OzResolution *resolution, const OzScene *scene, const OzGrains *grains);
-
 /* For `orzo check`: a line on overlaps and one on speeds; nothing in double. */
 OzStatus oz_resolution_print(FILE *file, const OzScene *scene, const OzGrains *grains);
 

@@ -2,16 +2,13 @@
  * slots become ids here. */
 #include "sim/rods_read_snapshot.h"
 
-#include "base/memory.h"
 #include "sim/contacts.h"
 #include "sim/pack.h"
 #include "sim/read_snapshot.h"
 #include "sim/rods_private.h"
 #include "sim/scalars.h"
-#include "sim/units.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* A word of a spring, m; 0 in a scene without springs. */
 static double spring_word(const OzSim *sim, int member, const void *words, size_t at)

@@ -58,15 +58,7 @@ static bool near(const Ball *a, const Ball *b, double skin)
 
 static OzStatus add(OzPairs *list, const Ball *one, const Ball *other)
 {
-    if (list->count == list->capacity) {
-        int64_t capacity = 2 * list->capacity + 256;
-        OzStatus status = oz_memory_grow((void **)&list->pair, (size_t)list->capacity,
-                                         (size_t)capacity, sizeof *list->pair, "list of pairs");
-        if (status != OZ_OK) {
-            return status;
-        }
-        list->capacity = capacity;
-    }
+    OZ_PASS(OZ_ROOM(&list->pair, &list->capacity, list->count + 1, "list of pairs"));
     bool in_order = one->reach != other->reach ? one->reach > other->reach : one->id < other->id;
     OzPair pair = {in_order ? one->id : other->id, in_order ? other->id : one->id};
     list->pair[list->count++] = pair;

@@ -2,14 +2,12 @@
 #include "sim/start.h"
 
 #include "base/log.h"
-#include "base/memory.h"
 #include "model/contact.h"
 #include "sim/contacts.h"
 #include "sim/element_start.h"
 #include "sim/sort_axis.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* What looking at rods needs. */

@@ -31,7 +31,7 @@ typedef struct Spring {
 typedef struct Bed {
     const OzSnapshot *now;
     Spring *springs;
-    size_t count, capacity;
+    int64_t count, capacity;
     double *swing, *force;
 } Bed;
 
@@ -44,12 +44,7 @@ static OzStatus add(Bed *bed, const OzContactValues *values, double mass, Spring
 {
     OzContactConstants c = oz_calibrate_contact(bed->now->scene, values);
     bool sticks = values->friction > 0;
-    if (bed->count == bed->capacity) {
-        size_t capacity = 2 * bed->capacity + 64;
-        OZ_PASS(oz_memory_grow((void **)&bed->springs, bed->capacity, capacity, sizeof(Spring),
-                               "springs"));
-        bed->capacity = capacity;
-    }
+    OZ_PASS(OZ_ROOM(&bed->springs, &bed->capacity, bed->count + 1, "springs"));
     spring.stiffness = mass * c.stiffness;
     spring.damping = mass * c.damping;
     spring.tangential = sticks ? mass * c.tangential_stiffness : 0;
@@ -142,7 +137,7 @@ static double apply(Bed *bed)
 {
     double power = 0;
     memset(bed->force, 0, (size_t)bed->now->count * FREEDOMS * sizeof *bed->force);
-    for (size_t k = 0; k < bed->count; k++) {
+    for (int64_t k = 0; k < bed->count; k++) {
         const Spring *s = &bed->springs[k];
         OzVec3 way = oz_scale(point_way(bed->swing, s->a, s->arm_a), -1);
         if (s->b >= 0) {
@@ -234,7 +229,7 @@ OzStatus oz_stiffness_measure(OzStiffness *result, const OzSnapshot *now)
     OZ_TRY(OZ_NEW(&bed.force, now->count * FREEDOMS));
     OZ_TRY(find_springs(&bed));
     iterate(&bed, result);
-    result->contacts = (int64_t)bed.count;
+    result->contacts = bed.count;
     result->largest_step =
         oz_predict_largest_step(now->scene->integrator, result->stiffness, result->damping);
 done:

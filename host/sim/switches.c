@@ -6,8 +6,6 @@
 #include "sim/resolution.h"
 #include "sim/sides.h"
 
-#include <string.h>
-
 static bool all_equal(const OzGrains *grains)
 {
     for (int64_t i = 1; i < grains->count; i++) {
