@@ -39,10 +39,10 @@ static OzSnapshot run_bed(const Rig *rig, const OzDevice *device, bool measured)
     assert_true(oz_contact_list_sum(&there.contacts).pairs > 0);
     assert_true(oz_contact_list_sum(&there.contacts).walls > 0);
     if (measured) {
-        OzStageTiming phases;
-        must(oz_stage_timing_measure(&phases, sim, NULL));
-        assert_true(phases.pairs > 0);
-        assert_true(phases.grains > 0);
+        double seconds[OZ_TIMED_MOST];
+        must(oz_stage_timing_measure(seconds, sim, NULL));
+        assert_true(seconds[0] > 0); /* pairs  */
+        assert_true(seconds[1] > 0); /* grains */
     }
     OzSnapshot end = state_at(rig, sim, LATER);
     oz_snapshot_free(&there);

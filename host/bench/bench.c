@@ -6,7 +6,6 @@
 #include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "bench/bench_elements.h"
 #include "bench/bench_features.h"
 #include "bench/bench_limits.h"
 #include "bench/bench_plot.h"
@@ -20,7 +19,7 @@
 
 enum { SIZES_MAX = 32, ROWS_MAX = 512, SETTINGS_MAX = 4 };
 
-/* Seconds that all timed elements together shall take, unless --budget says otherwise. */
+/* Seconds that all timed pieces together shall take, unless --budget says otherwise. */
 static const double full_budget = 600, quick_budget = 45;
 
 /* A row whose fewest steps would take more than so many times its seconds is left out. */
@@ -28,6 +27,9 @@ static const double patience = 6;
 
 /* Steps that a row makes at least, warming up included, and bytes a grain on the host. */
 static const double least_steps = 80, host_bytes = 400;
+
+/* Simulated seconds after settling, at which trigrains have begun to move. */
+static const double warm_time = 0.1;
 
 /* Threads and number format of a row. */
 typedef struct Setting {
@@ -277,7 +279,10 @@ static OzStatus run_scene(Bench *bench, const char *path)
     OzBenchBed later = {0}, *bed = &later;
     OZ_TRY(oz_bench_bed_load(bed, bench->options, path));
     if (bed->scene.model == OZ_MODEL_TRIGRAINS) {
-        status = oz_bench_elements_print(bed, bench->options, bench->folder, stdout);
+        char name[256];
+        snprintf(name, sizeof name, "shares_%s", bed->scene.name);
+        status = oz_bench_shares_print(bed, fmin(warm_time, bed->scene.duration), bench->options,
+                                       bench->folder, name, stdout);
         goto done;
     }
     if (!bench->first.scene.path) {
@@ -355,11 +360,13 @@ static OzStatus take_apart(Bench *bench)
     OzBenchBed bed = {0};
     int64_t large = large_size(bench);
     OZ_TRY(oz_bench_bed_settle(&bench->first, options, OZ_BENCH_BED_TAPS));
-    OZ_TRY(oz_bench_shares_print(&bench->first, options, bench->folder, "shares", stdout));
+    bench->first.scene.precision = OZ_PRECISION_FLOAT;
+    OZ_TRY(oz_bench_shares_print(&bench->first, 0, options, bench->folder, "shares", stdout));
     if (large > 0) {
         OZ_TRY(make_bed(bench, &bed, large));
         bed.scene.movie.present = false;
-        OZ_TRY(oz_bench_shares_print(&bed, options, bench->folder, "shares_large", stdout));
+        bed.scene.precision = OZ_PRECISION_FLOAT;
+        OZ_TRY(oz_bench_shares_print(&bed, 0, options, bench->folder, "shares_large", stdout));
     }
     if (options->features && options->path_count == 0) {
         OZ_TRY(oz_bench_features_print(&bench->first, options, bench->folder, stdout));

@@ -1,13 +1,13 @@
 /* Timing features. */
 #include "bench/bench_features.h"
 
-#include "base/clock.h"
 #include "base/folder.h"
 #include "base/order.h"
 #include "base/subprocess.h"
 #include "model/insert.h"
 #include "sim/counters.h"
 #include "sim/sim.h"
+#include "sim/stage_timing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -160,12 +160,6 @@ typedef struct Duel {
     Side *side; /* 2, borrowed */
 } Duel;
 
-/* A CPU's work is timed by the processor clock, which other programs disturb less. */
-static double clock_of(const OzDevice *device)
-{
-    return device->is_cpu ? oz_clock_processor() : oz_clock_now();
-}
-
 static OzStatus run_side(Duel *duel, const OzDevice *device, int which, int turn)
 {
     OzStatus status = OZ_OK;
@@ -175,9 +169,9 @@ static OzStatus run_side(Duel *duel, const OzDevice *device, int which, int turn
     OzCounters probe;
     OZ_TRY(oz_sim_create(&sim, device, &member, 1, duel->options->source_dir));
     OZ_TRY(oz_sim_advance(sim, WARM_STEPS));
-    double start = clock_of(device);
+    double start = oz_stage_timing_clock(device);
     OZ_TRY(oz_sim_advance(sim, WARM_STEPS + duel->steps));
-    duel->side[which].seconds[turn] = (clock_of(device) - start) / duel->steps;
+    duel->side[which].seconds[turn] = (oz_stage_timing_clock(device) - start) / duel->steps;
     OZ_TRY(oz_counters_read(&probe, sim));
     duel->side[which].pairs = (double)probe.pairs / (double)probe.grains;
 done:

@@ -20,7 +20,7 @@
 #include <string.h>
 
 enum {
-    ELEMENTS_LEAST = 5,
+    PIECES_LEAST = 5,
     PIECES_MOST = 1000,
     STEPS_LEAST = 8,    /* of a piece: below, the clock and the launch would be seen */
     STEPS_WARM = 16,    /* lists made, kernels compiled, arrays touched              */
@@ -39,7 +39,7 @@ typedef struct Worker {
     OzSeries *series;
     double observing;           /* s, in the pieces */
     double pieces[PIECES_MOST]; /* s */
-    int element_count, element_steps;
+    int piece_count, piece_steps;
     double wall, cpu;   /* s, of all pieces */
     OzSimCounts before; /* the first piece  */
     pthread_t thread;
@@ -157,7 +157,7 @@ static OzStatus observe(Worker *worker, bool last)
 }
 
 /* So many steps, observed as a run would when the job says so. */
-static OzStatus make_element(Worker *worker, int steps)
+static OzStatus make_piece(Worker *worker, int steps)
 {
     const OzBenchJob *job = worker->job;
     int64_t first = oz_sim_step(worker->sim);
@@ -186,23 +186,23 @@ static OzStatus warm_up(Worker *worker, double *step_seconds)
     return OZ_OK;
 }
 
-static OzStatus time_elements(Worker *worker)
+static OzStatus time_pieces(Worker *worker)
 {
     int tap = steps_of_tap(&worker->job->bed->scene);
     double step_seconds = 0;
     OZ_PASS(warm_up(worker, &step_seconds));
-    double wanted = worker->job->seconds / ELEMENTS_LEAST / step_seconds;
-    worker->element_steps = wanted >= tap ? tap : (int)fmax(STEPS_LEAST, wanted);
+    double wanted = worker->job->seconds / PIECES_LEAST / step_seconds;
+    worker->piece_steps = wanted >= tap ? tap : (int)fmax(STEPS_LEAST, wanted);
     worker->before = oz_sim_counts(worker->sim);
     worker->observing = 0;
     double end = oz_clock_now() + worker->job->seconds;
-    for (int k = 0; k < PIECES_MOST && (k < ELEMENTS_LEAST || oz_clock_now() < end); k++) {
+    for (int k = 0; k < PIECES_MOST && (k < PIECES_LEAST || oz_clock_now() < end); k++) {
         double wall = oz_clock_now(), cpu = oz_clock_processor();
-        OZ_PASS(make_element(worker, worker->element_steps));
+        OZ_PASS(make_piece(worker, worker->piece_steps));
         worker->pieces[k] = oz_clock_now() - wall;
         worker->wall += worker->pieces[k];
         worker->cpu += oz_clock_processor() - cpu;
-        worker->element_count = k + 1;
+        worker->piece_count = k + 1;
     }
     return OZ_OK;
 }
@@ -210,7 +210,7 @@ static OzStatus time_elements(Worker *worker)
 static void *time_thread(void *context)
 {
     Worker *worker = context;
-    worker->status = time_elements(worker);
+    worker->status = time_pieces(worker);
     snprintf(worker->text, sizeof worker->text, "%s", oz_status_text());
     return NULL;
 }
@@ -251,11 +251,11 @@ static double per(double count, double events)
  * piece. Sorts the pieces. */
 static double step_time(Worker *worker)
 {
-    double made = worker->element_steps;
-    bool whole = worker->element_steps == steps_of_tap(&worker->job->bed->scene);
-    oz_order_sort(worker->pieces, worker->element_count);
+    double made = worker->piece_steps;
+    bool whole = worker->piece_steps == steps_of_tap(&worker->job->bed->scene);
+    oz_order_sort(worker->pieces, worker->piece_count);
     double middle =
-        whole ? worker->pieces[worker->element_count / 2] : worker->wall / worker->element_count;
+        whole ? worker->pieces[worker->piece_count / 2] : worker->wall / worker->piece_count;
     return 1e6 * middle / made;
 }
 
@@ -269,25 +269,25 @@ static void note_times(Bench *bench)
     for (int k = 0; k < bench->count; k++) {
         rate += 1 / step_time(&bench->workers[k]);
     }
-    double all = (double)first->element_count * first->element_steps;
+    double all = (double)first->piece_count * first->piece_steps;
     value[OZ_BENCH_US_STEP] = bench->count / rate;
-    value[OZ_BENCH_US_LEAST] = 1e6 * first->pieces[0] / first->element_steps;
+    value[OZ_BENCH_US_LEAST] = 1e6 * first->pieces[0] / first->piece_steps;
     value[OZ_BENCH_US_CPU] = 1e6 * first->cpu / all;
     value[OZ_BENCH_OBSERVE] = bench->job->observed ? 1e6 * first->observing / all : NAN;
     value[OZ_BENCH_TAPS] = scene->period > 0 ? all * scene->step / scene->period : NAN;
-    value[OZ_BENCH_PIECES] = first->element_count;
+    value[OZ_BENCH_PIECES] = first->piece_count;
     value[OZ_BENCH_REFRESH] = per(steps, (double)(after.refreshes - before.refreshes));
     value[OZ_BENCH_REBUILD] = per(steps, (double)(after.rebuilds - before.rebuilds));
     value[OZ_BENCH_STEPS_LAUNCH] = per(steps, (double)(after.launches - before.launches));
 }
 
 /* The mean of several moments of one more piece of the first worker. */
-static OzStatus probe_element(Bench *bench, OzCounters *mean)
+static OzStatus probe_piece(Bench *bench, OzCounters *mean)
 {
     Worker *worker = &bench->workers[0];
     int64_t pairs = 0, touching = 0, first = oz_sim_step(worker->sim);
     for (int k = 1; k <= PROBES; k++) {
-        OZ_PASS(oz_sim_advance(worker->sim, first + worker->element_steps * k / PROBES));
+        OZ_PASS(oz_sim_advance(worker->sim, first + worker->piece_steps * k / PROBES));
         OZ_PASS(oz_counters_read(mean, worker->sim));
         pairs += mean->pairs;
         touching += mean->touching;
@@ -303,7 +303,7 @@ static OzStatus note_work(Bench *bench)
     double *value = bench->row->value, copy = 0, multiply_add = 0;
     const OzBenchJob *job = bench->job;
     OzCounters probe;
-    OZ_PASS(probe_element(bench, &probe));
+    OZ_PASS(probe_piece(bench, &probe));
     OzBenchCost cost = oz_bench_cost_step(&probe);
     cost.bytes *= bench->count;
     cost.operations *= bench->count;

@@ -11,19 +11,20 @@
 #include "observe/frames.h"
 #include "observe/schedule.h"
 #include "observe/series.h"
+#include "sim/models.h"
 #include "sim/read_snapshot.h"
-#include "sim/sim.h"
+#include "sim/settle.h"
 #include "sim/stage_timing.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     MOMENTS = 4, /* of a piece at which the bed stands still; --quick: 1 */
-    PIECES = 6,  /* of a tap, or of piece_seconds                    */
+    PIECES = 6,  /* of a tap, or of piece_seconds                 */
     WARM = 64,   /* steps: lists made, arrays touched                */
-    LEAST = 32,  /* steps of a piece                                 */
+    LEAST = 32,  /* steps of a piece                               */
     SAMPLES = 64,
     ROWS = 16,
     FRAMES = 12
@@ -32,13 +33,8 @@ enum {
 /* A tap of a large bed takes too long: its pieces end after about so many seconds. */
 static const double piece_seconds = 1.5;
 
-/* THE list of parts, in the order of the table. */
+/* THE list of parts, after the model's stages, in the order of the table. */
 #define PARTS(X)                                                                                   \
-    X(PAIRS, "pairs", "kernel, repeated on a standing bed")                                        \
-    X(GRAINS, "gather and integrate", "kernel, repeated on a standing bed, without walls")         \
-    X(WALLS, "walls", "kernel, the same with walls, difference")                                   \
-    X(REFRESH, "inner list", "made anew on a standing bed")                                        \
-    X(REBUILD, "outer list", "the same with the outer list (large beds: and re-sort), difference") \
     X(REST, "the rest", "a whole step less the above: launches, colder caches, what is -")         \
     X(STEP, "whole step", "in launches: median of taps; of a large bed, mean of less")             \
     X(SAMPLE, "samples", "host, beside the step")                                                  \
@@ -66,27 +62,37 @@ typedef struct Share {
     double calls_per_step;
 } Share;
 
+/* What is measured, in a process of its own. */
+typedef struct Result {
+    Share stage[OZ_TIMED_MOST], part[PART_COUNT];
+    int64_t touches[OZ_CONTACT_KINDS]; /* contacts at the end, by kind */
+} Result;
+
 /* A scene being taken apart. Zeroed is valid. */
 typedef struct Shares {
-    OzBenchBed *bed;
+    const OzBenchBed *bed;
+    const OzModel *model;
     const OzOptions *options;
     const char *folder;
+    double warm; /* s of the scene before anything is timed */
     OzDevice device;
     OzSim *sim;
     OzSnapshot now;
     OzSeries *series;
     OzPictures *pictures;
-    int64_t piece; /* steps */
-    Share *part;   /* PART_COUNT, borrowed */
+    int64_t piece;  /* steps */
+    Result *result; /* borrowed */
 } Shares;
 
 static OzStatus open_shares(Shares *s)
 {
     OzMember member = {&s->bed->scene, &s->bed->grains};
-    s->bed->scene.precision = OZ_PRECISION_FLOAT;
+    double settled = 0;
     OZ_PASS(oz_device_open(&s->device, s->options->device,
                            s->options->threads ? s->options->threads : 1));
     OZ_PASS(oz_sim_create(&s->sim, &s->device, &member, 1, s->options->source_dir));
+    OZ_PASS(oz_settle_run(s->sim, &settled, NULL, NULL));
+    OZ_PASS(oz_sim_advance(s->sim, oz_step_clock_nearest(oz_sim_clock(s->sim), s->warm)));
     OZ_PASS(oz_snapshot_create(&s->now, &s->bed->scene, &s->bed->grains));
     return oz_series_create(&s->series, "/dev/null", &s->bed->scene, &s->bed->grains);
 }
@@ -96,27 +102,22 @@ static double per_step(double events, double steps)
     return steps > 0 ? events / steps : 0;
 }
 
-/* A CPU's work is timed by the processor clock, which other programs disturb less. */
-static double clock_of(const OzDevice *device)
-{
-    return device->is_cpu ? oz_clock_processor() : oz_clock_now();
-}
-
 /* Steps of a piece: a tap if that is quick enough. */
-static OzStatus choose_element(Shares *s)
+static OzStatus choose_piece(Shares *s)
 {
     const OzScene *scene = &s->bed->scene;
     double tap = scene->period > 0 ? scene->period / scene->step : 1000;
-    OZ_PASS(oz_sim_advance(s->sim, WARM / 2));
-    double start = clock_of(&s->device);
-    OZ_PASS(oz_sim_advance(s->sim, WARM));
-    double each = (clock_of(&s->device) - start) / (WARM - WARM / 2);
+    int64_t first = oz_sim_step(s->sim);
+    OZ_PASS(oz_sim_advance(s->sim, first + WARM / 2));
+    double start = oz_stage_timing_clock(&s->device);
+    OZ_PASS(oz_sim_advance(s->sim, first + WARM));
+    double each = (oz_stage_timing_clock(&s->device) - start) / (WARM - WARM / 2);
     s->piece = llround(fmin(tap, fmax(LEAST, piece_seconds / each)));
     return OZ_OK;
 }
 
 /* Lists are not rebuilt in every short piece, so their mean is taken. */
-static double element_time(double times[PIECES], bool whole_taps)
+static double piece_time(double times[PIECES], bool whole_taps)
 {
     double sum = 0;
     for (int k = 0; k < PIECES; k++) {
@@ -129,50 +130,50 @@ static double element_time(double times[PIECES], bool whole_taps)
 static void note_rates(Shares *s, OzSimCounts before, OzSimCounts after)
 {
     double steps = (double)(after.steps - before.steps);
-    s->part[PART_PAIRS].calls_per_step = s->part[PART_GRAINS].calls_per_step = 1;
-    s->part[PART_WALLS].calls_per_step = s->part[PART_REST].calls_per_step = 1;
-    s->part[PART_REFRESH].calls_per_step =
-        per_step((double)(after.refreshes - before.refreshes), steps);
-    s->part[PART_REBUILD].calls_per_step =
-        per_step((double)(after.rebuilds - before.rebuilds), steps);
+    const double rates[] = {
+        [OZ_TIMED_STEP] = 1,
+        [OZ_TIMED_REFRESH] = per_step((double)(after.refreshes - before.refreshes), steps),
+        [OZ_TIMED_REBUILD] = per_step((double)(after.rebuilds - before.rebuilds), steps)};
+    for (int i = 0; i < s->model->stage_count; i++) {
+        s->result->stage[i].calls_per_step = rates[s->model->stages[i].rate];
+    }
 }
 
 static OzStatus time_steps(Shares *s)
 {
     double times[PIECES];
-    OZ_PASS(choose_element(s));
+    OZ_PASS(choose_piece(s));
     OzSimCounts before = oz_sim_counts(s->sim);
     for (int k = 0; k < PIECES; k++) {
-        double start = clock_of(&s->device);
+        double start = oz_stage_timing_clock(&s->device);
         OZ_PASS(oz_sim_advance(s->sim, oz_sim_step(s->sim) + s->piece));
-        times[k] = clock_of(&s->device) - start;
+        times[k] = oz_stage_timing_clock(&s->device) - start;
     }
     note_rates(s, before, oz_sim_counts(s->sim));
     const OzScene *scene = &s->bed->scene;
     bool whole = scene->period <= 0 || (double)s->piece >= floor(scene->period / scene->step);
-    s->part[PART_STEP] = (Share){element_time(times, whole) / (double)s->piece, 1};
+    s->result->part[PART_STEP] = (Share){piece_time(times, whole) / (double)s->piece, 1};
     return OZ_OK;
 }
 
-static OzStatus time_phases(Shares *s)
+static OzStatus time_stages(Shares *s)
 {
     int64_t first = oz_sim_step(s->sim);
     int moments = s->options->quick ? 1 : MOMENTS;
+    Share *stage = s->result->stage;
     for (int k = 1; k <= moments; k++) {
-        OzStageTiming now;
+        double now[OZ_TIMED_MOST];
         OZ_PASS(oz_sim_advance(s->sim, first + s->piece * k / moments));
-        OZ_PASS(oz_stage_timing_measure(&now, s->sim, s->options->source_dir));
-        s->part[PART_PAIRS].seconds += now.pairs / moments;
-        s->part[PART_GRAINS].seconds += now.grains / moments;
-        s->part[PART_WALLS].seconds += now.walls / moments;
-        s->part[PART_REFRESH].seconds += now.refresh / moments;
-        s->part[PART_REBUILD].seconds += now.rebuild / moments;
+        OZ_PASS(oz_stage_timing_measure(now, s->sim, s->options->source_dir));
+        for (int i = 0; i < s->model->stage_count; i++) {
+            stage[i].seconds += now[i] / moments;
+        }
     }
-    double rest = s->part[PART_STEP].seconds;
-    for (int p = 0; p < PART_REST; p++) {
-        rest -= s->part[p].seconds * s->part[p].calls_per_step;
+    double rest = s->result->part[PART_STEP].seconds;
+    for (int i = 0; i < s->model->stage_count; i++) {
+        rest -= stage[i].seconds * stage[i].calls_per_step;
     }
-    s->part[PART_REST].seconds = rest;
+    s->result->part[PART_REST] = (Share){rest, 1};
     return OZ_OK;
 }
 
@@ -183,21 +184,23 @@ static double rate(double interval, double step)
 
 static OzStatus time_observing(Shares *s, const OzSchedule *schedule)
 {
-    double start = clock_of(&s->device);
+    double start = oz_stage_timing_clock(&s->device);
     for (int k = 0; k < SAMPLES; k++) {
         OZ_PASS(oz_read_snapshot_snapshot(s->sim, 0, &s->now, false));
         oz_series_sample(s->series, &s->now);
     }
-    double middle = clock_of(&s->device);
+    double middle = oz_stage_timing_clock(&s->device);
     for (int k = 0; k < ROWS; k++) {
         OZ_PASS(oz_read_snapshot_snapshot(s->sim, 0, &s->now, true));
         OZ_PASS(oz_series_write(s->series, &s->now));
     }
     double step = s->bed->scene.step;
-    s->part[PART_SAMPLE] =
+    OzContactSums sums = oz_contact_list_sum(&s->now.contacts);
+    memcpy(s->result->touches, sums.kinds, sizeof sums.kinds);
+    s->result->part[PART_SAMPLE] =
         (Share){(middle - start) / SAMPLES, rate(schedule->track[OZ_TRACK_SAMPLE].interval, step)};
-    s->part[PART_ROW] = (Share){(clock_of(&s->device) - middle) / ROWS,
-                                rate(schedule->track[OZ_TRACK_ROW].interval, step)};
+    s->result->part[PART_ROW] = (Share){(oz_stage_timing_clock(&s->device) - middle) / ROWS,
+                                        rate(schedule->track[OZ_TRACK_ROW].interval, step)};
     return OZ_OK;
 }
 
@@ -209,8 +212,8 @@ static OzStatus draw_frames(Shares *s, double frames_per_step)
         OZ_PASS(oz_pictures_add(s->pictures, &s->now, OZ_FRAME_MOVIE));
         oz_pictures_times(s->pictures, &drawing[k > 0], &encoding[k > 0]);
     }
-    s->part[PART_DRAW] = (Share){(drawing[1] - drawing[0]) / FRAMES, frames_per_step};
-    s->part[PART_ENCODE] = (Share){(encoding[1] - encoding[0]) / FRAMES, frames_per_step};
+    s->result->part[PART_DRAW] = (Share){(drawing[1] - drawing[0]) / FRAMES, frames_per_step};
+    s->result->part[PART_ENCODE] = (Share){(encoding[1] - encoding[0]) / FRAMES, frames_per_step};
     return OZ_OK;
 }
 
@@ -240,7 +243,7 @@ static OzStatus measure(void *context)
     OZ_TRY(open_shares(s));
     OzSchedule schedule = oz_schedule_create(&s->bed->scene, -1);
     OZ_TRY(time_steps(s));
-    OZ_TRY(time_phases(s));
+    OZ_TRY(time_stages(s));
     OZ_TRY(time_observing(s, &schedule));
     OZ_TRY(time_pictures(s, &schedule));
 done:
@@ -264,30 +267,56 @@ static void print_number(double value, int width, int decimals, FILE *text, FILE
     }
 }
 
-static void print_part(int p, const Share *part, double step, FILE *text, FILE *csv)
+static void print_part(const char *name, const char *how, Share part, double step, FILE *text,
+                       FILE *csv)
 {
-    double us = 1e6 * part->seconds * part->calls_per_step;
-    fprintf(text, "%-21s", parts[p].name);
-    fprintf(csv, "%s", parts[p].name);
-    print_number(1e6 * part->seconds, 12, 2, text, csv);
-    print_number(part->calls_per_step, 13, 6, text, csv);
+    double us = 1e6 * part.seconds * part.calls_per_step;
+    fprintf(text, "%-21s", name);
+    fprintf(csv, "%s", name);
+    print_number(1e6 * part.seconds, 12, 2, text, csv);
+    print_number(part.calls_per_step, 13, 6, text, csv);
     print_number(us, 12, 3, text, csv);
     print_number(1e-4 * us / step, 9, 1, text, csv);
-    fprintf(text, "  %s\n", parts[p].how);
+    fprintf(text, "  %s\n", how);
     fprintf(csv, "\n");
 }
 
-static OzStatus print_all(const Share part[PART_COUNT], const char *folder, const char *name,
-                          FILE *text)
+/* Trigrains' contacts are computed by one piece of code for all kinds, so its time is theirs by
+ * number. */
+static void print_kinds(const Result *result, Share all, double step, FILE *text, FILE *csv)
+{
+    static const char *const names[OZ_CONTACT_KINDS] = {
+        "", "  kind i", "  kind ii", "  kind iii", "  kind iv", "  kind v", "  kind vi", "  discs"};
+    double sum = 0;
+    for (int k = 0; k < OZ_CONTACT_KINDS; k++) {
+        sum += (double)result->touches[k];
+    }
+    for (int k = 1; k < OZ_CONTACT_KINDS; k++) {
+        if (result->touches[k] > 0) {
+            Share share = {all.seconds * (double)result->touches[k] / sum, all.calls_per_step};
+            print_part(names[k], "a share of these by number", share, step, text, csv);
+        }
+    }
+}
+
+static OzStatus print_all(const Result *result, const OzModel *model, const char *folder,
+                          const char *name, FILE *text)
 {
     OzStatus status = OZ_OK;
+    double step = result->part[PART_STEP].seconds;
     FILE *csv = NULL;
     OZ_TRY(oz_folder_create_file(&csv, folder, name));
     fprintf(csv, "part,us_per_call,calls_per_step,us_per_step,percent_of_step\n");
     fprintf(text, "%-22s %12s %13s %11s %9s  %s\n", "part", "us a call", "calls a step",
             "us a step", "of a step", "how measured");
+    for (int i = 0; i < model->stage_count; i++) {
+        print_part(model->stages[i].name, model->stages[i].how, result->stage[i], step, text, csv);
+        if (i == model->contact_stage) {
+            print_kinds(result, result->stage[i], step, text, csv);
+        }
+    }
     for (int p = 0; p < PART_COUNT; p++) {
-        print_part(p, &part[p], part[PART_STEP].seconds, text, csv);
+        print_part(parts[p].name, parts[p].how, result->part[p], step, text, csv);
     }
 done:
     if (csv) {
@@ -296,20 +325,27 @@ done:
     return status;
 }
 
-OzStatus oz_bench_shares_print(OzBenchBed *bed, const OzOptions *options, const char *folder,
-                               const char *name, FILE *text)
+OzStatus oz_bench_shares_print(const OzBenchBed *bed, double warm, const OzOptions *options,
+                               const char *folder, const char *name, FILE *text)
 {
     OzStatus status = OZ_OK;
-    Share part[PART_COUNT] = {{0}};
+    Result result = {0};
+    const OzModel *model = oz_models_of(&bed->scene);
     char *movie = NULL, table[256];
-    part[PART_DRAW].seconds = part[PART_ENCODE].seconds = NAN;
+    result.part[PART_DRAW].seconds = result.part[PART_ENCODE].seconds = NAN;
     snprintf(table, sizeof table, "%s.csv", name);
     OZ_TRY(oz_file_join(&movie, folder, name));
-    Shares s = {.bed = bed, .options = options, .folder = movie, .part = part};
-    OZ_TRY(oz_subprocess_run(measure, &s, part, sizeof part));
-    fprintf(text, "\nshares of %lld grains of %s, float (of a CPU: processor time)\n",
-            (long long)bed->grains.count, bed->scene.name);
-    OZ_TRY(print_all(part, folder, table, text));
+    Shares s = {.bed = bed,
+                .model = model,
+                .options = options,
+                .folder = movie,
+                .warm = warm,
+                .result = &result};
+    OZ_TRY(oz_subprocess_run(measure, &s, &result, sizeof result));
+    fprintf(text, "\nshares of %lld %ss of %s, %s (of a CPU: processor time)\n",
+            (long long)model->body_count(&bed->grains), model->body, bed->scene.name,
+            bed->scene.precision == OZ_PRECISION_FLOAT ? "float" : "double");
+    OZ_TRY(print_all(&result, model, folder, table, text));
 done:
     free(movie);
     return status;

@@ -65,6 +65,21 @@ typedef struct OzStop {
     const char *words;
 } OzStop;
 
+/* How often a part is done: in every step, or when the inner or the outer list is made anew. */
+typedef enum OzTimedRate { OZ_TIMED_STEP, OZ_TIMED_REFRESH, OZ_TIMED_REBUILD } OzTimedRate;
+
+/* A part of a model's step. kernel: does it as often as its last argument says; less: the stage
+ * whose kernel's time is taken off, OZ_TIMED_NONE without one; bare: in a program without walls. */
+typedef struct OzTimedStage {
+    const char *name, *kernel;
+    OzTimedRate rate;
+    int less;
+    bool bare;
+    const char *how; /* in words, for the table */
+} OzTimedStage;
+
+enum { OZ_TIMED_NONE = -1, OZ_TIMED_MOST = 8 };
+
 typedef struct OzModel {
     const char *name;
 
@@ -137,6 +152,16 @@ typedef struct OzModel {
      * enough to stop in time, rarely enough to cost nothing. */
     double (*energy)(const OzSnapshot *now);
     int judge_steps;
+
+    /* The parts of a step (sim/stage_timing.h) and the program of their kernels; how often what is
+     * repeated may be before it has gone too far. stand_still (may be NULL): a step of no length;
+     * leave_out_walls (NULL: no stage is bare) of these switches. */
+    int stage_count, contact_stage; /* contacts of all kinds */
+    const OzTimedStage *stages;
+    const char *stage_program;
+    int repeats_most;
+    OzStatus (*stand_still)(OzSim *sim);
+    void (*leave_out_walls)(void *switches);
 
     /* The ledger (kernels/ledger_entries.h): its field, rows of so many doubles; what else a member
      * must note when it starts empty (may be NULL). */

@@ -203,6 +203,38 @@ static OzStatus adopt(OzSim *sim, const OzSim *from, int member, double step)
     return OZ_OK;
 }
 
+enum { PAIRS, GRAINS, WALLS, REFRESH, REBUILD, STAGES };
+
+/* Grains: gather, integration, record, guards. */
+static const OzTimedStage stages[STAGES] = {
+    [PAIRS] = {"pairs", "oz_repeat_pairs", OZ_TIMED_STEP, OZ_TIMED_NONE, false,
+               "kernel, repeated on a standing bed"},
+    [GRAINS] = {"gather and integrate", "oz_repeat_grains", OZ_TIMED_STEP, OZ_TIMED_NONE, true,
+                "kernel, repeated on a standing bed, without walls"},
+    [WALLS] = {"walls", "oz_repeat_grains", OZ_TIMED_STEP, GRAINS, false,
+               "kernel, the same with walls, difference"},
+    [REFRESH] = {"inner list", "oz_repeat_refresh", OZ_TIMED_REFRESH, OZ_TIMED_NONE, false,
+                 "made anew on a standing bed"},
+    [REBUILD] = {"outer list", "oz_repeat_rebuild", OZ_TIMED_REBUILD, REFRESH, false,
+                 "the same with the outer list (large beds: and re-sort), difference"},
+};
+
+/* A step of no length, walls where the bed meets them: repeated parts leave what no step would.
+ * Walls' forces pile up in the loads, for only the pairs' part clears them, and an integrator that
+ * carries accelerations would go on with the pile. */
+static OzStatus stand_still(OzSim *sim)
+{
+    oz_rods_parameters(sim, 0)->dt = 0;
+    OZ_PASS(oz_sim_write_parameters(sim));
+    return oz_rods_move_walls(sim, 0, 1);
+}
+
+static void leave_out_walls(void *switches)
+{
+    OzSwitches *s = switches;
+    s->walls = s->wall_kinds = s->moving = 0;
+}
+
 static const OzStop stops[] = {
     {OZ_STOP_NAN, "its state is not a number"},
     {OZ_STOP_ESCAPED, "it has left its container"},
@@ -233,8 +265,7 @@ static void advise_escaped(char *text, size_t size, const OzSnapshot *now)
 }
 
 /* What would help: the guards of depth know, the others say where to look. */
-static void advise(char *text, size_t size, const OzControlHead *control,
-                          const OzSnapshot *now)
+static void advise(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now)
 {
     if (control->stop_bits & OZ_STOP_NAN) {
         snprintf(text, size, "`orzo check` says what step is stable");
@@ -282,6 +313,13 @@ const OzModel oz_rods_model = {
     .contacts = oz_rods_read_snapshot_contacts,
     .energy = oz_rods_read_snapshot_energy,
     .judge_steps = JUDGE_STEPS,
+    .stage_count = STAGES,
+    .contact_stage = PAIRS,
+    .stages = stages,
+    .stage_program = "kernels/stage_timing.cl",
+    .repeats_most = 1 << 24,
+    .stand_still = stand_still,
+    .leave_out_walls = leave_out_walls,
     .ledger_field = OZ_FIELD_ledger,
     .ledger_words = OZ_LEDGER_WORDS,
     .start_ledger = oz_rods_read_snapshot_start_ledger,

@@ -2,18 +2,13 @@
  * bench`. */
 #pragma once
 
-#include "sim/sim.h"
+#include "sim/model.h"
 
-/* Seconds (of a CPU: processor time) of doing each once for all grains; NAN: not measured. */
-typedef struct OzStageTiming {
-    double pairs;   /* forces between grains                                             */
-    double grains;  /* gather, integration, record, guards; walls left out               */
-    double walls;   /* what that takes longer with the walls                             */
-    double refresh; /* the inner list anew                                               */
-    double rebuild; /* what that takes longer with the outer list anew, and a re-sort     */
-} OzStageTiming;
-
-/* Repeats each part many times at the state as it is, with a step of no length. Afterwards every
- * array of the device holds the same bits as before, and the simulation can go on. One member only.
+/* Processor time of a CPU, which other programs disturb less; wall-clock time of another device, s.
  */
-OzStatus oz_stage_timing_measure(OzStageTiming *phases, OzSim *sim, const char *source_dir);
+double oz_stage_timing_clock(const OzDevice *device);
+
+/* Seconds of doing each of the model's stages once for all bodies of the first member, by that
+ * clock. Afterwards every array of the device holds the same bits as before, and the simulation can
+ * go on. */
+OzStatus oz_stage_timing_measure(double seconds[OZ_TIMED_MOST], OzSim *sim, const char *source_dir);

@@ -53,7 +53,8 @@ static int64_t count_elements(const OzGrains *grains)
 /* Numbers of elements may differ, if one work-group a scene can do them. */
 static bool fits(const OzMember *a, const OzMember *b, const void *switches)
 {
-    return !((const OzElementSwitches *)switches)->resort && a->scene->wall_count == b->scene->wall_count;
+    return !((const OzElementSwitches *)switches)->resort &&
+           a->scene->wall_count == b->scene->wall_count;
 }
 
 static OzStatus open(OzSim *sim)
@@ -111,6 +112,27 @@ static OzStatus adopt(OzSim *sim, const OzSim *from, int member, double step)
                                  oz_element_parameters(sim, member)->dt / step);
 }
 
+enum { PREDICT, CLASSIFY, CONTACTS, BEAMS, LOADS, CORRECT, REFRESH, REBUILD, STAGES };
+
+#define REPEATED "kernel, repeated on the state as it is"
+
+/* The rows of Table 1 of Poeschel and Buchholtz (1995). */
+static const OzTimedStage stages[STAGES] = {
+    [PREDICT] = {"predictor", "oz_repeat_predict_correct", OZ_TIMED_STEP, CORRECT, false,
+                 "kernel, corrector and predictor, difference"},
+    [CLASSIFY] = {"classifying", "oz_repeat_classify", OZ_TIMED_STEP, OZ_TIMED_NONE, false,
+                  REPEATED},
+    [CONTACTS] = {"contact forces", "oz_repeat_contacts", OZ_TIMED_STEP, OZ_TIMED_NONE, false,
+                  REPEATED},
+    [BEAMS] = {"beams", "oz_repeat_beams", OZ_TIMED_STEP, OZ_TIMED_NONE, false, REPEATED},
+    [LOADS] = {"adding up", "oz_repeat_loads", OZ_TIMED_STEP, OZ_TIMED_NONE, false, REPEATED},
+    [CORRECT] = {"corrector", "oz_repeat_correct", OZ_TIMED_STEP, OZ_TIMED_NONE, false, REPEATED},
+    [REFRESH] = {"inner list", "oz_repeat_refresh", OZ_TIMED_REFRESH, OZ_TIMED_NONE, false,
+                 "made anew"},
+    [REBUILD] = {"outer list", "oz_repeat_rebuild", OZ_TIMED_REBUILD, REFRESH, false,
+                 "the same with the outer list, difference"},
+};
+
 static const OzStop stops[] = {
     {OZ_ELEMENT_STOP_NAN, "its state is not a number"},
     {OZ_ELEMENT_STOP_ESCAPED, "it has left its container"},
@@ -129,8 +151,7 @@ static int grain_of(const OzGrains *grains, int slot)
 }
 
 /* What would help: the step only where it is to blame. */
-static void advise(char *text, size_t size, const OzControlHead *control,
-                             const OzSnapshot *now)
+static void advise(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now)
 {
     static const struct {
         int bits;
@@ -208,7 +229,7 @@ const OzModel oz_trigrains_model = {
     .control_field = OZ_ELEMENT_FIELD_control,
     .fields = oz_element_fields_rows,
     .field_bytes = oz_element_fields_bytes,
-    .body = "piece",
+    .body = "element",
     .body_count = count_elements,
     .switches_bytes = sizeof(OzElementSwitches),
     .sizes_bytes = sizeof(OzElementSizes),
@@ -235,6 +256,11 @@ const OzModel oz_trigrains_model = {
     .contacts = find_contacts,
     .energy = energy_of,
     .judge_steps = JUDGE_STEPS,
+    .stage_count = STAGES,
+    .contact_stage = CONTACTS,
+    .stages = stages,
+    .stage_program = "kernels/element_stage_timing.cl",
+    .repeats_most = 2048, /* elements under loads that never change go too far after more */
     .ledger_field = OZ_ELEMENT_FIELD_ledger,
     .ledger_words = OZ_ELEMENT_LEDGER_WORDS,
     .stop_count = sizeof stops / sizeof stops[0],
