@@ -28,7 +28,7 @@ static OzLawConstants constants_of(const char *contact, int law)
              contact);
     OzContactConstants c = oz_contact_constants_of(&rig.scene.contact, &rig.scene.contact);
     rig_close(&rig);
-    dialect = (OzSwitches){.law = law, .friction = 1, .history = 1};
+    oz_host_switches_rods(&(OzSwitches){.law = law, .friction = 1, .history = 1});
     return (OzLawConstants){c.stiffness, c.damping, c.tangential_stiffness, c.tangential_damping,
                             1e9};
 }
@@ -84,7 +84,7 @@ static void test_damping_of_the_mass_that_is_felt(void **state)
     for (int law = OZ_LAW_HOOKE; law <= OZ_LAW_HERTZ_MINDLIN; law += 2) {
         OzLawConstants constants = constants_of(laws[law], law);
         OzContact felt = contact_at(1e-5, 0.1), whole = felt;
-        dialect.at_contact = 1;
+        oz_host_switches_now.rods.at_contact = 1;
         felt.lightness = 0.4;
         OzResponse light = oz_contact_response(felt, constants);
         OzResponse central = oz_contact_response(whole, constants);
@@ -128,7 +128,7 @@ static void test_two_bodies_as_one(void **state)
     OzGrain rod = {.position = {2e-3, 0, 2.99e-3}, .radius = 2e-3, .mass = 6e-6};
     rod.half_shaft = (OzVec3){2e-3, 0, 0};
     rod.inverse_inertia = 1 / 8e-12;
-    dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .at_contact = 1};
+    oz_host_switches_rods(&(OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .at_contact = 1});
     OzContact unlike = pair_contact(sphere, rod);
     /* rounding of products and quotients */
     assert_true(fabs(unlike.mass / 2e-6 - 1) < 1e-14);
@@ -137,7 +137,7 @@ static void test_two_bodies_as_one(void **state)
     /* rounding; the overlap is 1e-5 of coordinates of 3e-3, which have 4e-19 as last digit */
     assert_true(fabs(unlike.lightness / sqrt(felt / 2e-6) - 1) < 1e-14);
     assert_true(fabs(unlike.overlap / 1e-5 - 1) < 1e-12 && fabs(unlike.normal.z - 1) < 1e-14);
-    dialect = (OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .equal = 1, .round = 1};
+    oz_host_switches_rods(&(OzSwitches){.law = OZ_LAW_HERTZ_MINDLIN, .equal = 1, .round = 1});
     OzGrain other = sphere;
     other.position.z = 1.9e-3;
     OzContact alike = pair_contact(sphere, other);

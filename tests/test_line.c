@@ -44,7 +44,7 @@ static OzPairForce touch(const Pose *pose, OzLawConstants law)
 
 static void use_line(int line)
 {
-    dialect = (OzSwitches){.line = line};
+    oz_host_switches_rods(&(OzSwitches){.line = line});
 }
 
 static double energy(Pose pose)

@@ -66,7 +66,7 @@ static void test_turning_keeps_its_length(void **state)
     for (int gyroscopic = 0; gyroscopic < 2; gyroscopic++) {
         OzBody body = {.turn = {0, 0, 0, 1}};
         OzVec3 angular_velocity = {0.6, 0, 0.8};
-        dialect = (OzSwitches){.gyroscopic = gyroscopic};
+        oz_host_switches_rods(&(OzSwitches){.gyroscopic = gyroscopic});
         for (int i = 0; i < 10000; i++) {
             oz_body_turn(&body, angular_velocity, sphere, gyroscopic ? 0.5 : 1);
             /* the series' error at 1 rad */

@@ -77,7 +77,7 @@ OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const doub
     const OzPhysics *physics = &contacts->physics;
     OzGrain first = grain_of(contacts->snapshot, a), second = grain_of(contacts->snapshot, b);
     OzLawConstants law = physics->parameters.law;
-    dialect = physics->switches;
+    OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
     bool has_spring = OZ_HISTORY && history, turned = a > b;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
     OzVec3 spring = found.stored;
@@ -102,7 +102,7 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end
     const OzSnapshot *snapshot = contacts->snapshot;
     OzGrain one = grain_of(snapshot, grain);
     int scene_wall = physics->wall_order[wall];
-    dialect = physics->switches;
+    OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
     bool has_spring = OZ_HISTORY && history;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
     OzVec3 spring = found.stored;

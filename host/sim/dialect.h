@@ -1,28 +1,25 @@
 /* The physics headers compiled for the host: real is double, and the switches that are constants on
- * a device are fields of one struct here. For .c files alone: each that includes this has a struct
- * of its own for each thread, to be set to the scene's switches before any of the physics is
- * called. */
+ * a device are those of sim/host_switches.h. For .c files alone. */
 #pragma once
 
+#include "sim/host_switches.h"
 #include "sim/physics.h"
 
-static _Thread_local OzSwitches dialect;
-
-#define OZ_ROUND            dialect.round
-#define OZ_EQUAL            dialect.equal
-#define OZ_FRICTION         dialect.friction
-#define OZ_HISTORY          dialect.history
-#define OZ_SLIP_SCALE       dialect.slip_scale
-#define OZ_ATTRACTION_CLAMP dialect.attraction_clamp
-#define OZ_SURFACES         dialect.surfaces
-#define OZ_GYROSCOPIC       dialect.gyroscopic
-#define OZ_LAW_ID           dialect.law
-#define OZ_LINE             dialect.line
-#define OZ_SMOOTH           dialect.smooth
-#define OZ_AT_CONTACT       dialect.at_contact
+#define OZ_ROUND            oz_host_switches_now.rods.round
+#define OZ_EQUAL            oz_host_switches_now.rods.equal
+#define OZ_FRICTION         oz_host_switches_now.rods.friction
+#define OZ_HISTORY          oz_host_switches_now.rods.history
+#define OZ_SLIP_SCALE       oz_host_switches_now.rods.slip_scale
+#define OZ_ATTRACTION_CLAMP oz_host_switches_now.rods.attraction_clamp
+#define OZ_SURFACES         oz_host_switches_now.rods.surfaces
+#define OZ_GYROSCOPIC       oz_host_switches_now.rods.gyroscopic
+#define OZ_LAW_ID           oz_host_switches_now.rods.law
+#define OZ_LINE             oz_host_switches_now.rods.line
+#define OZ_SMOOTH           oz_host_switches_now.rods.smooth
+#define OZ_AT_CONTACT       oz_host_switches_now.rods.at_contact
 #define OZ_WALL_KINDS       (-1) /* the host knows them all */
-#define OZ_INTEGRATOR_ID    dialect.integrator
-#define OZ_MOVES_BEFORE     dialect.moves_before
+#define OZ_INTEGRATOR_ID    oz_host_switches_now.rods.integrator
+#define OZ_MOVES_BEFORE     oz_host_switches_now.rods.moves_before
 
 #include "kernels/integrate.h"
 #include "kernels/rods.h"

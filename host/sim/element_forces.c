@@ -203,7 +203,6 @@ static void turn_corners(Forces *f, const OzElementState *state)
 static void begin(Forces *f)
 {
     const OzElements *elements = f->elements;
-    oz_element_dialect_set(f->scene);
     memset(f->force, 0, 2 * (size_t)elements->free_count * sizeof *f->force);
     memset(f->torque, 0, (size_t)elements->free_count * sizeof *f->torque);
     if (f->list) {
@@ -294,6 +293,7 @@ static void find_nan(Forces *f)
 
 OzStatus oz_element_forces_touch(OzElementForces *forces, const OzElementState *state)
 {
+    OZ_USE_SWITCHES(oz_host_switches_elements(forces->scene));
     begin(forces);
     OzStatus status = add_touches(forces, state);
     find_nan(forces);
@@ -302,6 +302,7 @@ OzStatus oz_element_forces_touch(OzElementForces *forces, const OzElementState *
 
 OzStatus oz_element_forces_hold(OzElementForces *forces, const OzElementState *state)
 {
+    OZ_USE_SWITCHES(oz_host_switches_elements(forces->scene));
     begin(forces);
     add_beams(forces, state);
     add_gravity(forces);
@@ -311,6 +312,7 @@ OzStatus oz_element_forces_hold(OzElementForces *forces, const OzElementState *s
 
 OzStatus oz_element_forces_evaluate(OzElementForces *forces, const OzElementState *state)
 {
+    OZ_USE_SWITCHES(oz_host_switches_elements(forces->scene));
     begin(forces);
     OZ_PASS(add_touches(forces, state));
     add_beams(forces, state);

@@ -75,6 +75,6 @@ OzElementMeeting oz_element_meet_pair(const OzScene *scene, const OzGrains *grai
 {
     const OzElements *p = grains->elements;
     bool disc = p->radius[a] > 0 || p->radius[b] > 0;
-    oz_element_dialect_set(scene);
+    OZ_USE_SWITCHES(oz_host_switches_elements(scene));
     return disc ? meet_disc(scene, p, a, b) : meet_triangles(scene, p, a, b);
 }

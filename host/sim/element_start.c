@@ -2,9 +2,10 @@
 #include "sim/element_start.h"
 
 #include "base/memory.h"
-#include "sim/element_dialect.h"
 #include "sim/element_meet.h"
 #include "sim/element_pairs.h"
+
+#include "kernels/vec2.h"
 
 #include <math.h>
 #include <stdlib.h>

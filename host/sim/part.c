@@ -73,6 +73,7 @@ static void part_walls(Rods *r, int64_t i, double *deepest)
 
 static OzStatus sweep_rods(Rods *r, double *deepest)
 {
+    OZ_USE_SWITCHES(oz_host_switches_rods(&r->physics.switches));
     OZ_PASS(oz_sort_axis_pairs(&r->pairs, r->grains, r->grains->position, r->axis, 0));
     for (int64_t k = 0; k < r->pairs.count; k++) {
         part_pair(r, r->pairs.pair[k], deepest);
@@ -87,7 +88,6 @@ static OzStatus open_rods(Rods *r, OzGrains *grains, const OzScene *scene)
 {
     *r = (Rods){.grains = grains};
     OZ_PASS(oz_physics_derive(&r->physics, scene, grains));
-    dialect = r->physics.switches;
     OZ_PASS(OZ_NEW(&r->axis, 3 * grains->count));
     for (int64_t i = 0; i < grains->count; i++) {
         oz_grains_axis(&grains->quaternion[4 * i], &r->axis[3 * i]);

@@ -1,5 +1,7 @@
 /* Deriving what the host's physics needs from a scene. */
-#include "sim/dialect.h"
+#include "sim/physics.h"
+
+#include "kernels/integrators.h"
 #include "sim/sides.h"
 
 static const double shares[] = {

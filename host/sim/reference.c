@@ -88,7 +88,7 @@ static OzWallDrive drive_at(const OzReference *r, int wall, double time)
 
 static void move_before(OzReference *r, double dt)
 {
-    double force_time = oz_step_clock_time(&r->clock, r->step) + (dialect.moves_before ? dt : 0);
+    double force_time = oz_step_clock_time(&r->clock, r->step) + (OZ_MOVES_BEFORE ? dt : 0);
     for (int i = 0; i < r->count; i++) {
         OzBody *body = &r->body[i];
         oz_integrate_before(body, r->shape[i], dt, 1);
@@ -225,8 +225,8 @@ static OzStatus make_step(OzReference *r, double dt)
 
 OzStatus oz_reference_advance(OzReference *reference, int64_t step)
 {
-    dialect = reference->physics.switches;
-    if (!reference->primed && dialect.moves_before && step > 0) {
+    OZ_USE_SWITCHES(oz_host_switches_rods(&reference->physics.switches));
+    if (!reference->primed && OZ_MOVES_BEFORE && step > 0) {
         OZ_PASS(make_step(reference, 0));
     }
     reference->primed = true;
@@ -276,7 +276,7 @@ static OzStatus find_contacts(const OzReference *r, OzSnapshot *snapshot)
 
 OzStatus oz_reference_snapshot(const OzReference *reference, OzSnapshot *snapshot)
 {
-    dialect = reference->physics.switches;
+    OZ_USE_SWITCHES(oz_host_switches_rods(&reference->physics.switches));
     copy_state(reference, snapshot);
     OZ_PASS(find_contacts(reference, snapshot));
     OzContactSums sums = oz_contact_list_sum(&snapshot->contacts);
@@ -309,7 +309,7 @@ OzStatus oz_reference_create(OzReference **reference, const OzScene *scene, cons
     OzReference *r = NULL;
     OZ_TRY(OZ_NEW(&r, 1));
     OZ_TRY(oz_physics_derive(&r->physics, scene, grains));
-    dialect = r->physics.switches;
+    OZ_USE_SWITCHES(oz_host_switches_rods(&r->physics.switches));
     r->scene = scene;
     r->grains = grains;
     r->clock = oz_step_clock_begin(scene->step);

@@ -107,7 +107,6 @@ static OzStatus check_bodies(const OzReference *r, double dt)
 
 OzStatus oz_reference_guard_check(OzReference *reference, double dt)
 {
-    dialect = reference->physics.switches;
     OZ_PASS(check_pairs(reference));
     OZ_PASS(check_walls(reference));
     return check_bodies(reference, dt);

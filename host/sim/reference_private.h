@@ -1,5 +1,4 @@
-/* What the reference's own files know of it. For .c files that set the dialect before they call any
- * physics. */
+/* What the reference's own files know of it. For .c files alone. */
 #pragma once
 
 #include "model/step_clock.h"
