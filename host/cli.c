@@ -56,7 +56,7 @@ static const struct {
     {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},
     {'t', "--threads", "N", "threads of a CPU device"},
     {'p', "--precision", "float|double", "the same as --set precision=..."},
-    {'g', "--gl", "egl|osmesa", "how to draw off-screen"},
+    {'g', "--gl", "egl|osmesa|host", "how to draw off-screen"},
     {'u', "--until", "T", "stop at time T, s"},
     {'w', "--watch", NULL, "take what is changed in the scene file while it runs"},
     {'R', "--replay", NULL, "SCENE is a run's folder: that run again, with its changes"},
@@ -161,8 +161,10 @@ static OzStatus parse_gl(OzOptions *options, const char *value)
         options->gl = OZ_GL_EGL;
     } else if (strcmp(value, "osmesa") == 0) {
         options->gl = OZ_GL_OSMESA;
+    } else if (strcmp(value, "host") == 0) {
+        options->gl = OZ_GL_HOST;
     } else {
-        return wrong(value, "--gl egl or --gl osmesa");
+        return wrong(value, "--gl egl, --gl osmesa or --gl host");
     }
     return OZ_OK;
 }

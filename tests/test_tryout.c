@@ -107,7 +107,7 @@ static void no_limit_kills_the_program(void **state)
     for (int i = 0; i < 6; i++) {
         char command[512];
         snprintf(command, sizeof command,
-                 "bash -c \"ulimit -v %d000; exec '%s' draw run -o out\" >said 2>&1", megabytes[i],
+                 "bash -c \"ulimit -v %d000; exec '%s' draw run --gl egl -o out\" >said 2>&1", megabytes[i],
                  ORZO_PROGRAM);
         int status = system(command);
         assert_true(WIFEXITED(status));

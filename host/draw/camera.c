@@ -106,6 +106,14 @@ OzCamera oz_camera_make(const OzLook *look)
     return camera;
 }
 
+const float *oz_camera_background(const OzLook *look)
+{
+    static const float white[3] = {1, 1, 1};
+    /* A shade off white, against which glass looks clean. */
+    static const float background[3] = {0.972f, 0.976f, 0.982f};
+    return look->bare ? white : background;
+}
+
 OzBox oz_camera_box(const OzCamera *camera, const OzLook *look, int panel, const double low[2],
                     const double high[2])
 {

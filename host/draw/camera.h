@@ -31,6 +31,9 @@ typedef struct OzCamera {
 
 OzCamera oz_camera_make(const OzLook *look);
 
+/* RGB, 0 to 1, behind all things. */
+const float *oz_camera_background(const OzLook *look);
+
 /* The part of a panel where framed things, or anything between low and high (view coordinates x and
  * y), can appear. */
 OzBox oz_camera_box(const OzCamera *camera, const OzLook *look, int panel, const double low[2],

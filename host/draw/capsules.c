@@ -17,18 +17,11 @@ typedef struct Record {
     GLfloat colour[3], unused;
 } Record;
 
-typedef enum Side { SIDE_BEHIND, SIDE_CROSSING, SIDE_FRONT, SIDE_COUNT } Side;
-
 /* All grains and the records of those that are drawn. */
 typedef struct Upload {
-    const OzSnapshot *snapshot;
-    const OzLook *look;
-    const OzCamera *camera;
-    double inward[3], offset;  /* the cut: its normal, and its distance along it */
-    OzBody *bodies;            /* count, in the snapshot's order                     */
-    int64_t *order;            /* count: nearest first                               */
-    int64_t *seen[SIDE_COUNT]; /* count each: those that a view shows, nearest first */
-    int64_t seen_count[SIDE_COUNT];
+    const OzBodies *all;
+    int64_t *seen[OZ_SIDE_COUNT]; /* count each: those that a view shows, nearest first */
+    int64_t seen_count[OZ_SIDE_COUNT];
     Record *records;
     int64_t record_count, record_capacity;
 } Upload;
@@ -69,83 +62,18 @@ void oz_capsules_free(OzCapsules *capsules)
     memset(capsules, 0, sizeof *capsules);
 }
 
-static Side side_of(const OzSnapshot *snapshot, const OzLook *look, int64_t i)
-{
-    const OzGrains *grains = snapshot->grains;
-    double middle = snapshot->position[3 * i + 1] - look->cut;
-    double reach =
-        0.5 * (grains->diameter[i] + grains->length[i] * fabs(snapshot->axis[3 * i + 1]));
-    if (middle >= reach) {
-        return SIDE_BEHIND;
-    }
-    return middle > -reach ? SIDE_CROSSING : SIDE_FRONT;
-}
-
-static OzBody body_of(const OzSnapshot *snapshot, const OzCamera *camera, int64_t i)
-{
-    OzBody body = {.radius = (float)(0.5 * snapshot->grains->diameter[i] / camera->unit),
-                   .half_shaft = (float)(0.5 * snapshot->grains->length[i] / camera->unit)};
-    double centre[3], axis[3];
-    oz_camera_see(camera, &snapshot->position[3 * i], centre);
-    oz_camera_turn(camera, &snapshot->axis[3 * i], axis);
-    for (int k = 0; k < 3; k++) {
-        body.centre[k] = (float)centre[k];
-        body.axis[k] = (float)axis[k];
-    }
-    return body;
-}
-
-/* Widens the reach by a grain, with room for its looking larger in front. */
-static void reach_for(OzCapsules *capsules, const OzBody *body, const OzCamera *camera)
-{
-    double radius = (double)body->radius + (double)body->half_shaft;
-    double gap = camera->distance - (double)body->centre[2] - radius;
-    double nearer = camera->distance / fmax(gap, 0.1 * camera->distance);
-    for (int k = 0; k < 2; k++) {
-        double middle = nearer * (double)body->centre[k];
-        capsules->low[k] = fmin(capsules->low[k], middle - nearer * radius);
-        capsules->high[k] = fmax(capsules->high[k], middle + nearer * radius);
-    }
-}
-
-/* In buckets of equal depth by counting, each in the grains' order. */
-static OzStatus sort_by_depth(Upload *upload)
-{
-    enum { BUCKETS = 1 << 14 };
-    int64_t count = upload->snapshot->count, *starts = NULL, sum = 0;
-    double depth = upload->camera->depth;
-    OZ_PASS(OZ_NEW(&starts, BUCKETS));
-    for (int pass = 0; pass < 2; pass++) {
-        for (int64_t i = 0; i < count; i++) {
-            double share = 0.5 - 0.5 * (double)upload->bodies[i].centre[2] / depth;
-            int64_t *start = &starts[(int)(fmin(fmax(share, 0), 1) * (BUCKETS - 1))];
-            if (pass == 1) {
-                upload->order[*start] = i;
-            }
-            ++*start;
-        }
-        for (int b = 0; pass == 0 && b < BUCKETS; b++) {
-            int64_t own = starts[b];
-            starts[b] = sum;
-            sum += own;
-        }
-    }
-    free(starts);
-    return OZ_OK;
-}
-
 /* The part of a body's axis about which nothing of it is cut away. */
 static void find_kept(const Upload *upload, const OzBody *body, bool is_cut, double kept[2])
 {
-    double middle = -upload->offset, rise = 0;
+    double middle = -upload->all->offset, rise = 0;
     kept[0] = -(double)body->half_shaft;
     kept[1] = (double)body->half_shaft;
     if (!is_cut) {
         return;
     }
     for (int k = 0; k < 3; k++) {
-        middle += upload->inward[k] * (double)body->centre[k];
-        rise += upload->inward[k] * (double)body->axis[k];
+        middle += upload->all->inward[k] * (double)body->centre[k];
+        rise += upload->all->inward[k] * (double)body->axis[k];
     }
     middle -= (double)body->radius;
     if (fabs(rise) < 1e-6) {
@@ -161,18 +89,18 @@ static void find_kept(const Upload *upload, const OzBody *body, bool is_cut, dou
 static OzStatus see_view(Upload *upload, int view, const OzBox *box)
 {
     OzOcclusion occlusion = {0};
-    bool is_cut = upload->look->views[view] == OZ_VIEW_CUT;
+    OzView kind = upload->all->look->views[view];
     memset(upload->seen_count, 0, sizeof upload->seen_count);
-    OZ_PASS(oz_occlusion_begin(&occlusion, upload->camera, view, box));
-    for (int64_t k = 0; k < upload->snapshot->count; k++) {
-        int64_t i = upload->order[k];
-        const OzBody *body = &upload->bodies[i];
-        Side side = is_cut ? side_of(upload->snapshot, upload->look, i) : SIDE_BEHIND;
-        if (side == SIDE_FRONT ? upload->look->cut_outlines
-                               : !oz_occlusion_hides(&occlusion, body)) {
+    OZ_PASS(oz_occlusion_begin(&occlusion, upload->all->camera, view, box));
+    for (int64_t k = 0; k < upload->all->snapshot->count; k++) {
+        int64_t i = upload->all->order[k];
+        const OzBody *body = &upload->all->bodies[i];
+        OzSide side = oz_bodies_side(upload->all, kind, i);
+        if (side == OZ_SIDE_FRONT ? upload->all->look->cut_outlines
+                                  : !oz_occlusion_hides(&occlusion, body)) {
             double kept[2];
             upload->seen[side][upload->seen_count[side]++] = i;
-            find_kept(upload, body, side != SIDE_BEHIND, kept);
+            find_kept(upload, body, side != OZ_SIDE_BEHIND, kept);
             oz_occlusion_add(&occlusion, body, kept[0], kept[1]);
         }
     }
@@ -180,7 +108,7 @@ static OzStatus see_view(Upload *upload, int view, const OzBox *box)
     return OZ_OK;
 }
 
-static OzStatus add_records(Upload *upload, Side side)
+static OzStatus add_records(Upload *upload, OzSide side)
 {
     int64_t count = upload->seen_count[side], wanted = upload->record_count + count;
     if (wanted > upload->record_capacity) {
@@ -191,72 +119,51 @@ static OzStatus add_records(Upload *upload, Side side)
     for (int64_t k = 0; k < count; k++) {
         int64_t i = upload->seen[side][k];
         Record *record = &upload->records[upload->record_count++];
-        *record = (Record){.body = upload->bodies[i]};
-        oz_palette_grain(upload->snapshot, upload->look, i, record->colour);
+        *record = (Record){.body = upload->all->bodies[i]};
+        oz_palette_grain(upload->all->snapshot, upload->all->look, i, record->colour);
     }
     return OZ_OK;
 }
 
 static OzStatus add_view(Upload *upload, OzCapsules *capsules, int view)
 {
-    const OzCamera *camera = upload->camera;
-    OzBox box = oz_camera_box(camera, upload->look, view, capsules->low, capsules->high);
+    const OzCamera *camera = upload->all->camera;
+    OzBox box = oz_camera_box(camera, upload->all->look, view, upload->all->low, upload->all->high);
     OzCapsuleRanges *ranges = &capsules->views[view];
     OZ_PASS(see_view(upload, view, &box));
     ranges->first = upload->record_count;
-    OZ_PASS(add_records(upload, SIDE_BEHIND));
+    OZ_PASS(add_records(upload, OZ_SIDE_BEHIND));
     ranges->crossing = upload->record_count;
-    OZ_PASS(add_records(upload, SIDE_CROSSING));
+    OZ_PASS(add_records(upload, OZ_SIDE_CROSSING));
     ranges->outlined = upload->record_count;
-    OZ_PASS(add_records(upload, SIDE_FRONT));
+    OZ_PASS(add_records(upload, OZ_SIDE_FRONT));
     ranges->end = upload->record_count;
     return OZ_OK;
 }
 
-static void find_cut(const OzLook *look, const OzCamera *camera, double inward[3], double *offset)
+static OzStatus begin_upload(Upload *upload)
 {
-    double cut[3] = {look->centre[0], look->cut, camera->centre[2]}, on_plane[3];
-    oz_camera_see(camera, cut, on_plane);
-    oz_camera_turn(camera, (const double[3]){0, 1, 0}, inward);
-    *offset = inward[0] * on_plane[0] + inward[1] * on_plane[1] + inward[2] * on_plane[2];
-}
-
-static OzStatus begin_upload(Upload *upload, OzCapsules *capsules)
-{
-    int64_t count = upload->snapshot->count;
-    OZ_PASS(OZ_NEW(&upload->bodies, count));
-    OZ_PASS(OZ_NEW(&upload->order, count));
-    for (int side = 0; side < SIDE_COUNT; side++) {
-        OZ_PASS(OZ_NEW(&upload->seen[side], count));
+    for (int side = 0; side < OZ_SIDE_COUNT; side++) {
+        OZ_PASS(OZ_NEW(&upload->seen[side], upload->all->snapshot->count));
     }
-    find_cut(upload->look, upload->camera, upload->inward, &upload->offset);
-    memset(capsules->low, 0, sizeof capsules->low);
-    memset(capsules->high, 0, sizeof capsules->high);
-    for (int64_t i = 0; i < count; i++) {
-        upload->bodies[i] = body_of(upload->snapshot, upload->camera, i);
-        reach_for(capsules, &upload->bodies[i], upload->camera);
-    }
-    return sort_by_depth(upload);
+    return OZ_OK;
 }
 
 static void end_upload(Upload *upload)
 {
-    free(upload->bodies);
-    free(upload->order);
-    for (int side = 0; side < SIDE_COUNT; side++) {
+    for (int side = 0; side < OZ_SIDE_COUNT; side++) {
         free(upload->seen[side]);
     }
     free(upload->records);
 }
 
-OzStatus oz_capsules_upload(OzCapsules *capsules, const OzSnapshot *snapshot, const OzLook *look,
-                            const OzCamera *camera)
+OzStatus oz_capsules_upload(OzCapsules *capsules, const OzBodies *bodies)
 {
     const OzGl *gl = capsules->gl;
     OzStatus status = OZ_OK;
-    Upload upload = {.snapshot = snapshot, .look = look, .camera = camera};
-    OZ_TRY(begin_upload(&upload, capsules));
-    for (int view = 0; view < look->view_count; view++) {
+    Upload upload = {.all = bodies};
+    OZ_TRY(begin_upload(&upload));
+    for (int view = 0; view < bodies->look->view_count; view++) {
         OZ_TRY(add_view(&upload, capsules, view));
     }
     gl->BindBuffer(GL_ARRAY_BUFFER, capsules->buffer);
@@ -270,20 +177,20 @@ done:
 }
 
 static void draw_range(const OzCapsules *capsules, GLuint program, int64_t first, int64_t end,
-                       const OzLook *look, const OzCamera *camera, const float lens[2])
+                       const OzBodies *bodies, const float lens[2])
 {
     const OzGl *gl = capsules->gl;
-    double inward[3], offset = 0;
+    const OzCamera *camera = bodies->camera;
+    const double *inward = bodies->inward;
     if (end <= first) {
         return;
     }
-    find_cut(look, camera, inward, &offset);
     gl->UseProgram(program);
     gl->Uniform4f(gl->GetUniformLocation(program, "lens"), lens[0], lens[1],
                   (float)camera->distance, (float)camera->depth);
     gl->Uniform1f(gl->GetUniformLocation(program, "pixel"), (float)(1 / camera->scale));
     gl->Uniform4f(gl->GetUniformLocation(program, "plane"), (float)inward[0], (float)inward[1],
-                  (float)inward[2], (float)offset);
+                  (float)inward[2], (float)bodies->offset);
     gl->BindVertexArray(capsules->vertices);
     gl->BindBuffer(GL_ARRAY_BUFFER, capsules->buffer);
     for (GLuint i = 0; i < 3; i++) {
@@ -295,26 +202,26 @@ static void draw_range(const OzCapsules *capsules, GLuint program, int64_t first
 
 /* Over what is there, whose depth they leave alone. */
 static void draw_outlines(const OzCapsules *capsules, const OzCapsuleRanges *ranges,
-                          const OzLook *look, const OzCamera *camera, const float lens[2])
+                          const OzBodies *bodies, const float lens[2])
 {
     const OzGl *gl = capsules->gl;
     gl->DepthMask(GL_FALSE);
     gl->Disable(GL_DEPTH_TEST);
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    draw_range(capsules, capsules->outlined, ranges->outlined, ranges->end, look, camera, lens);
+    draw_range(capsules, capsules->outlined, ranges->outlined, ranges->end, bodies, lens);
     gl->Disable(GL_BLEND);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthMask(GL_TRUE);
 }
 
-void oz_capsules_draw(const OzCapsules *capsules, int view, const OzLook *look,
-                      const OzCamera *camera, double viewport_width, double viewport_height)
+void oz_capsules_draw(const OzCapsules *capsules, int view, const OzBodies *bodies,
+                      double viewport_width, double viewport_height)
 {
     const OzCapsuleRanges *ranges = &capsules->views[view];
-    float lens[2] = {(float)(2 * camera->scale / viewport_width),
-                     (float)(2 * camera->scale / viewport_height)};
-    draw_range(capsules, capsules->whole, ranges->first, ranges->crossing, look, camera, lens);
-    draw_range(capsules, capsules->sliced, ranges->crossing, ranges->outlined, look, camera, lens);
-    draw_outlines(capsules, ranges, look, camera, lens);
+    double scale = bodies->camera->scale;
+    float lens[2] = {(float)(2 * scale / viewport_width), (float)(2 * scale / viewport_height)};
+    draw_range(capsules, capsules->whole, ranges->first, ranges->crossing, bodies, lens);
+    draw_range(capsules, capsules->sliced, ranges->crossing, ranges->outlined, bodies, lens);
+    draw_outlines(capsules, ranges, bodies, lens);
 }

@@ -2,7 +2,7 @@
  * whose pixels are cast as rays. */
 #pragma once
 
-#include "draw/camera.h"
+#include "draw/bodies.h"
 #include "draw/gl.h"
 
 /* A view's records, one after the other: whole ones, those that the cut plane meets, and those
@@ -17,19 +17,17 @@ typedef struct OzCapsules {
     GLuint outlined;      /* program: their outlines alone                         */
     GLuint vertices, buffer;
     OzCapsuleRanges views[2];
-    double low[2], high[2]; /* view coordinates x and y that the grains may reach    */
 } OzCapsules;
 
 /* Needs a current context; capsules is zeroed or filled, ready for oz_capsules_free. */
 OzStatus oz_capsules_create(OzCapsules *capsules, const OzGl *gl, const char *source_dir);
 void oz_capsules_free(OzCapsules *capsules);
 
-/* Takes over the grains of a snapshot that the look's views show, in the look's colours. */
-OzStatus oz_capsules_upload(OzCapsules *capsules, const OzSnapshot *snapshot, const OzLook *look,
-                            const OzCamera *camera);
+/* Takes over the bodies that their look's views show, in the look's colours. */
+OzStatus oz_capsules_upload(OzCapsules *capsules, const OzBodies *bodies);
 
 /* Draws the look's view of that number into the current viewport of the given width and height,
  * pixels; a cut view with the outlines of those before the plane over the others, if the look has
  * cut_outlines. */
-void oz_capsules_draw(const OzCapsules *capsules, int view, const OzLook *look,
-                      const OzCamera *camera, double viewport_width, double viewport_height);
+void oz_capsules_draw(const OzCapsules *capsules, int view, const OzBodies *bodies,
+                      double viewport_width, double viewport_height);

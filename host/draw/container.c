@@ -6,8 +6,6 @@
 #include "scene/wall_shape.h"
 
 #include <math.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -37,36 +35,11 @@ typedef struct Polygon {
     int count;
 } Polygon;
 
-OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char *source_dir)
-{
-    const void *colour = (const void *)(uintptr_t)offsetof(OzCorner, rgba);
-    const void *across = (const void *)(uintptr_t)offsetof(OzCorner, across);
-    memset(container, 0, sizeof *container);
-    container->gl = gl;
-    OZ_PASS(oz_gl_program(gl, &container->program, source_dir, "mesh", ""));
-    gl->GenVertexArrays(1, &container->vertices);
-    gl->BindVertexArray(container->vertices);
-    gl->GenBuffers(1, &container->buffer);
-    gl->BindBuffer(GL_ARRAY_BUFFER, container->buffer);
-    gl->EnableVertexAttribArray(0);
-    gl->EnableVertexAttribArray(1);
-    gl->EnableVertexAttribArray(2);
-    gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OzCorner), NULL);
-    gl->VertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(OzCorner), colour);
-    gl->VertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(OzCorner), across);
-    return oz_gl_check(gl, "preparing the container's buffer");
-}
-
 void oz_container_free(OzContainer *container)
 {
-    if (container->gl) {
-        container->gl->DeleteProgram(container->program);
-        container->gl->DeleteBuffers(1, &container->buffer);
-        container->gl->DeleteVertexArrays(1, &container->vertices);
+    for (int i = 0; i < OZ_CONTAINER_COUNT; i++) {
+        oz_mesh_free(&container->meshes[i]);
     }
-    oz_mesh_free(&container->floors);
-    oz_mesh_free(&container->behind);
-    oz_mesh_free(&container->before);
     memset(container, 0, sizeof *container);
 }
 
@@ -155,16 +128,17 @@ static void add_piston(OzContainer *container, const Scope *scope, double z)
         float rgba[2][4];
         piston_colour(cut ? 1.6 * PI : angles[0], rgba[0]);
         piston_colour(cut ? 1.6 * PI : angles[1], rgba[1]);
-        add_band(&container->before, scope, angles, low, z, rgba);
+        add_band(&container->meshes[OZ_CONTAINER_BEFORE], scope, angles, low, z, rgba);
     }
     if (!cut) {
-        add_arc(&container->before, scope, z, PI, 2 * PI, FAINT);
+        add_arc(&container->meshes[OZ_CONTAINER_BEFORE], scope, z, PI, 2 * PI, FAINT);
         return;
     }
     for (int edge = 0; edge < 2; edge++) {
         double from[3] = {-scope->radius, 0, edge ? z : low};
         double to[3] = {scope->radius, 0, from[2]};
-        oz_mesh_line(&container->before, scope->camera, from, to, line_width(scope), EDGE);
+        oz_mesh_line(&container->meshes[OZ_CONTAINER_BEFORE], scope->camera, from, to,
+                     line_width(scope), EDGE);
     }
 }
 
@@ -172,17 +146,19 @@ static void add_cylinder(OzContainer *container, const Scope *scope)
 {
     double low = scope->look->height_low, high = scope->top;
     bool cut = scope->view == OZ_VIEW_CUT;
-    add_glass(&container->behind, scope, 0, false);
-    add_arc(&container->behind, scope, low, 0, PI, FAINT);
-    add_arc(&container->behind, scope, high, 0, PI, EDGE);
+    OzMesh *behind = &container->meshes[OZ_CONTAINER_GLASS_BEHIND];
+    OzMesh *before = &container->meshes[OZ_CONTAINER_GLASS_BEFORE];
+    add_glass(behind, scope, 0, false);
+    add_arc(behind, scope, low, 0, PI, FAINT);
+    add_arc(behind, scope, high, 0, PI, EDGE);
     for (int side = -1; side <= 1; side += 2) {
         double foot[3] = {side * scope->radius, 0, low}, top[3] = {side * scope->radius, 0, high};
-        oz_mesh_line(&container->before, scope->camera, foot, top, line_width(scope), EDGE);
+        oz_mesh_line(before, scope->camera, foot, top, line_width(scope), EDGE);
     }
     if (!cut) {
-        add_glass(&container->before, scope, PI, true);
-        add_arc(&container->before, scope, low, PI, 2 * PI, EDGE);
-        add_arc(&container->before, scope, high, PI, 2 * PI, EDGE);
+        add_glass(before, scope, PI, true);
+        add_arc(before, scope, low, PI, 2 * PI, EDGE);
+        add_arc(before, scope, high, PI, 2 * PI, EDGE);
     }
 }
 
@@ -326,14 +302,15 @@ static void add_plane(OzContainer *container, const Scope *scope, int row)
     oz_camera_turn(scope->camera, wall->normal, normal);
     if (normal[2] > 0) {
         bool floor = wall->normal[2] > 0.3;
-        add_filled(floor ? &container->floors : &container->behind, scope, &polygon,
-                   floor ? FLOOR : PANE);
-        add_outline(&container->behind, scope, &polygon, FAINT);
+        add_filled(floor ? &container->meshes[OZ_CONTAINER_FLOORS]
+                         : &container->meshes[OZ_CONTAINER_BEHIND],
+                   scope, &polygon, floor ? FLOOR : PANE);
+        add_outline(&container->meshes[OZ_CONTAINER_BEHIND], scope, &polygon, FAINT);
         if (scope->radius > 0 && wall->normal[2] > 0.999) {
             add_piston(container, scope, point[2]);
         }
     } else {
-        add_outline(&container->before, scope, &polygon, FAINT);
+        add_outline(&container->meshes[OZ_CONTAINER_BEFORE], scope, &polygon, FAINT);
     }
 }
 
@@ -347,7 +324,8 @@ static void add_lines(OzContainer *container, const Scope *scope, int row)
                              .reach = 1.5 * scope->look->half_width,
                              .is_cut = scope->view == OZ_VIEW_CUT,
                              .cut = scope->look->cut};
-    oz_wall_outline_add(&outline, row, &container->behind, &container->before, EDGE);
+    oz_wall_outline_add(&outline, row, &container->meshes[OZ_CONTAINER_BEHIND],
+                        &container->meshes[OZ_CONTAINER_BEFORE], EDGE);
 }
 
 /* Where its highest corner is seen, view coordinates. */
@@ -372,10 +350,9 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
                    .view = view,
                    .radius = isfinite(radius) ? radius : 0,
                    .top = oz_framing_top(look, camera, snapshot)};
-    OzMesh *meshes[3] = {&container->floors, &container->behind, &container->before};
     OzStatus status = OZ_OK;
-    for (int i = 0; i < 3; i++) {
-        oz_mesh_clear(meshes[i]);
+    for (int i = 0; i < OZ_CONTAINER_COUNT; i++) {
+        oz_mesh_clear(&container->meshes[i]);
     }
     for (int w = 0; w < snapshot->scene->wall_count; w++) {
         const OzWall *wall = &snapshot->scene->walls[w];
@@ -389,55 +366,9 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
         add_cylinder(container, &scope);
     }
     container->high = 0;
-    for (int i = 0; i < 3 && status == OZ_OK; i++) {
-        status = meshes[i]->status;
-        container->high = fmax(container->high, highest(meshes[i], camera));
+    for (int i = 0; i < OZ_CONTAINER_COUNT && status == OZ_OK; i++) {
+        status = container->meshes[i].status;
+        container->high = fmax(container->high, highest(&container->meshes[i], camera));
     }
     return status;
-}
-
-static void draw_mesh(const OzContainer *container, const OzMesh *mesh, const OzCamera *camera,
-                      double width, double height)
-{
-    const OzGl *gl = container->gl;
-    if (!mesh->count) {
-        return;
-    }
-    gl->UseProgram(container->program);
-    gl->Uniform4f(gl->GetUniformLocation(container->program, "lens"),
-                  (float)(2 * camera->scale / width), (float)(2 * camera->scale / height),
-                  (float)camera->distance, (float)camera->depth);
-    gl->BindVertexArray(container->vertices);
-    gl->BindBuffer(GL_ARRAY_BUFFER, container->buffer);
-    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->count * sizeof *mesh->corners),
-                   mesh->corners, GL_STREAM_DRAW);
-    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)mesh->count);
-}
-
-/* Glass and lines lie over what is there, in the order given, and leave its depth alone. */
-static void draw_over(const OzContainer *container, const OzMesh *mesh, const OzCamera *camera,
-                      double width, double height)
-{
-    const OzGl *gl = container->gl;
-    gl->DepthMask(GL_FALSE);
-    gl->Disable(GL_DEPTH_TEST);
-    gl->Enable(GL_BLEND);
-    gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    draw_mesh(container, mesh, camera, width, height);
-    gl->Disable(GL_BLEND);
-    gl->Enable(GL_DEPTH_TEST);
-    gl->DepthMask(GL_TRUE);
-}
-
-void oz_container_draw_behind(const OzContainer *container, const OzCamera *camera, double width,
-                              double height)
-{
-    draw_mesh(container, &container->floors, camera, width, height);
-    draw_over(container, &container->behind, camera, width, height);
-}
-
-void oz_container_draw_before(const OzContainer *container, const OzCamera *camera, double width,
-                              double height)
-{
-    draw_over(container, &container->before, camera, width, height);
 }

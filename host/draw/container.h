@@ -1,33 +1,28 @@
 /* The walls as glass, floor and lines, so that one sees the grains inside. Part of it lies behind
- * the grains and is drawn before them, part in front and is drawn after. */
+ * the grains and is drawn before them, part in front and is drawn after. Knows no GL. */
 #pragma once
 
 #include "draw/camera.h"
-#include "draw/gl.h"
 #include "draw/mesh.h"
 
+/* In the order in which they are drawn. */
+typedef enum OzContainerMesh {
+    OZ_CONTAINER_FLOORS,       /* opaque, behind the grains, with depth              */
+    OZ_CONTAINER_BEHIND,       /* panes and lines behind the grains                  */
+    OZ_CONTAINER_GLASS_BEHIND, /* of the upright cylinder, which stands still        */
+    OZ_CONTAINER_BEFORE,       /* after the grains: bodies of floors, panes, lines   */
+    OZ_CONTAINER_GLASS_BEFORE,
+    OZ_CONTAINER_COUNT
+} OzContainerMesh;
+
 typedef struct OzContainer {
-    const OzGl *gl; /* borrowed */
-    GLuint program, vertices, buffer;
-    OzMesh floors; /* opaque, behind the grains, with depth */
-    OzMesh behind; /* glass and lines behind the grains     */
-    OzMesh before; /* glass and lines in front of them      */
-    double high;   /* view coordinate y up to which they are seen */
+    OzMesh meshes[OZ_CONTAINER_COUNT];
+    double high; /* view coordinate y up to which they are seen */
 } OzContainer;
 
-/* Needs a current context; container is zeroed or filled, ready for oz_container_free. */
-OzStatus oz_container_create(OzContainer *container, const OzGl *gl, const char *source_dir);
-void oz_container_free(OzContainer *container);
-
 /* Makes the meshes of the snapshot's walls where they are now, for this view; they end above the
- * highest grain, or where the picture does. */
+ * highest grain, or where the picture does. Fails with OZ_ERR_MEMORY. */
 OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, const OzLook *look,
                             const OzCamera *camera, OzView view);
 
-/* Draw into the current viewport of the given width and height, pixels: first this, then the
- * grains, */
-void oz_container_draw_behind(const OzContainer *container, const OzCamera *camera, double width,
-                              double height);
-/* then this. */
-void oz_container_draw_before(const OzContainer *container, const OzCamera *camera, double width,
-                              double height);
+void oz_container_free(OzContainer *container); /* zeroed is fine */

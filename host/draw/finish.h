@@ -3,8 +3,7 @@
  */
 #pragma once
 
-#include "draw/camera.h"
-#include "draw/image.h"
+#include "draw/drawn.h"
 
 enum { OZ_FINISH_PAIRS = 64 };
 
@@ -18,15 +17,6 @@ typedef struct OzFinish {
     float by_depth, by_row, middle; /* how far behind the middle, 0 to 1; rows from below        */
     float background[3];            /* 0 to 1                                                    */
 } OzFinish;
-
-/* A part of the picture as it was drawn, row 0 at the bottom, with a frame of `reach` pixels of
- * depth 1 about it. */
-typedef struct OzDrawn {
-    OzBox box;       /* in the picture, from its top                                         */
-    int stride;      /* pixels from row to row: the box's width and both borders              */
-    uint8_t *colour; /* its first pixel within the frame; RGB, and outline_code (lens.glsl)  */
-    float *depth;    /* likewise; 0 nearest, 1 where nothing is                              */
-} OzDrawn;
 
 /* Into the image's box. Fails with OZ_ERR_MEMORY. */
 OzStatus oz_finish_pixels(const OzFinish *finish, const OzDrawn *drawn, OzImage *image);

@@ -5,6 +5,7 @@
 #include "draw/occlusion.h"
 
 #include "base/memory.h"
+#include "draw/stadium.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -70,98 +71,19 @@ static Piece piece_of(const OzOcclusion *occlusion, const OzBody *body, double f
     return piece;
 }
 
-/* The pixels from low to high along a row or column of so many. */
-static int first_pixel(double low)
-{
-    return (int)most(least(low, 1e6), 0); /* rounded down: not negative */
-}
-
-static int end_pixel(double high, int count)
-{
-    return (int)least(most(high, -1) + 1, count); /* likewise */
-}
-
-typedef struct Span {
-    double low, high;
-} Span;
-
-/* Where inverse-slope * (x - start) lies within the bounds. */
-static void narrow(Span *span, double start, double inverse, double low, double high)
-{
-    double one = start + low * inverse, other = start + high * inverse;
-    span->low = most(span->low, least(one, other));
-    span->high = least(span->high, most(one, other));
-}
-
-/* All points within a radius of the line between a piece's ends: what it takes
- * to cut rows out. */
-typedef struct Stadium {
-    const Piece *piece;
-    double radius, length, along[2], inverse[2]; /* along: a unit vector; inverse: of its parts */
-} Stadium;
-
-static Stadium stadium_of(const Piece *piece, double radius)
-{
-    const double *a = piece->ends[0], *b = piece->ends[1];
-    Stadium s = {piece, radius, 0, {b[0] - a[0], b[1] - a[1]}, {0, 0}};
-    s.length = sqrt(s.along[0] * s.along[0] + s.along[1] * s.along[1]);
-    for (int k = 0; k < 2; k++) {
-        s.along[k] /= most(s.length, 1e-9);
-        double steep = fabs(s.along[k]) < 1e-6 ? 1e-6 : s.along[k];
-        s.inverse[k] = 1 / steep;
-    }
-    return s;
-}
-
-static Span span_at(const Stadium *s, double y)
-{
-    Span whole = {1e9, -1e9}, middle = {-1e9, 1e9};
-    for (int e = 0; e < 2; e++) {
-        double away = y - s->piece->ends[e][1], square = s->radius * s->radius - away * away;
-        if (square >= 0) {
-            double half = sqrt(square);
-            whole.low = least(whole.low, s->piece->ends[e][0] - half);
-            whole.high = most(whole.high, s->piece->ends[e][0] + half);
-        }
-    }
-    double x = s->piece->ends[0][0], rise = y - s->piece->ends[0][1];
-    narrow(&middle, x - s->along[1] * rise * s->inverse[0], s->inverse[0], 0, s->length);
-    narrow(&middle, x + s->along[0] * rise * s->inverse[1], -s->inverse[1], -s->radius, s->radius);
-    if (middle.low <= middle.high) {
-        whole.low = least(whole.low, middle.low);
-        whole.high = most(whole.high, middle.high);
-    }
-    return whole;
-}
-
-/* The rows and columns whose middles a piece, with this radius, holds. */
-typedef struct Rows {
-    Stadium stadium;
-    int first, end;
-} Rows;
-
-static Rows rows_of(const OzOcclusion *occlusion, const Piece *piece, double radius)
-{
-    double low = least(piece->ends[0][1], piece->ends[1][1]) - radius;
-    double high = most(piece->ends[0][1], piece->ends[1][1]) + radius;
-    return (Rows){stadium_of(piece, radius), first_pixel(low + 0.5),
-                  end_pixel(high - 0.5, occlusion->rows)};
-}
-
 /* A sphere looks a little larger than its disc, off the picture's middle most.
  */
 static bool shows(const OzOcclusion *occlusion, const Piece *piece)
 {
     double radius = 1.02 * most(piece->radius[0], piece->radius[1]) + 0.05;
-    Rows rows = rows_of(occlusion, piece, radius);
+    OzStadium stadium = oz_stadium_make(piece->ends[0], piece->ends[1], radius);
+    OzStadiumSpan rows = oz_stadium_rows(&stadium, occlusion->rows);
     float near = (float)piece->near;
     for (int y = rows.first; y < rows.end; y++) {
         const float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
-        Span span = span_at(&rows.stadium, y + 0.5);
-        int first = first_pixel(span.low + 0.5),
-            end = end_pixel(span.high - 0.5, occlusion->columns);
+        OzStadiumSpan span = oz_stadium_row(&stadium, y, occlusion->columns);
         int open = 0;
-        for (int x = first; x < end; x++) {
+        for (int x = span.first; x < span.end; x++) {
             open |= row[x] < near;
         }
         if (open) {
@@ -174,14 +96,13 @@ static bool shows(const OzOcclusion *occlusion, const Piece *piece)
 static void cover(OzOcclusion *occlusion, const Piece *piece)
 {
     double radius = 0.99 * least(piece->radius[0], piece->radius[1]) - 0.02;
-    Rows rows = rows_of(occlusion, piece, radius);
+    OzStadium stadium = oz_stadium_make(piece->ends[0], piece->ends[1], radius);
+    OzStadiumSpan rows = oz_stadium_rows(&stadium, occlusion->rows);
     float far = (float)piece->far;
     for (int y = rows.first; y < rows.end && radius > 0; y++) {
         float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;
-        Span span = span_at(&rows.stadium, y + 0.5);
-        int first = first_pixel(span.low + 0.5),
-            end = end_pixel(span.high - 0.5, occlusion->columns);
-        for (int x = first; x < end; x++) {
+        OzStadiumSpan span = oz_stadium_row(&stadium, y, occlusion->columns);
+        for (int x = span.first; x < span.end; x++) {
             row[x] = row[x] > far ? row[x] : far;
         }
     }
@@ -200,10 +121,10 @@ static bool box_shows(const OzOcclusion *occlusion, const Piece *piece)
 {
     double radius = 1.02 * most(piece->radius[0], piece->radius[1]) + 0.05;
     const double *a = piece->ends[0], *b = piece->ends[1];
-    int left = first_pixel(least(a[0], b[0]) - radius),
-        top = first_pixel(least(a[1], b[1]) - radius);
-    int right = end_pixel(most(a[0], b[0]) + radius, occlusion->columns);
-    int bottom = end_pixel(most(a[1], b[1]) + radius, occlusion->rows);
+    int left = oz_stadium_first(least(a[0], b[0]) - radius),
+        top = oz_stadium_first(least(a[1], b[1]) - radius);
+    int right = oz_stadium_end(most(a[0], b[0]) + radius, occlusion->columns);
+    int bottom = oz_stadium_end(most(a[1], b[1]) + radius, occlusion->rows);
     float near = (float)piece->near;
     for (int y = top; y < bottom; y++) {
         const float *row = occlusion->nearest + (size_t)y * (size_t)occlusion->columns;

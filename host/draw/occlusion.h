@@ -3,15 +3,9 @@
  * what they surely cover. */
 #pragma once
 
-#include "draw/camera.h"
+#include "draw/bodies.h"
 
 #include <stdbool.h>
-
-/* A rod or sphere in view coordinates. */
-typedef struct OzBody {
-    float centre[3], radius;
-    float axis[3], half_shaft; /* axis: a unit vector */
-} OzBody;
 
 typedef struct OzOcclusion {
     const OzCamera *camera; /* borrowed */

@@ -1,20 +1,20 @@
-/* One picture from one snapshot: container, grains and container again into samples, the samples
- * into pixels, the overlay on top. Knows how the parts follow each other, not how each is drawn. */
+/* One picture from one snapshot: planes of each view, by OpenGL or by the host, outlines and
+ * shadows finished, the overlay on top. Knows how the parts follow each other, not how each is
+ * drawn. */
 #include "draw/renderer.h"
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "draw/bodies.h"
 #include "draw/camera.h"
-#include "draw/capsules.h"
-#include "draw/container.h"
-#include "draw/context.h"
 #include "draw/finish.h"
 #include "draw/font.h"
 #include "draw/framing.h"
+#include "draw/gl_drawing.h"
+#include "draw/host_drawing.h"
 #include "draw/overlay.h"
-#include "draw/polygons.h"
-#include "draw/targets.h"
 
+#include <glob.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,41 +24,71 @@ enum {
 };
 
 static const double PI = 3.14159265358979323846;
-static const float WHITE[3] = {1, 1, 1};
-
-/* A shade off white, against which glass looks clean. */
-static const float BACKGROUND[3] = {0.972f, 0.976f, 0.982f};
 
 struct OzRenderer {
-    OzContext context;
-    OzCapsules capsules;
-    OzContainer container;
-    OzPolygons polygons;
+    OzGlBackend backend;
+    const char *source_dir; /* borrowed */
+    bool has_gl;
+    bool is_by_gl; /* rods; flat grains always are */
+    OzGlDrawing gl;
+    OzHostDrawing host;
+    OzBodies bodies;
+    OzDrawnRoom room;
     OzFont font;
-    GLuint compose, no_vertices;
-    OzTargets targets;
 };
+
+static OzStatus need_gl(OzRenderer *renderer)
+{
+    if (!renderer->has_gl) {
+        OZ_PASS(oz_gl_drawing_create(&renderer->gl, renderer->backend, renderer->source_dir));
+        renderer->has_gl = true;
+    }
+    return OZ_OK;
+}
+
+static bool has_gpu(void)
+{
+    static const char *const nodes[] = {"/dev/dri/renderD*", "/dev/nvidia[0-9]*", "/dev/dxg"};
+    bool found = false;
+    for (size_t i = 0; i < sizeof nodes / sizeof *nodes && !found; i++) {
+        glob_t names;
+        found = glob(nodes[i], GLOB_NOSORT, NULL, &names) == 0;
+        globfree(&names);
+    }
+    return found;
+}
+
+/* A GPU that cannot be used is no reason to do without pictures. */
+static OzStatus choose(OzRenderer *renderer)
+{
+    if (renderer->backend == OZ_GL_HOST) {
+        renderer->backend = OZ_GL_AUTO;
+        return OZ_OK;
+    }
+    renderer->is_by_gl = true;
+    if (renderer->backend != OZ_GL_AUTO) {
+        return need_gl(renderer);
+    }
+    renderer->is_by_gl =
+        has_gpu() && need_gl(renderer) == OZ_OK && !oz_gl_drawing_is_slow(&renderer->gl);
+    return OZ_OK;
+}
 
 OzStatus oz_renderer_create(OzRenderer **renderer, OzGlBackend backend, const char *source_dir)
 {
-    OzStatus status = OZ_OK;
     OzRenderer *made = NULL;
     *renderer = NULL;
-    OZ_TRY(OZ_NEW(&made, 1));
-    OZ_TRY(oz_context_create(&made->context, backend));
-    const OzGl *gl = &made->context.gl;
-    OZ_TRY(oz_capsules_create(&made->capsules, gl, source_dir));
-    OZ_TRY(oz_container_create(&made->container, gl, source_dir));
-    OZ_TRY(oz_polygons_create(&made->polygons, gl, source_dir));
-    OZ_TRY(oz_gl_program(gl, &made->compose, source_dir, "compose", ""));
-    gl->GenVertexArrays(1, &made->no_vertices);
-    OZ_TRY(oz_gl_check(gl, "preparing the renderer"));
+    OZ_PASS(OZ_NEW(&made, 1));
+    made->backend = backend;
+    made->source_dir = source_dir;
+    OzStatus status = choose(made);
+    if (status != OZ_OK) {
+        oz_renderer_free(made);
+        return status;
+    }
     oz_font_open(&made->font);
     *renderer = made;
-    made = NULL;
-done:
-    oz_renderer_free(made);
-    return status;
+    return OZ_OK;
 }
 
 void oz_renderer_free(OzRenderer *renderer)
@@ -66,23 +96,17 @@ void oz_renderer_free(OzRenderer *renderer)
     if (!renderer) {
         return;
     }
-    if (renderer->context.handle && oz_context_use(&renderer->context) == OZ_OK) {
-        const OzGl *gl = &renderer->context.gl;
-        oz_targets_free(&renderer->targets);
-        oz_capsules_free(&renderer->capsules);
-        oz_container_free(&renderer->container);
-        oz_polygons_free(&renderer->polygons);
-        gl->DeleteProgram(renderer->compose);
-        gl->DeleteVertexArrays(1, &renderer->no_vertices);
-    }
+    oz_gl_drawing_free(&renderer->gl);
+    oz_host_drawing_free(&renderer->host);
+    oz_bodies_free(&renderer->bodies);
+    oz_drawn_free(&renderer->room);
     oz_font_close(&renderer->font);
-    oz_context_free(&renderer->context);
     free(renderer);
 }
 
 const char *oz_renderer_name(const OzRenderer *renderer)
 {
-    return renderer->context.name;
+    return renderer->is_by_gl ? renderer->gl.context.name : "the host, rays cast by the processor";
 }
 
 OzLook oz_renderer_look(const OzScene *scene, const OzSnapshot *snapshot)
@@ -95,100 +119,19 @@ void oz_renderer_describe(FILE *file)
     oz_context_describe(file);
 }
 
-static OzStatus check_look(const OzRenderer *renderer, const OzLook *look, const OzImage *image)
+static OzStatus check_look(const OzLook *look, const OzImage *image)
 {
-    GLint largest = 0;
-    renderer->context.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    largest = largest < OZ_PICTURE_SIDE_MAX ? largest : OZ_PICTURE_SIDE_MAX;
     if (look->width < OZ_PICTURE_SIDE_MIN || look->height < OZ_PICTURE_SIDE_MIN ||
-        look->width > largest || look->height > largest) {
+        look->width > OZ_PICTURE_SIDE_MAX || look->height > OZ_PICTURE_SIDE_MAX) {
         return oz_status_fail(OZ_ERR_GRAPHICS,
-                              "a picture of %d x %d pixels cannot be drawn; %d to %d a side can "
-                              "with %s",
-                              look->width, look->height, OZ_PICTURE_SIDE_MIN, largest,
-                              renderer->context.name);
+                              "a picture of %d x %d pixels cannot be drawn; %d to %d a side can",
+                              look->width, look->height, OZ_PICTURE_SIDE_MIN, OZ_PICTURE_SIDE_MAX);
     }
     if (image->width != look->width || image->height != look->height) {
         return oz_status_fail(OZ_ERR_GRAPHICS, "the image has %d x %d pixels, the look %d x %d",
                               image->width, image->height, look->width, look->height);
     }
     return OZ_OK;
-}
-
-/* The viewport has the panel's middle at its own, so that the origin of view coordinates comes to
- * lie there; the scissor keeps the panel's columns. */
-static void open_panel(const OzGl *gl, const OzPanel *panel, int height, double size[2])
-{
-    int middle_x = (int)lround(panel->middle_x), middle_y = height - (int)lround(panel->middle_y);
-    int left = middle_x - panel->x, right = panel->x + panel->width - middle_x;
-    int half_width = left > right ? left : right;
-    int half_height = middle_y > height - middle_y ? middle_y : height - middle_y;
-    gl->Viewport(middle_x - half_width, middle_y - half_height, 2 * half_width, 2 * half_height);
-    gl->Scissor(panel->x, 0, panel->width, height);
-    size[0] = 2 * half_width;
-    size[1] = 2 * half_height;
-}
-
-static OzStatus draw_view(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
-                          const OzCamera *camera, int view)
-{
-    double size[2];
-    open_panel(&renderer->context.gl, &camera->panels[view], look->height, size);
-    if (!look->bare) {
-        OZ_PASS(
-            oz_container_build(&renderer->container, snapshot, look, camera, look->views[view]));
-        oz_container_draw_behind(&renderer->container, camera, size[0], size[1]);
-    }
-    oz_capsules_draw(&renderer->capsules, view, look, camera, size[0], size[1]);
-    if (!look->bare) {
-        oz_container_draw_before(&renderer->container, camera, size[0], size[1]);
-    }
-    return oz_gl_check(&renderer->context.gl, "drawing a view");
-}
-
-/* alpha: of the background; of samples it is how much of a pixel is filled. */
-static void clear_target(const OzGl *gl, GLuint target, const OzLook *look, float alpha)
-{
-    const float *colour = look->bare ? WHITE : BACKGROUND;
-    gl->BindFramebuffer(GL_FRAMEBUFFER, target);
-    gl->Disable(GL_SCISSOR_TEST);
-    gl->DepthMask(GL_TRUE);
-    gl->ClearColor(colour[0], colour[1], colour[2], alpha);
-    gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
-static OzStatus draw_samples(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
-                             const OzCamera *camera)
-{
-    const OzGl *gl = &renderer->context.gl;
-    clear_target(gl, renderer->targets.sample_target, look, 0);
-    gl->Enable(GL_DEPTH_TEST);
-    gl->Enable(GL_SCISSOR_TEST);
-    for (int view = 0; view < look->view_count; view++) {
-        OZ_PASS(draw_view(renderer, snapshot, look, camera, view));
-    }
-    return OZ_OK;
-}
-
-/* States of flat grains over each other; the first of several is faint, the last is opaque. */
-static OzStatus draw_flat_samples(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
-                                  const OzLook *look, const OzCamera *camera)
-{
-    const double faintest = 0.12;
-    OzPolygons *polygons = &renderer->polygons;
-    double size[2];
-    clear_target(&renderer->context.gl, renderer->targets.sample_target, look, 0);
-    renderer->context.gl.Enable(GL_SCISSOR_TEST);
-    open_panel(&renderer->context.gl, &camera->panels[0], look->height, size);
-    oz_polygons_clear(polygons);
-    if (!look->bare) {
-        oz_polygons_add_walls(polygons, &snapshots[count - 1], look, camera);
-    }
-    for (int i = 0; i < count; i++) {
-        double age = count > 1 ? (double)(count - 1 - i) / (count - 1) : 0;
-        oz_polygons_add_grains(polygons, &snapshots[i], look, camera, 1 - (1 - faintest) * age);
-    }
-    return oz_polygons_draw(polygons, look, camera, size[0], size[1]);
 }
 
 /* A typical grain's radius in units of view coordinates. */
@@ -226,7 +169,7 @@ static void place_taps(OzFinish *finish, double radius)
 static OzFinish choose_finish(const OzSnapshot *snapshot, const OzLook *look,
                               const OzCamera *camera)
 {
-    const float *colour = look->bare ? WHITE : BACKGROUND;
+    const float *colour = oz_camera_background(look);
     double radius = typical_radius(snapshot, camera);
     double rise = camera->axes[1][1], away = -camera->axes[2][1];
     double share = camera->unit / look->half_width;
@@ -244,40 +187,9 @@ static OzFinish choose_finish(const OzSnapshot *snapshot, const OzLook *look,
     return finish;
 }
 
-/* What a view may have painted. */
-static OzBox changed_box(const OzRenderer *renderer, const OzLook *look, const OzCamera *camera,
-                         int view)
-{
-    const OzCapsules *capsules = &renderer->capsules;
-    const double high[2] = {capsules->high[0],
-                            fmax(capsules->high[1], look->bare ? 0 : renderer->container.high)};
-    return oz_camera_box(camera, look, view, capsules->low, high);
-}
-
-/* The mean of the samples of flat grains. */
-static OzStatus mean_of_samples(const OzRenderer *renderer, const OzLook *look, OzImage *image)
-{
-    const OzGl *gl = &renderer->context.gl;
-    GLuint program = renderer->compose;
-    gl->UseProgram(program);
-    gl->BindVertexArray(renderer->no_vertices);
-    gl->ActiveTexture(GL_TEXTURE0);
-    gl->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, renderer->targets.colours);
-    gl->Uniform1i(gl->GetUniformLocation(program, "colours"), 0);
-    gl->Uniform1i(gl->GetUniformLocation(program, "sample_count"), renderer->targets.sample_count);
-    gl->Uniform1i(gl->GetUniformLocation(program, "rows"), look->height);
-    clear_target(gl, renderer->targets.result_target, look, 1);
-    gl->Disable(GL_DEPTH_TEST);
-    gl->Viewport(0, 0, look->width, look->height);
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
-    gl->PixelStorei(GL_PACK_ROW_LENGTH, 0);
-    gl->ReadPixels(0, 0, image->width, image->height, GL_RGBA, GL_UNSIGNED_BYTE, image->pixels);
-    return oz_gl_check(gl, "reading the picture back");
-}
-
 static void fill_background(OzImage *image, const OzLook *look)
 {
-    const float *colour = look->bare ? WHITE : BACKGROUND;
+    const float *colour = oz_camera_background(look);
     uint8_t rgba[4] = {0, 0, 0, 255};
     for (int k = 0; k < 3; k++) {
         rgba[k] = (uint8_t)lroundf(255 * colour[k]);
@@ -287,52 +199,35 @@ static void fill_background(OzImage *image, const OzLook *look)
     }
 }
 
-/* Reads a view's box back into the middle of larger planes and finishes it. */
-static OzStatus finish_view(const OzRenderer *renderer, const OzFinish *finish, const OzBox *box,
-                            OzImage *image)
+static OzStatus draw_view(OzRenderer *renderer, const OzFinish *finish, int view, OzImage *image)
 {
-    const OzGl *gl = &renderer->context.gl;
-    OzStatus status = OZ_OK;
-    int stride = box->width + 2 * finish->reach;
-    size_t count = (size_t)stride * (size_t)(box->height + 2 * finish->reach);
-    size_t inset = (size_t)finish->reach * (size_t)(stride + 1);
-    uint8_t *colour = NULL;
-    float *depth = NULL;
-    OZ_TRY(OZ_NEW(&colour, 4 * count));
-    OZ_TRY(OZ_NEW(&depth, count));
-    for (size_t i = 0; i < count; i++) {
-        depth[i] = 1;
+    const OzBodies *bodies = &renderer->bodies;
+    OzDrawn drawn;
+    OzBox box;
+    if (renderer->is_by_gl) {
+        box = oz_gl_drawing_box(&renderer->gl, bodies, view);
+    } else {
+        OZ_PASS(oz_host_drawing_begin(&renderer->host, bodies, view, &box));
     }
-    OzDrawn drawn = {*box, stride, colour + 4 * inset, depth + inset};
-    int low = image->height - box->y - box->height;
-    gl->PixelStorei(GL_PACK_ROW_LENGTH, stride);
-    gl->ReadPixels(box->x, low, box->width, box->height, GL_RGBA, GL_UNSIGNED_BYTE, drawn.colour);
-    gl->ReadPixels(box->x, low, box->width, box->height, GL_DEPTH_COMPONENT, GL_FLOAT, drawn.depth);
-    OZ_TRY(oz_gl_check(gl, "reading the picture back"));
-    OZ_TRY(oz_finish_pixels(finish, &drawn, image));
-done:
-    free(colour);
-    free(depth);
-    return status;
+    OZ_PASS(oz_drawn_open(&drawn, &renderer->room, &box, finish->reach, finish->background));
+    OZ_PASS(renderer->is_by_gl ? oz_gl_drawing_read(&renderer->gl, &drawn, bodies->look)
+                               : oz_host_drawing_draw(&renderer->host, &drawn, bodies, view));
+    return oz_finish_pixels(finish, &drawn, image);
 }
 
-static OzStatus finish_views(const OzRenderer *renderer, const OzSnapshot *snapshot,
-                             const OzLook *look, const OzCamera *camera, OzImage *image)
+static OzStatus draw_standing(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
+                              const OzCamera *camera, OzImage *image)
 {
     OzFinish finish = choose_finish(snapshot, look, camera);
+    OZ_PASS(oz_bodies_take(&renderer->bodies, snapshot, look, camera));
+    if (renderer->is_by_gl) {
+        OZ_PASS(oz_gl_drawing_views(&renderer->gl, &renderer->bodies));
+    }
     fill_background(image, look);
     for (int view = 0; view < look->view_count; view++) {
-        OzBox box = changed_box(renderer, look, camera, view);
-        OZ_PASS(finish_view(renderer, &finish, &box, image));
+        OZ_PASS(draw_view(renderer, &finish, view, image));
     }
     return OZ_OK;
-}
-
-static OzStatus draw_standing_samples(OzRenderer *renderer, const OzSnapshot *snapshot,
-                                      const OzLook *look, const OzCamera *camera)
-{
-    OzStatus status = oz_capsules_upload(&renderer->capsules, snapshot, look, camera);
-    return status == OZ_OK ? draw_samples(renderer, snapshot, look, camera) : status;
 }
 
 static OzStatus draw(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
@@ -340,13 +235,13 @@ static OzStatus draw(OzRenderer *renderer, const OzSnapshot *snapshots, int coun
 {
     OzCamera camera = oz_camera_make(look);
     const OzSnapshot *last = &snapshots[count - 1];
-    OZ_PASS(oz_context_use(&renderer->context));
-    OZ_PASS(check_look(renderer, look, image));
-    OZ_PASS(oz_targets_fit(&renderer->targets, &renderer->context.gl, look));
-    OZ_PASS(look->flat ? draw_flat_samples(renderer, snapshots, count, look, &camera)
-                       : draw_standing_samples(renderer, last, look, &camera));
-    OZ_PASS(look->flat ? mean_of_samples(renderer, look, image)
-                       : finish_views(renderer, last, look, &camera, image));
+    OZ_PASS(check_look(look, image));
+    if (look->flat) {
+        OZ_PASS(need_gl(renderer));
+        OZ_PASS(oz_gl_drawing_flat(&renderer->gl, snapshots, count, look, &camera, image));
+    } else {
+        OZ_PASS(draw_standing(renderer, last, look, &camera, image));
+    }
     oz_overlay_draw(&renderer->font, image, last, look, &camera);
     return OZ_OK;
 }

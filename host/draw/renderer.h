@@ -1,5 +1,5 @@
-/* Draws snapshots off-screen into images. One renderer is one GL context, used from the thread that
- * made it. */
+/* Draws snapshots off-screen into images. One renderer has one GL context or none, and is used from
+ * the thread that made it; several in as many threads draw the same pictures. */
 #pragma once
 
 #include "base/status.h"
@@ -9,7 +9,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-typedef enum OzGlBackend { OZ_GL_AUTO, OZ_GL_EGL, OZ_GL_OSMESA } OzGlBackend;
+/* Who draws rods: a GPU by OpenGL where there is one, else the host; one of two OpenGL libraries,
+ * whatever they draw with; the host. Flat grains are always drawn by OpenGL. */
+typedef enum OzGlBackend { OZ_GL_AUTO, OZ_GL_EGL, OZ_GL_OSMESA, OZ_GL_HOST } OzGlBackend;
 
 /* What a picture shows. Start from oz_renderer_look and change size, views and colour at will: the
  * framing is in metres and holds for any of them. */
@@ -36,12 +38,13 @@ typedef struct OzLook {
 
 typedef struct OzRenderer OzRenderer;
 
-/* OZ_GL_AUTO takes EGL (surfaceless), else OSMesa, logging each refusal with its reason. source_dir
- * as in oz_embed_read. Fails with OZ_ERR_GRAPHICS. */
+/* Where OpenGL is needed, EGL (surfaceless) is taken, else OSMesa, each refusal logged with its
+ * reason; unless the backend names one of them, it is opened by the first picture that needs it.
+ * source_dir as in oz_embed_read, borrowed. Fails with OZ_ERR_GRAPHICS. */
 OzStatus oz_renderer_create(OzRenderer **renderer, OzGlBackend backend, const char *source_dir);
 void oz_renderer_free(OzRenderer *renderer); /* NULL is fine */
 
-/* "EGL surfaceless, OpenGL ... Mesa ..., llvmpipe ...", for logs and metadata. */
+/* "EGL surfaceless, OpenGL ... Mesa ..., llvmpipe ...", for logs and metadata; of rods. */
 const char *oz_renderer_name(const OzRenderer *renderer);
 
 /* The look for a scene's movie settings (1280x720, both views and angle without any), framing this

@@ -1,0 +1,53 @@
+/* Planes of pixels. Knows nothing of what is drawn. */
+#include "draw/drawn.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void oz_drawn_free(OzDrawnRoom *room)
+{
+    free(room->colour);
+    free(room->depth);
+    memset(room, 0, sizeof *room);
+}
+
+static OzStatus fit(OzDrawnRoom *room, size_t count)
+{
+    if (count <= room->capacity) {
+        return OZ_OK;
+    }
+    oz_drawn_free(room);
+    OZ_PASS(OZ_NEW(&room->colour, 4 * count));
+    OZ_PASS(OZ_NEW(&room->depth, count));
+    room->capacity = count;
+    return OZ_OK;
+}
+
+OzStatus oz_drawn_open(OzDrawn *drawn, OzDrawnRoom *room, const OzBox *box, int reach,
+                       const float rgb[3])
+{
+    int border = reach > OZ_DRAWN_BLOCK ? reach : OZ_DRAWN_BLOCK;
+    int stride = box->width + 2 * border, rows = box->height + 2 * border;
+    size_t count = (size_t)stride * (size_t)rows;
+    size_t inset = (size_t)border * (size_t)(stride + 1);
+    OZ_PASS(fit(room, count));
+    *drawn = (OzDrawn){*box, stride, room->colour + 4 * inset, room->depth + inset};
+    memset(room->colour, 0, 4 * count);
+    for (size_t i = 0; i < count; i++) {
+        room->depth[i] = 1;
+    }
+    uint8_t rgba[4] = {0};
+    for (int k = 0; k < 3; k++) {
+        rgba[k] = (uint8_t)lroundf(255 * rgb[k]);
+    }
+    for (int y = 0; y < box->height; y++) {
+        uint8_t *row = drawn->colour + 4 * (ptrdiff_t)y * stride;
+        for (int x = 0; x < box->width; x++) {
+            memcpy(row + 4 * x, rgba, 4);
+        }
+    }
+    return OZ_OK;
+}
