@@ -260,6 +260,15 @@ static void test_plots(void **state)
     expect_true("document.querySelectorAll('#plots path').length === 2");
     expect_true("[...document.querySelectorAll('#plots path')].every(p => "
                 "p.getAttribute('d').split('L').length === 100)");
+    /* One more column, between the others. */
+    static const char *const more[] = {"time", "angle", "work_walls", "density"};
+    assert_int_equal(oz_page_show_columns(page, more, 4), OZ_OK);
+    oz_page_show_row(page, (double[]){1, 20, 7, 0.5});
+    expect_true("document.querySelectorAll('#columns input').length === 3");
+    expect_true("[...document.querySelectorAll('#plots path')].every(p => "
+                "p.getAttribute('d').split('L').length === 101)");
+    expect_true("[...document.querySelectorAll('#plots figcaption span')].map(s => "
+                "s.textContent).join() === '0.5,20'");
 }
 
 /* Typed and sent with keys: Tab, text, Enter. */

@@ -91,6 +91,7 @@ static void print_state(const OzPage *page, FILE *file)
     } numbers[] = {{"time", s->time},
                    {"tap", s->tap},
                    {"progress", s->progress},
+                   {"settling", s->settling},
                    {"steps_per_second", s->steps_per_second}};
     fputs("{\"title\": ", file);
     oz_page_json_text(file, page->title);

@@ -35,6 +35,7 @@ typedef struct OzPageStatus {
     int64_t step;
     double time, tap; /* s, 1; NAN: there are no taps         */
     double progress;  /* 0 to 1; NAN: the run has no end      */
+    double settling;  /* s so far, before time 0; 0: it is over */
     double steps_per_second;
     bool done, stopped; /* to the end; ended before it          */
 } OzPageStatus;
@@ -67,7 +68,8 @@ OzStatus oz_page_show_keys(OzPage *page, const OzPageKey *keys, int count);
 /* A line of the log of changes. */
 void oz_page_say(OzPage *page, bool applied, const char *text);
 
-/* The columns of rows, once, and a row of them (NAN: an empty cell). Of a long run every 2nd, 4th,
+/* The columns of rows, again when they are others, and a row of them (NAN: an empty cell). Of a
+ * long run every 2nd, 4th,
  * ... row is kept. */
 OzStatus oz_page_show_columns(OzPage *page, const char *const *names, int count);
 void oz_page_show_row(OzPage *page, const double *values);

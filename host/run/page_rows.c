@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "run/page_json.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,14 +13,15 @@ enum {
     PLOTS = 8    /* columns in one answer              */
 };
 
-OzStatus oz_page_rows_open(OzPageRows *rows, const char *const *names, int count)
+/* The column of this name, whose end is not marked; -1. */
+static int find_column(const OzPageRows *rows, const char *name, size_t length)
 {
-    rows->every = 1;
-    OZ_PASS(OZ_NEW(&rows->names, count));
-    for (; rows->column_count < count; rows->column_count++) {
-        OZ_PASS(oz_memory_text(&rows->names[rows->column_count], names[rows->column_count]));
+    int i = 0;
+    while (i < rows->column_count &&
+           (strncmp(rows->names[i], name, length) != 0 || rows->names[i][length])) {
+        i++;
     }
-    return OZ_NEW(&rows->values, (size_t)count * ROWS);
+    return i < rows->column_count ? i : -1;
 }
 
 void oz_page_rows_free(OzPageRows *rows)
@@ -30,6 +32,42 @@ void oz_page_rows_free(OzPageRows *rows)
     free(rows->names);
     free(rows->values);
     *rows = (OzPageRows){0};
+}
+
+static OzStatus make(OzPageRows *rows, const char *const *names, int count)
+{
+    OZ_PASS(OZ_NEW(&rows->names, count));
+    for (; rows->column_count < count; rows->column_count++) {
+        OZ_PASS(oz_memory_text(&rows->names[rows->column_count], names[rows->column_count]));
+    }
+    return OZ_NEW(&rows->values, (size_t)count * ROWS);
+}
+
+/* The rows so far under the new columns. */
+static void copy_rows(OzPageRows *to, const OzPageRows *from)
+{
+    to->count = from->count;
+    to->kept = from->kept;
+    to->every = from->every;
+    for (int i = 0; i < to->column_count; i++) {
+        int column = find_column(from, to->names[i], strlen(to->names[i]));
+        for (int64_t r = 0; r < from->kept; r++) {
+            to->values[r * to->column_count + i] =
+                column < 0 ? NAN : from->values[r * from->column_count + column];
+        }
+    }
+}
+
+OzStatus oz_page_rows_open(OzPageRows *rows, const char *const *names, int count)
+{
+    OzPageRows made = {.every = 1};
+    OzStatus status = make(&made, names, count);
+    if (status == OZ_OK && rows->values) {
+        copy_rows(&made, rows);
+    }
+    oz_page_rows_free(rows);
+    *rows = made;
+    return status;
 }
 
 /* Every second row that is kept goes. */
@@ -54,17 +92,6 @@ void oz_page_rows_add(OzPageRows *rows, const double *values)
     }
     size_t width = (size_t)rows->column_count;
     memcpy(rows->values + (size_t)rows->kept++ * width, values, width * sizeof *values);
-}
-
-/* The column of this name, whose end is not marked; -1. */
-static int find_column(const OzPageRows *rows, const char *name, size_t length)
-{
-    int i = 0;
-    while (i < rows->column_count &&
-           (strncmp(rows->names[i], name, length) != 0 || rows->names[i][length])) {
-        i++;
-    }
-    return i < rows->column_count ? i : -1;
 }
 
 /* The columns that the list names and the table has. */

@@ -15,7 +15,8 @@ typedef struct OzPageRows {
     int64_t count, kept, every; /* given; kept: each `every`th of them */
 } OzPageRows;
 
-/* Names are copied. On failure it is to be freed all the same. */
+/* The columns, whose names are copied. Rows that are there keep the cells of columns that go on;
+ * others are empty. On failure it is to be freed all the same. */
 OzStatus oz_page_rows_open(OzPageRows *rows, const char *const *names, int count);
 void oz_page_rows_free(OzPageRows *rows);
 

@@ -23,7 +23,7 @@ struct OzServe {
     OzReload *reload;
     OzLive *live;
     _Atomic double pictured; /* wall clock at which the last picture was copied */
-    bool has_columns;
+    int column_count;        /* that the page knows */
     OzPageStatus status;
     int64_t rate_step; /* where counting began, and when */
     double rate_start;
@@ -147,6 +147,7 @@ void oz_serve_show(OzServe *serve, const OzScene *scene, int64_t step, double ti
     OzPageStatus *s = &serve->status;
     s->step = step;
     s->time = time;
+    s->settling = 0;
     s->tap = scene->period > 0 ? oz_motion_tap(scene, time) : NAN;
     bool ends = last_step > 0 && last_step < INT64_MAX;
     s->progress = ends ? (double)step / (double)last_step : NAN;
@@ -156,6 +157,14 @@ void oz_serve_show(OzServe *serve, const OzScene *scene, int64_t step, double ti
         serve->rate_start = now;
     }
     oz_page_show(serve->page, s);
+}
+
+void oz_serve_settle(OzServe *serve, double time)
+{
+    if (serve) {
+        serve->status.settling = time;
+        oz_page_show(serve->page, &serve->status);
+    }
 }
 
 static OzStatus show_columns(OzServe *serve, const OzSeries *series, int count)
@@ -183,9 +192,9 @@ OzStatus oz_serve_row(OzServe *serve, const OzSeries *series)
         return OZ_OK;
     }
     int count = oz_series_row(series, &values);
-    if (!serve->has_columns) {
+    if (serve->column_count != count) { /* they never get fewer */
         OZ_PASS(show_columns(serve, series, count));
-        serve->has_columns = true;
+        serve->column_count = count;
     }
     oz_page_show_row(serve->page, values);
     return OZ_OK;

@@ -77,6 +77,23 @@ static bool must_end(const OzWorker *worker)
     return oz_interrupt_asked() || atomic_load(worker->ended);
 }
 
+/* A picture between those of the movie, for those who look on, if any. Reading the state takes at
+ * most a twentieth of the time. A state that is no good is the next event's to find. */
+static OzStatus show_glance(OzWorker *worker)
+{
+    OzOutputs *first = worker->members[0];
+    double now = oz_clock_now();
+    if (now < worker->glance_after || !oz_glances_wait(&first->glances)) {
+        return OZ_OK;
+    }
+    OzStatus status = oz_read_snapshot_snapshot(worker->sim, 0, &first->now, false);
+    if (status == OZ_OK) {
+        status = oz_glances_show(&first->glances, &first->now);
+    }
+    worker->glance_after = now + 20 * (oz_clock_now() - now);
+    return status == OZ_ERR_BLOWUP ? OZ_OK : status;
+}
+
 /* Settling a large bed takes hours, which a kill must not lose. */
 static OzStatus watch_settling(void *context, double time, double ratio)
 {
@@ -84,9 +101,12 @@ static OzStatus watch_settling(void *context, double time, double ratio)
     if (worker->leads) {
         oz_stage_say(&worker->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
     }
-    return must_end(worker)
-               ? oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at %.9g s of settling", time)
-               : oz_worker_state_save_if_due(worker);
+    if (must_end(worker)) {
+        return oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at %.9g s of settling", time);
+    }
+    oz_serve_settle(worker->serve, time);
+    OZ_PASS(show_glance(worker));
+    return oz_worker_state_save_if_due(worker);
 }
 
 static OzStatus settle(OzWorker *worker)
@@ -170,23 +190,6 @@ static void show_progress(const OzWorker *worker)
                     last > 0 ? 100 * step / last : 100, oz_sim_time(worker->sim), rate, left);
 }
 
-/* A picture between those of the movie, for those who look on, if any. Reading the state takes at
- * most a twentieth of the time. A state that is no good is the next event's to find. */
-static OzStatus show_glance(OzWorker *worker)
-{
-    OzOutputs *first = worker->members[0];
-    double now = oz_clock_now();
-    if (now < worker->glance_after || !oz_glances_wait(&first->glances)) {
-        return OZ_OK;
-    }
-    OzStatus status = oz_read_snapshot_snapshot(worker->sim, 0, &first->now, false);
-    if (status == OZ_OK) {
-        status = oz_glances_show(&first->glances, &first->now);
-    }
-    worker->glance_after = now + 20 * (oz_clock_now() - now);
-    return status == OZ_ERR_BLOWUP ? OZ_OK : status;
-}
-
 static OzStatus launch(OzWorker *worker, int64_t step, double *shown)
 {
     OzStatus status = oz_sim_launch(worker->sim, step);
@@ -251,6 +254,7 @@ static OzStatus walk(OzWorker *worker)
         oz_log_line("first step %.2f s after start", worker->first_step - worker->started);
     }
     OZ_TRY(oz_swap_serve(worker)); /* what was asked for before */
+    OZ_TRY(oz_glances_begin(&worker->members[0]->glances));
     while (open > 0 && !oz_swap_is_at_end(worker) && oz_worker_next_event(worker)) {
         OZ_TRY(go(worker, &shown));
         if (worker->is_due && !oz_swap_is_at_end(worker)) {
