@@ -26,10 +26,9 @@ static OzStatus fit(OzDrawnRoom *room, size_t count)
     return OZ_OK;
 }
 
-OzStatus oz_drawn_open(OzDrawn *drawn, OzDrawnRoom *room, const OzBox *box, int reach,
-                       const float rgb[3])
+OzStatus oz_drawn_open(OzDrawn *drawn, OzDrawnRoom *room, const OzBox *box, const float rgb[3])
 {
-    int border = reach > OZ_DRAWN_BLOCK ? reach : OZ_DRAWN_BLOCK;
+    const int border = OZ_DRAWN_BLOCK;
     int stride = box->width + 2 * border, rows = box->height + 2 * border;
     size_t count = (size_t)stride * (size_t)rows;
     size_t inset = (size_t)border * (size_t)(stride + 1);

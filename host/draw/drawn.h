@@ -8,7 +8,7 @@
 enum { OZ_DRAWN_BLOCK = 16 }; /* pixels that the host draws together */
 
 /* A part of the picture as it was drawn, row 0 at the bottom, with a frame of depth 1 and colour 0
- * about it, at least a block wide. */
+ * about it, a block wide. */
 typedef struct OzDrawn {
     OzBox box;       /* in the picture, from its top                                         */
     int stride;      /* pixels from row to row: the box's width and both borders              */
@@ -25,7 +25,6 @@ typedef struct OzDrawnRoom {
 
 /* Planes of this box with this colour, RGB and 0, in the room's memory until its next use, the
  * frame `reach` pixels wide or more. Fails with OZ_ERR_MEMORY. */
-OzStatus oz_drawn_open(OzDrawn *drawn, OzDrawnRoom *room, const OzBox *box, int reach,
-                       const float rgb[3]);
+OzStatus oz_drawn_open(OzDrawn *drawn, OzDrawnRoom *room, const OzBox *box, const float rgb[3]);
 
 void oz_drawn_free(OzDrawnRoom *room); /* zeroed is fine */

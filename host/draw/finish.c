@@ -1,32 +1,26 @@
-/* Row by row; the loops over a row are simple, so that compilers make vectors of them. Knows no GL.
+/* First every pixel's own colour, in its place, then outlines, from the pixels beside them. Knows
+ * no GL.
  */
 #include "draw/finish.h"
 
 #include "base/memory.h"
+#include "draw/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* One row of the box. */
-typedef struct Row {
-    float *colour[3]; /* 0 to 255                             */
-    float *depth;     /* of what fills the pixel; 0 where nothing */
-    float *filled;    /* share of the pixel                      */
-    float *shade;     /* how much stands before it, 0 to 1       */
-} Row;
-
-static float least(float a, float b)
+static inline float least(float a, float b)
 {
     return a < b ? a : b;
 }
 
-static float most(float a, float b)
+static inline float most(float a, float b)
 {
     return a > b ? a : b;
 }
 
-static float within_one(float a)
+static inline float within_one(float a)
 {
     return least(most(a, 0), 1);
 }
@@ -49,109 +43,150 @@ static void find_shares(Shares *shares)
     }
 }
 
-/* Sets what belongs to the pixel alone. */
-static void take_pixel(const Row *row, int x, const uint8_t *rgba, float depth)
+/* Adds a half-size pixel's shadow, the more of it the nearer it lies to the pixel's own surface. */
+static inline void weigh(float *sum, float *weights, float own, float depth, float shade,
+                         float steepness)
 {
-    row->filled[x] = depth < 1 ? 1 : 0;
-    row->depth[x] = depth < 1 ? depth : 0;
-    for (int k = 0; k < 3; k++) {
-        row->colour[k][x] = rgba[k];
+    float apart = (depth - own) * steepness, weight = most(1 - apart * apart, 1e-4f);
+    *sum += weight * shade;
+    *weights += weight;
+}
+
+/* The shadow of a row's pixels from the half-size ones at and beside them. */
+OZ_WIDE static void shade_row(float *restrict shade, const OzShadowRoom *half, const float *depth,
+                              int y, float steepness)
+{
+    ptrdiff_t first = (ptrdiff_t)(y / 2) * half->stride, step = y % 2 * (ptrdiff_t)half->stride;
+    const float *z = half->depth + first, *s = half->shade + first;
+    for (int x = 0; x < half->width; x++) {
+        float sum = 0, weights = 0, between = 0, between_weights = 0;
+        for (int up = 0; up < 2; up++) {
+            ptrdiff_t at = x + up * step;
+            weigh(&sum, &weights, depth[2 * x], z[at], s[at], steepness);
+            weigh(&between, &between_weights, depth[2 * x + 1], z[at], s[at], steepness);
+            weigh(&between, &between_weights, depth[2 * x + 1], z[at + 1], s[at + 1], steepness);
+        }
+        shade[2 * x] = sum / weights;
+        shade[2 * x + 1] = between / between_weights;
     }
 }
 
-/* A share of a neighbour instead. */
-static void mix_in(const Row *row, int x, float share, const uint8_t *own, const uint8_t *rgba,
-                   float depth)
+/* Darkened by what stands before it, faded with depth. start: how far behind the middle depth 0
+ * lies. */
+OZ_WIDE static void colour_row(const OzFinish *finish, const float *restrict shade,
+                               const float *restrict depth, float start, uint8_t *restrict rgba,
+                               int width)
 {
-    row->filled[x] += share * ((depth < 1 ? 1.0f : 0.0f) - row->filled[x]);
-    row->depth[x] += depth < 1 ? share * (depth - row->depth[x]) : 0;
+    float dark = finish->darkening, fade = finish->fade, by_depth = finish->by_depth, far[3];
     for (int k = 0; k < 3; k++) {
-        row->colour[k][x] += share * ((float)rgba[k] - (float)own[k]);
+        far[k] = 255 * finish->background[k];
+    }
+    for (int x = 0; x < width; x++) {
+        uint32_t old, word;
+        memcpy(&old, rgba + 4 * x, sizeof old);
+        float filled = depth[x] < 1 ? 1 : 0, light = 1 - dark * filled * shade[x];
+        float mist = fade * filled * within_one(start + by_depth * depth[x]);
+        word = old & (uint32_t)255 << OZ_WIDE_SHIFT(3);
+        for (int k = 0; k < 3; k++) {
+            float value = light * (float)(int)(old >> OZ_WIDE_SHIFT(k) & 255);
+            value += mist * (far[k] - value);
+            word |= (uint32_t)(int)(least(most(value, 0), 255) + 0.5f) << OZ_WIDE_SHIFT(k);
+        }
+        memcpy(rgba + 4 * x, &word, sizeof word);
+    }
+}
+
+static inline uint32_t is_divided(const uint8_t *rgba)
+{
+    return (uint8_t)(rgba[3] + 1) > 1; /* a code, neither 0 nor 255 */
+}
+
+/* Pixels as they are, opaque, and which of them an outline may divide. */
+OZ_WIDE static void copy_row(uint8_t *restrict to, uint8_t *restrict divided, const uint8_t *rgba,
+                             ptrdiff_t stride, int width)
+{
+    for (int x = 0; x < width; x++) {
+        const uint8_t *own = rgba + 4 * x;
+        divided[x] = (uint8_t)(is_divided(own) | is_divided(own + 4) | is_divided(own - 4) |
+                               is_divided(own + 4 * stride) | is_divided(own - 4 * stride));
+    }
+    for (int x = 0; x < width; x++) {
+        uint32_t word;
+        memcpy(&word, rgba + 4 * x, sizeof word);
+        word |= (uint32_t)255 << OZ_WIDE_SHIFT(3);
+        memcpy(to + 4 * x, &word, sizeof word);
     }
 }
 
 /* Each pixel with its part on the other side of its own outline, or within that of the pixels
  * beside it (after Persson, Geometric post-process anti-aliasing, 2011). */
-static void smooth_row(const Shares *shares, const Row *row, const OzDrawn *drawn, int y)
+static void divide_pixel(const Shares *shares, uint8_t *to, const uint8_t *own, ptrdiff_t stride)
 {
-    const uint8_t *rgba = drawn->colour + 4 * (ptrdiff_t)y * drawn->stride;
-    const float *depth = drawn->depth + (ptrdiff_t)y * drawn->stride;
-    const ptrdiff_t away[4] = {1, -1, drawn->stride, -drawn->stride};
-    for (int x = 0; x < drawn->box.width; x++, rgba += 4, depth++) {
-        float share[4], sum = 0;
-        for (int i = 0; i < 4; i++) {
-            share[i] = shares->out[i][rgba[3]] + shares->in[i ^ 1][rgba[4 * away[i] + 3]];
-            sum += share[i];
+    const ptrdiff_t away[4] = {4, -4, 4 * stride, -4 * stride};
+    float colour[3] = {own[0], own[1], own[2]};
+    for (int i = 0; i < 4; i++) {
+        const uint8_t *other = own + away[i];
+        float share = shares->out[i][own[3]] + shares->in[i ^ 1][other[3]];
+        for (int k = 0; k < 3; k++) {
+            colour[k] += share * (float)(other[k] - own[k]);
         }
-        take_pixel(row, x, rgba, *depth);
-        for (int i = 0; i < 4 && sum > 0; i++) {
-            if (share[i] > 0) {
-                mix_in(row, x, share[i], rgba, rgba + 4 * away[i], depth[away[i]]);
+    }
+    for (int k = 0; k < 3; k++) {
+        to[k] = (uint8_t)(int)(least(most(colour[k], 0), 255) + 0.5f);
+    }
+}
+
+static OzStatus fit(OzFinishRoom *room, size_t width)
+{
+    if (width > room->width) {
+        oz_finish_free(room);
+        OZ_PASS(OZ_NEW(&room->shade, width));
+        OZ_PASS(OZ_NEW(&room->divided, width));
+        room->width = width;
+    }
+    return OZ_OK;
+}
+
+static void colour_pixels(const OzFinish *finish, OzFinishRoom *room, const OzDrawn *drawn,
+                          int image_height)
+{
+    for (int y = 0; y < drawn->box.height; y++) {
+        ptrdiff_t place = (ptrdiff_t)y * drawn->stride;
+        int row = image_height - drawn->box.y - drawn->box.height + y;
+        float start = finish->middle + finish->by_row * (float)row;
+        shade_row(room->shade, &room->shadow, drawn->depth + place, y, finish->shadow.steepness);
+        colour_row(finish, room->shade, drawn->depth + place, start, drawn->colour + 4 * place,
+                   drawn->box.width);
+    }
+}
+
+OzStatus oz_finish_pixels(const OzFinish *finish, OzFinishRoom *room, const OzDrawn *drawn,
+                          OzImage *image)
+{
+    const OzBox *box = &drawn->box;
+    Shares shares;
+    OZ_PASS(fit(room, (size_t)box->width + 1));
+    OZ_PASS(oz_shadow_find(&room->shadow, &finish->shadow, drawn));
+    find_shares(&shares);
+    colour_pixels(finish, room, drawn, image->height);
+    for (int y = 0; y < box->height; y++) {
+        const uint8_t *from = drawn->colour + 4 * (ptrdiff_t)y * drawn->stride;
+        size_t top = (size_t)(box->y + box->height - 1 - y);
+        uint8_t *to = image->pixels + 4 * (top * (size_t)image->width + (size_t)box->x);
+        copy_row(to, room->divided, from, drawn->stride, box->width);
+        for (int x = 0; x < box->width; x++) {
+            if (room->divided[x]) {
+                divide_pixel(&shares, to + 4 * x, from + 4 * x, drawn->stride);
             }
         }
     }
-}
-
-/* How much stands in front nearby (Luft, Colditz & Deussen 2006: a depth buffer against its own
- * surroundings). Opposite neighbours are taken together, so that neither a slanting nor a bulging
- * surface darkens itself; a pair that reaches past everything into the background says nothing. */
-static void shade_row(const OzFinish *finish, const Row *row, const OzDrawn *drawn, int y)
-{
-    const float *own = row->depth;
-    float *shade = row->shade;
-    memset(shade, 0, sizeof *shade * (size_t)drawn->box.width);
-    for (int i = 0; i < finish->pairs && finish->darkening > 0; i++) {
-        ptrdiff_t away = finish->taps[i][0] + (ptrdiff_t)finish->taps[i][1] * drawn->stride;
-        const float *middle = drawn->depth + (ptrdiff_t)y * drawn->stride;
-        const float *ones = middle + away, *others = middle - away;
-        for (int x = 0; x < drawn->box.width; x++) {
-            float one = ones[x], other = others[x];
-            float nearer = within_one((2 * own[x] - one - other) * finish->steepness);
-            shade[x] += most(one, other) < 1 ? nearer : 0;
-        }
-    }
-}
-
-static void paint_row(const OzFinish *finish, const Row *row, const OzDrawn *drawn, int y,
-                      OzImage *image)
-{
-    int top = drawn->box.y + drawn->box.height - 1 - y;
-    uint8_t *rgba = image->pixels + 4 * ((size_t)top * (size_t)image->width + (size_t)drawn->box.x);
-    float start = finish->middle + finish->by_row * (float)(image->height - 1 - top);
-    float dark = finish->darkening / (float)(finish->pairs > 0 ? finish->pairs : 1);
-    float *light = row->shade, *mist = row->filled;
-    for (int x = 0; x < drawn->box.width; x++) {
-        float behind = within_one(start + finish->by_depth * row->depth[x]);
-        light[x] = 1 - dark * row->filled[x] * row->shade[x];
-        mist[x] = finish->fade * row->filled[x] * behind;
-    }
-    for (int k = 0; k < 3; k++) {
-        const float *colour = row->colour[k];
-        float far = 255 * finish->background[k];
-        for (int x = 0; x < drawn->box.width; x++) {
-            float value = light[x] * colour[x];
-            value += mist[x] * (far - value);
-            rgba[4 * x + k] = (uint8_t)(int)(least(most(value, 0), 255) + 0.5f);
-        }
-    }
-}
-
-OzStatus oz_finish_pixels(const OzFinish *finish, const OzDrawn *drawn, OzImage *image)
-{
-    size_t width = (size_t)drawn->box.width;
-    float *room = NULL;
-    OZ_PASS(OZ_NEW(&room, 6 * width));
-    Row row = {{room, room + width, room + 2 * width},
-               room + 3 * width,
-               room + 4 * width,
-               room + 5 * width};
-    Shares shares;
-    find_shares(&shares);
-    for (int y = 0; y < drawn->box.height; y++) {
-        smooth_row(&shares, &row, drawn, y);
-        shade_row(finish, &row, drawn, y);
-        paint_row(finish, &row, drawn, y, image);
-    }
-    free(room);
     return OZ_OK;
+}
+
+void oz_finish_free(OzFinishRoom *room)
+{
+    oz_shadow_free(&room->shadow);
+    free(room->shade);
+    free(room->divided);
+    memset(room, 0, sizeof *room);
 }

@@ -3,20 +3,26 @@
  */
 #pragma once
 
-#include "draw/drawn.h"
-
-enum { OZ_FINISH_PAIRS = 64 };
+#include "draw/shadow.h"
 
 /* How; the same for a whole picture. */
 typedef struct OzFinish {
-    int pairs;                      /* of neighbours that may darken a pixel                     */
-    int taps[OZ_FINISH_PAIRS][2];   /* pixels; the other of a pair lies opposite                 */
-    int reach;                      /* pixels: the furthest tap along an axis                    */
-    float steepness;                /* 1/depth at which a pair darkens fully                     */
+    OzShadow shadow;
     float darkening, fade;          /* 0 to 1                                                    */
     float by_depth, by_row, middle; /* how far behind the middle, 0 to 1; rows from below        */
     float background[3];            /* 0 to 1                                                    */
 } OzFinish;
 
-/* Into the image's box. Fails with OZ_ERR_MEMORY. */
-OzStatus oz_finish_pixels(const OzFinish *finish, const OzDrawn *drawn, OzImage *image);
+/* Memory, kept from picture to picture. */
+typedef struct OzFinishRoom {
+    OzShadowRoom shadow;
+    float *shade;     /* of a row of so many pixels      */
+    uint8_t *divided; /* which of them outlines divide   */
+    size_t width;
+} OzFinishRoom;
+
+/* Into the image's box; the planes' colours are changed on the way. Fails with OZ_ERR_MEMORY. */
+OzStatus oz_finish_pixels(const OzFinish *finish, OzFinishRoom *room, const OzDrawn *drawn,
+                          OzImage *image);
+
+void oz_finish_free(OzFinishRoom *room); /* zeroed is fine */

@@ -36,7 +36,7 @@ static void set_lens(OzRaster *raster)
     for (int k = 0; k < 3; k++) {
         lens->plane[k] = (float)raster->bodies->inward[k];
     }
-    for (int x = 0; x < raster->blocks * BLOCK; x++) {
+    for (int x = 0; x < (raster->blocks + 1) * BLOCK; x++) {
         raster->along[x] =
             (float)((x + 0.5 - raster->middle[0]) / (camera->scale * camera->distance));
     }
@@ -72,7 +72,7 @@ OzStatus oz_raster_begin(OzRaster *raster, const OzDrawn *drawn, const OzBodies 
     raster->middle[0] = (double)lround(p->middle_x) - box->x;
     raster->middle[1] = (double)box->y + box->height - (double)lround(p->middle_y);
     raster->blocks = (box->width + BLOCK - 1) / BLOCK;
-    OZ_PASS(OZ_NEW(&raster->along, raster->blocks * BLOCK + 1));
+    OZ_PASS(OZ_NEW(&raster->along, (raster->blocks + 1) * BLOCK));
     OZ_PASS(OZ_NEW(&raster->far, raster->blocks * bands + 1));
     set_lens(raster);
     for (int band = 0; band < bands; band++) {
@@ -81,11 +81,11 @@ OzStatus oz_raster_begin(OzRaster *raster, const OzDrawn *drawn, const OzBodies 
     return OZ_OK;
 }
 
-/* What was drawn beside the box, in blocks that reach beyond it, is the frame's again. */
+/* What was drawn in the frame, by blocks that reach beyond the box, is the frame's again. */
 static void clean_frame(const OzRaster *raster)
 {
     const OzDrawn *drawn = &raster->drawn;
-    int width = drawn->box.width, beside = raster->blocks * BLOCK - width;
+    int width = drawn->box.width, beside = BLOCK;
     for (int y = 0; y < drawn->box.height; y++) {
         ptrdiff_t place = (ptrdiff_t)y * drawn->stride + width;
         memset(drawn->colour + 4 * place, 0, 4 * (size_t)beside);
@@ -150,7 +150,7 @@ static bool may_show(const OzRaster *raster, const Stroke *stroke, const OzStadi
     return open;
 }
 
-/* A row's blocks, without those at its ends that others hide. */
+/* A row's pixels, without blocks at its ends that others hide. */
 static OzRasterRow row_of(const OzRaster *raster, const Stroke *stroke, int y)
 {
     const OzDrawn *drawn = &raster->drawn;
@@ -160,12 +160,12 @@ static OzRasterRow row_of(const OzRaster *raster, const Stroke *stroke, int y)
     OzRasterRow row = {drawn->depth + (ptrdiff_t)y * drawn->stride,
                        drawn->colour + 4 * (ptrdiff_t)y * drawn->stride,
                        (float)((y + 0.5 - raster->middle[1]) / (camera->scale * camera->distance)),
-                       span.first / BLOCK, span.first < span.end ? (span.end - 1) / BLOCK + 1 : 0};
-    while (row.first < row.end && far[row.first] <= stroke->near) {
-        row.first++;
+                       span.first, span.end};
+    while (row.first < row.end && far[row.first / BLOCK] <= stroke->near) {
+        row.first = row.first / BLOCK * BLOCK + BLOCK;
     }
-    while (row.first < row.end && far[row.end - 1] <= stroke->near) {
-        row.end--;
+    while (row.first < row.end && far[(row.end - 1) / BLOCK] <= stroke->near) {
+        row.end = (row.end - 1) / BLOCK * BLOCK;
     }
     return row;
 }

@@ -51,9 +51,9 @@ static inline float within(float a, float low, float high)
 }
 
 static inline void cast(Rays *rays, const OzRasterLens *lens, const OzRasterBody *body,
-                        const OzRasterRow *row, int block)
+                        const OzRasterRow *row, int x)
 {
-    const float *along = lens->along + (ptrdiff_t)block * BLOCK;
+    const float *along = lens->along + x;
     rays->gap = lens->distance - body->centre[2];
     rays->dy = row->up;
     for (int i = 0; i < BLOCK; i++) {
@@ -162,10 +162,10 @@ static inline uint32_t pack(uint32_t red, uint32_t green, uint32_t blue, uint32_
            code << OZ_WIDE_SHIFT(3);
 }
 
-static inline void store(const Surface *s, const OzRasterRow *row, int block)
+static inline void store(const Surface *s, const OzRasterRow *row, int x)
 {
-    float *depth = row->depth + (ptrdiff_t)block * BLOCK;
-    uint8_t *place = row->colour + 4 * (ptrdiff_t)block * BLOCK;
+    float *depth = row->depth + x;
+    uint8_t *place = row->colour + 4 * (ptrdiff_t)x;
     uint32_t colour[BLOCK];
     memcpy(colour, place, sizeof colour);
     for (int i = 0; i < BLOCK; i++) {
@@ -198,13 +198,13 @@ OZ_WIDE int oz_raster_row_whole(const OzRasterLens *lens, const OzRasterBody *bo
     Meeting m;
     Surface s;
     int any = 0;
-    for (int block = row->first; block < row->end; block++) {
-        cast(&rays, lens, body, row, block);
+    for (int x = row->first; x < row->end; x += BLOCK) {
+        cast(&rays, lens, body, row, x);
         meet(&m, &rays, body, -1);
-        if (see(&s, m.t, m.thickness, lens, body, row->depth + (ptrdiff_t)block * BLOCK)) {
+        if (see(&s, m.t, m.thickness, lens, body, row->depth + x)) {
             find_outline(&s, lens, &rays, &m, body);
             shade(&s, &rays, &m, body);
-            store(&s, row, block);
+            store(&s, row, x);
             any = 1;
         }
     }
@@ -280,17 +280,17 @@ OZ_WIDE int oz_raster_row_sliced(const OzRasterLens *lens, const OzRasterBody *b
     Surface s;
     float left[BLOCK], t[BLOCK];
     int section[BLOCK], any = 0;
-    for (int block = row->first; block < row->end; block++) {
-        cast(&rays, lens, body, row, block);
+    for (int x = row->first; x < row->end; x += BLOCK) {
+        cast(&rays, lens, body, row, x);
         meet(&first, &rays, body, -1);
         meet(&last, &rays, body, 1);
         cut(left, t, section, &first, &last, &rays, lens, body);
-        if (see(&s, t, first.thickness, lens, body, row->depth + (ptrdiff_t)block * BLOCK)) {
+        if (see(&s, t, first.thickness, lens, body, row->depth + x)) {
             find_outline(&s, lens, &rays, &first, body);
             find_cut_outline(&s, left, &last, &rays, lens, body);
             shade(&s, &rays, &first, body);
             shade_section(&s, &rays, t, section, lens, body);
-            store(&s, row, block);
+            store(&s, row, x);
             any = 1;
         }
     }
@@ -303,10 +303,10 @@ OZ_WIDE void oz_raster_row_outlined(const OzRasterLens *lens, const OzRasterBody
     float r = body->radius, per_pixel = 1 / lens->pixel, width = most(0.11f * r * per_pixel, 1.5f);
     Rays rays;
     Meeting m;
-    for (int block = row->first; block < row->end; block++) {
-        uint8_t *rgba = row->colour + 4 * (ptrdiff_t)block * BLOCK;
+    for (int x = row->first; x < row->end; x += BLOCK) {
+        uint8_t *rgba = row->colour + 4 * (ptrdiff_t)x;
         float alpha[BLOCK];
-        cast(&rays, lens, body, row, block);
+        cast(&rays, lens, body, row, x);
         meet(&m, &rays, body, -1);
         for (int i = 0; i < BLOCK; i++) {
             float inside = (r - sqrtf(most(r * r - m.thickness[i], 0))) * per_pixel;

@@ -9,7 +9,7 @@ typedef struct OzRasterLens {
     float distance, depth;  /* view units: of the eye; half the depth range               */
     float pixel;            /* view units per pixel at the middle's depth                 */
     float plane[3], offset; /* the cut: its normal into the half that is kept, and offset */
-    const float *along;     /* x of each column's ray, whose z is -1: a whole number of blocks */
+    const float *along;     /* x of each column's ray, whose z is -1; a block more */
 } OzRasterLens;
 
 /* A rod or sphere. */
@@ -18,7 +18,7 @@ typedef struct OzRasterBody {
     float rgb[3]; /* 0 to 1 */
 } OzRasterBody;
 
-/* A row's blocks from first to before end; up: y of its rays. */
+/* A row's pixels from first to before end, drawn in whole blocks; up: y of its rays. */
 typedef struct OzRasterRow {
     float *depth;
     uint8_t *colour; /* RGB and outline_code */

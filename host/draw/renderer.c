@@ -19,12 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    PAIRS_LEAST = 6 /* of neighbours of a pixel that may darken it */
-};
-
-static const double PI = 3.14159265358979323846;
-
 struct OzRenderer {
     OzGlBackend backend;
     const char *source_dir; /* borrowed */
@@ -34,6 +28,7 @@ struct OzRenderer {
     OzHostDrawing host;
     OzBodies bodies;
     OzDrawnRoom room;
+    OzFinishRoom finish;
     OzFont font;
 };
 
@@ -100,6 +95,7 @@ void oz_renderer_free(OzRenderer *renderer)
     oz_host_drawing_free(&renderer->host);
     oz_bodies_free(&renderer->bodies);
     oz_drawn_free(&renderer->room);
+    oz_finish_free(&renderer->finish);
     oz_font_close(&renderer->font);
     free(renderer);
 }
@@ -144,26 +140,6 @@ static double typical_radius(const OzSnapshot *snapshot, const OzCamera *camera)
     return snapshot->count ? 0.5 * sum / (double)snapshot->count / camera->unit : 1;
 }
 
-/* Half of two rings of neighbours, the outer as wide as a grain, pixels. Every pair copies the
- * edges of what stands before a surface onto it: so few are seen as such where they lie far apart,
- * and there more of them on a spiral, closer together inwards, make the shadow fade out. */
-static void place_taps(OzFinish *finish, double radius)
-{
-    const double golden = 0.6180339887; /* of half a turn: no two in a line */
-    finish->pairs = radius > 12 ? (int)fmin(radius, OZ_FINISH_PAIRS) : PAIRS_LEAST;
-    for (int i = 0; i < finish->pairs; i++) {
-        bool few = finish->pairs == PAIRS_LEAST;
-        double ring = few ? (i % 2 ? 1.0 : 0.5) : 0.2 + (i + 0.5) / finish->pairs;
-        double angle = PI * (few ? (i + 0.25) / finish->pairs : i * golden);
-        finish->taps[i][0] = (int)lround(fmax(radius, 2) * ring * cos(angle));
-        finish->taps[i][1] = (int)lround(fmax(radius, 2) * ring * sin(angle));
-        for (int k = 0; k < 2; k++) {
-            int away = abs(finish->taps[i][k]);
-            finish->reach = away > finish->reach ? away : finish->reach;
-        }
-    }
-}
-
 /* How far behind the middle a pixel's thing lies, along the horizon, is a share of the half width.
  */
 static OzFinish choose_finish(const OzSnapshot *snapshot, const OzLook *look,
@@ -175,15 +151,14 @@ static OzFinish choose_finish(const OzSnapshot *snapshot, const OzLook *look,
     double share = camera->unit / look->half_width;
     double middle_row = look->height - camera->panels[0].middle_y;
     OzFinish finish = {
-        .reach = 1,
-        .steepness = (float)(2 * camera->depth / (1.5 * radius)),
+        .shadow = oz_shadow_make(fmin(radius * camera->scale, 0.03 * look->height),
+                                 0.5 * radius / camera->depth),
         .darkening = look->bare ? 0 : 0.60f,
         .fade = look->bare ? 0 : 0.45f,
         .by_depth = (float)(share * away * 2 * camera->depth),
         .by_row = (float)(share * rise / camera->scale),
         .middle = (float)(-share * (away * camera->depth + rise * middle_row / camera->scale))};
     memcpy(finish.background, colour, sizeof finish.background);
-    place_taps(&finish, fmin(radius * camera->scale, 0.03 * look->height));
     return finish;
 }
 
@@ -209,10 +184,10 @@ static OzStatus draw_view(OzRenderer *renderer, const OzFinish *finish, int view
     } else {
         OZ_PASS(oz_host_drawing_begin(&renderer->host, bodies, view, &box));
     }
-    OZ_PASS(oz_drawn_open(&drawn, &renderer->room, &box, finish->reach, finish->background));
+    OZ_PASS(oz_drawn_open(&drawn, &renderer->room, &box, finish->background));
     OZ_PASS(renderer->is_by_gl ? oz_gl_drawing_read(&renderer->gl, &drawn, bodies->look)
                                : oz_host_drawing_draw(&renderer->host, &drawn, bodies, view));
-    return oz_finish_pixels(finish, &drawn, image);
+    return oz_finish_pixels(finish, &renderer->finish, &drawn, image);
 }
 
 static OzStatus draw_standing(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
