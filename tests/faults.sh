@@ -49,7 +49,8 @@ all_given_back() {
 
 # with KIND N COMMAND...
 with() {
-    timeout -k 5 100 env LD_PRELOAD="$work/faults.so" ORZO_FAULT="$1:$2" ORZO_FAULT_COUNT="$work/count" \
+    # Without a PATH there is no gnuplot, which would meet the faults too.
+    timeout -k 5 100 env PATH=/nonexistent LD_PRELOAD="$work/faults.so" ORZO_FAULT="$1:$2" ORZO_FAULT_COUNT="$work/count" \
         ORZO_FAULT_HELD="$work/held" "$orzo" run scene.yaml -o cut >log 2>&1
 }
 

@@ -23,7 +23,7 @@ static const struct {
     int floor;
 } rooms[] = {
     {"base", 0},  {"scene", 1},  {"model", 2},   {"compute", 2}, {"observe", 3},
-    {"draw", 4},  {"sim", 4},    {"export", 4},  {"cli", 5},     {"run", 6},
+    {"draw", 4},  {"sim", 4},    {"export", 4}, {"plot", 4},  {"cli", 5},     {"run", 6},
     {"bench", 7}, {"report", 7}, {"command", 8}, {"main", 9},
 };
 

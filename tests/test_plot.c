@@ -34,7 +34,8 @@ static const char curve[] = "<g id=\"gnuplot_plot_";
 static void a_run_is_drawn(void **state)
 {
     (void)state;
-    expect(0, "", "run scene.yaml -o run");
+    expect(0, "run/series.png", "run scene.yaml -o run");
+    assert_true(is_there("run/series.png"));
     expect(0, "run/plot.svg", "plot run kinetic speed_max contact_count");
     assert_int_equal(count_of("run/plot.svg", curve), 3);
     assert_true(contains("run/plot.svg", "kinetic, J") && contains("run/plot.svg", "time, s"));
@@ -43,14 +44,19 @@ static void a_run_is_drawn(void **state)
     free(png);
     expect(0, "other/plot.svg", "plot run kinetic --against step -o other");
     assert_true(contains("other/plot.svg", "step"));
-    expect(0, "", "run scene.yaml -o run --overwrite");
+    expect(0, "", "run scene.yaml -o run --overwrite --no-video");
     assert_false(is_there("run/plot.png")); /* it was orzo's, and of the run before */
+    assert_false(is_there("run/series.png"));
+    expect(0, "", "run scene.yaml -o run --overwrite --until 0.02"); /* two rows are no curve */
+    assert_false(is_there("run/series.png"));
 }
 
 static void an_ensemble_is_drawn(void **state)
 {
     (void)state;
     expect(0, "", "run scene.yaml --seeds 1..3 -o many");
+    assert_true(is_there("many/series.png"));
+    assert_false(is_there("many/seed_00001/series.png"));
     expect(0, "", "plot many kinetic");
     assert_int_equal(count_of("many/plot.svg", curve),
                      3 + 2 + 1); /* members, interval and mean, end */

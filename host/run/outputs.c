@@ -49,6 +49,7 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "export/",
                                          "plot.png",
                                          "plot.svg",
+                                         "series.png",
                                          NULL};
     static const char *const endings[] = {"final.csv", "members.csv", NULL};
     static const char *const results[] = {"series.csv",     "frames.bin",       "movie.mp4",

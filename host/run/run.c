@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "plot/plot.h"
 #include "run/costs.h"
 #include "run/from_keep.h"
 #include "run/groups.h"
@@ -353,6 +354,17 @@ static void close_run(Run *run)
     free(run->folder);
 }
 
+/* What was observed, as curves. They can be drawn again, so that they are not what a run fails by. */
+static void plot_series(const Run *run)
+{
+    char why[4096];
+    snprintf(why, sizeof why, "%s", oz_status_text());
+    if (run->owned.path && !run->options->no_video && oz_plot_series(run->owned.path) != OZ_OK) {
+        oz_log_line("warning: no series.png: %s", oz_status_text());
+    }
+    oz_status_fail(OZ_OK, "%s", why);
+}
+
 static OzStatus run_all(const OzOptions *options, OzResume *resume)
 {
     Run run = {.options = options, .started = oz_clock_now()};
@@ -370,6 +382,9 @@ static OzStatus run_all(const OzOptions *options, OzResume *resume)
     }
 done:
     OZ_AFTER(status, oz_groups_write_tables(&run.groups, run.owned.path));
+    if (status == OZ_OK || status == OZ_ERR_INTERRUPTED) {
+        plot_series(&run);
+    }
     if (status == OZ_OK) {
         status = oz_groups_tell_losses(&run.groups);
     }

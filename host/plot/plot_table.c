@@ -1,5 +1,5 @@
 /* Reading tables for plots. */
-#include "command/plot_table.h"
+#include "plot/plot_table.h"
 
 #include "base/file.h"
 #include "base/memory.h"
