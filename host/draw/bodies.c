@@ -10,7 +10,8 @@
 void oz_bodies_free(OzBodies *bodies)
 {
     free(bodies->bodies);
-    free(bodies->order);
+    free(bodies->grains);
+    free(bodies->unsorted);
     memset(bodies, 0, sizeof *bodies);
 }
 
@@ -21,19 +22,25 @@ static OzStatus fit(OzBodies *bodies, int64_t count)
     }
     oz_bodies_free(bodies);
     OZ_PASS(OZ_NEW(&bodies->bodies, count));
-    OZ_PASS(OZ_NEW(&bodies->order, count));
+    OZ_PASS(OZ_NEW(&bodies->grains, count));
+    OZ_PASS(OZ_NEW(&bodies->unsorted, count));
     bodies->capacity = count;
     return OZ_OK;
 }
 
-OzSide oz_bodies_side(const OzBodies *bodies, OzView view, int64_t i)
+OzSide oz_bodies_side(const OzBodies *bodies, OzView view, int64_t k)
 {
-    const OzSnapshot *snapshot = bodies->snapshot;
-    const OzGrains *grains = snapshot->grains;
-    double middle = snapshot->position[3 * i + 1] - bodies->look->cut;
-    double reach =
-        0.5 * (grains->diameter[i] + grains->length[i] * fabs(snapshot->axis[3 * i + 1]));
-    if (view != OZ_VIEW_CUT || middle >= reach) {
+    if (view != OZ_VIEW_CUT) {
+        return OZ_SIDE_BEHIND;
+    }
+    const OzBody *body = &bodies->bodies[k];
+    double middle = -bodies->offset, rise = 0;
+    for (int c = 0; c < 3; c++) {
+        middle += bodies->inward[c] * (double)body->centre[c];
+        rise += bodies->inward[c] * (double)body->axis[c];
+    }
+    double reach = (double)body->radius + (double)body->half_shaft * fabs(rise);
+    if (middle >= reach) {
         return OZ_SIDE_BEHIND;
     }
     return middle > -reach ? OZ_SIDE_CROSSING : OZ_SIDE_FRONT;
@@ -71,15 +78,16 @@ static void reach_for(OzBodies *bodies, const OzBody *body)
 static OzStatus sort_by_depth(OzBodies *bodies)
 {
     enum { BUCKETS = 1 << 14 };
-    int64_t count = bodies->snapshot->count, *starts = NULL, sum = 0;
+    int64_t count = bodies->count, *starts = NULL, sum = 0;
     double depth = bodies->camera->depth;
     OZ_PASS(OZ_NEW(&starts, BUCKETS));
     for (int pass = 0; pass < 2; pass++) {
         for (int64_t i = 0; i < count; i++) {
-            double share = 0.5 - 0.5 * (double)bodies->bodies[i].centre[2] / depth;
+            double share = 0.5 - 0.5 * (double)bodies->unsorted[i].centre[2] / depth;
             int64_t *start = &starts[(int)(fmin(fmax(share, 0), 1) * (BUCKETS - 1))];
             if (pass == 1) {
-                bodies->order[*start] = i;
+                bodies->grains[*start] = i;
+                bodies->bodies[*start] = bodies->unsorted[i];
             }
             ++*start;
         }
@@ -113,12 +121,13 @@ OzStatus oz_bodies_take(OzBodies *bodies, const OzSnapshot *snapshot, const OzLo
     bodies->snapshot = snapshot;
     bodies->look = look;
     bodies->camera = camera;
+    bodies->count = snapshot->count;
     find_cut(bodies);
     memset(bodies->low, 0, sizeof bodies->low);
     memset(bodies->high, 0, sizeof bodies->high);
     for (int64_t i = 0; i < snapshot->count; i++) {
-        bodies->bodies[i] = body_of(snapshot, camera, i);
-        reach_for(bodies, &bodies->bodies[i]);
+        bodies->unsorted[i] = body_of(snapshot, camera, i);
+        reach_for(bodies, &bodies->unsorted[i]);
     }
     return sort_by_depth(bodies);
 }

@@ -18,10 +18,11 @@ typedef struct OzBodies {
     const OzLook *look;
     const OzCamera *camera;
     double inward[3],
-        offset;     /* the cut: its normal into the half that is kept, distance along it */
-    OzBody *bodies; /* capacity, count of them used: in the snapshot's order        */
-    int64_t *order; /* likewise: nearest first, those of equal depth in that order  */
-    int64_t capacity;
+        offset;      /* the cut: its normal into the half that is kept, distance along it */
+    OzBody *bodies;  /* nearest first, those of equal depth in the snapshot's order       */
+    int64_t *grains; /* of each, which grain of the snapshot it is                        */
+    int64_t count, capacity;
+    OzBody *unsorted;       /* on the way */
     double low[2], high[2]; /* view coordinates x and y that they may reach */
 } OzBodies;
 
@@ -31,8 +32,8 @@ OzStatus oz_bodies_take(OzBodies *bodies, const OzSnapshot *snapshot, const OzLo
 
 void oz_bodies_free(OzBodies *bodies); /* zeroed is fine */
 
-/* In a view of this kind; in one that cuts nothing all are behind. */
-OzSide oz_bodies_side(const OzBodies *bodies, OzView view, int64_t i);
+/* The side of the k-th in a view of this kind; in one that cuts nothing all are behind. */
+OzSide oz_bodies_side(const OzBodies *bodies, OzView view, int64_t k);
 
 /* What may be painted of a view: grains, and a container that is seen up to this view coordinate y.
  */

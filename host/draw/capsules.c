@@ -92,14 +92,13 @@ static OzStatus see_view(Upload *upload, int view, const OzBox *box)
     OzView kind = upload->all->look->views[view];
     memset(upload->seen_count, 0, sizeof upload->seen_count);
     OZ_PASS(oz_occlusion_begin(&occlusion, upload->all->camera, view, box));
-    for (int64_t k = 0; k < upload->all->snapshot->count; k++) {
-        int64_t i = upload->all->order[k];
-        const OzBody *body = &upload->all->bodies[i];
-        OzSide side = oz_bodies_side(upload->all, kind, i);
+    for (int64_t k = 0; k < upload->all->count; k++) {
+        const OzBody *body = &upload->all->bodies[k];
+        OzSide side = oz_bodies_side(upload->all, kind, k);
         if (side == OZ_SIDE_FRONT ? upload->all->look->cut_outlines
                                   : !oz_occlusion_hides(&occlusion, body)) {
             double kept[2];
-            upload->seen[side][upload->seen_count[side]++] = i;
+            upload->seen[side][upload->seen_count[side]++] = k;
             find_kept(upload, body, side != OZ_SIDE_BEHIND, kept);
             oz_occlusion_add(&occlusion, body, kept[0], kept[1]);
         }
@@ -117,10 +116,10 @@ static OzStatus add_records(Upload *upload, OzSide side)
         upload->record_capacity = 2 * wanted;
     }
     for (int64_t k = 0; k < count; k++) {
-        int64_t i = upload->seen[side][k];
+        int64_t seen = upload->seen[side][k], grain = upload->all->grains[seen];
         Record *record = &upload->records[upload->record_count++];
-        *record = (Record){.body = upload->all->bodies[i]};
-        oz_palette_grain(upload->all->snapshot, upload->all->look, i, record->colour);
+        *record = (Record){.body = upload->all->bodies[seen]};
+        oz_palette_grain(upload->all->snapshot, upload->all->look, grain, record->colour);
     }
     return OZ_OK;
 }
@@ -144,7 +143,7 @@ static OzStatus add_view(Upload *upload, OzCapsules *capsules, int view)
 static OzStatus begin_upload(Upload *upload)
 {
     for (int side = 0; side < OZ_SIDE_COUNT; side++) {
-        OZ_PASS(OZ_NEW(&upload->seen[side], upload->all->snapshot->count));
+        OZ_PASS(OZ_NEW(&upload->seen[side], upload->all->count));
     }
     return OZ_OK;
 }

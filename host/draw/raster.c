@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "draw/palette.h"
 #include "draw/stadium.h"
+#include "draw/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -103,9 +104,9 @@ void oz_raster_end(OzRaster *raster)
 }
 
 /* Its outline is a little wider than its discs', off the picture's middle most. */
-static Stroke stroke_of(const OzRaster *raster, int64_t i)
+static Stroke stroke_of(const OzRaster *raster, int64_t k)
 {
-    const OzBody *from = &raster->bodies->bodies[i];
+    const OzBody *from = &raster->bodies->bodies[k];
     const OzCamera *camera = raster->bodies->camera;
     double ends[2][2], radius = (double)from->radius, widest = 0, near = -1e9;
     Stroke stroke = {.body = {.radius = from->radius, .half_shaft = from->half_shaft}};
@@ -113,8 +114,8 @@ static Stroke stroke_of(const OzRaster *raster, int64_t i)
     memcpy(stroke.body.axis, from->axis, sizeof from->axis);
     for (int e = 0; e < 2; e++) {
         double at = e ? (double)from->half_shaft : -(double)from->half_shaft, point[3];
-        for (int k = 0; k < 3; k++) {
-            point[k] = (double)from->centre[k] + at * (double)from->axis[k];
+        for (int c = 0; c < 3; c++) {
+            point[c] = (double)from->centre[c] + at * (double)from->axis[c];
         }
         double scale = camera->scale * camera->distance / fmax(camera->distance - point[2], 1e-6);
         ends[e][0] = raster->middle[0] + scale * point[0];
@@ -128,13 +129,13 @@ static Stroke stroke_of(const OzRaster *raster, int64_t i)
     return stroke;
 }
 
-/* The blocks about a stroke. */
-static OzStadiumSpan blocks_of(const OzRaster *raster, const Stroke *stroke)
+/* The columns about a stroke. */
+static OzStadiumSpan columns_of(const OzRaster *raster, const Stroke *stroke)
 {
     const OzStadium *s = &stroke->stadium;
     double low = fmin(s->ends[0][0], s->ends[1][0]), high = fmax(s->ends[0][0], s->ends[1][0]);
-    int end = oz_stadium_end(high + s->radius, raster->drawn.box.width);
-    return (OzStadiumSpan){oz_stadium_first(low - s->radius) / BLOCK, (end + BLOCK - 1) / BLOCK};
+    return (OzStadiumSpan){oz_stadium_first(low - s->radius),
+                           oz_stadium_end(high + s->radius, raster->drawn.box.width)};
 }
 
 /* Whether any block about it reaches back to it; deep in a bed most do not. */
@@ -170,14 +171,37 @@ static OzRasterRow row_of(const OzRaster *raster, const Stroke *stroke, int y)
     return row;
 }
 
-static void draw_body(OzRaster *raster, int64_t i, DrawRow *draw_row)
+/* The same of the pixels of the box about it. */
+OZ_WIDE static bool is_open(const OzRaster *raster, const Stroke *stroke, const OzStadiumSpan *box)
 {
-    Stroke stroke = stroke_of(raster, i);
-    OzStadiumSpan blocks = blocks_of(raster, &stroke);
-    if (!may_show(raster, &stroke, &blocks)) {
+    for (int y = stroke->rows.first; y < stroke->rows.end; y++) {
+        const float *depth = raster->drawn.depth + (ptrdiff_t)y * raster->drawn.stride;
+        int open = 0;
+        for (int x = box->first; x < box->end; x++) {
+            open |= depth[x] > stroke->near;
+        }
+        if (open) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void take_colour(const OzRaster *raster, Stroke *stroke, int64_t k)
+{
+    const OzBodies *bodies = raster->bodies;
+    oz_palette_grain(bodies->snapshot, bodies->look, bodies->grains[k], stroke->body.rgb);
+}
+
+static void draw_body(OzRaster *raster, int64_t k, DrawRow *draw_row)
+{
+    Stroke stroke = stroke_of(raster, k);
+    OzStadiumSpan columns = columns_of(raster, &stroke);
+    OzStadiumSpan blocks = {columns.first / BLOCK, (columns.end + BLOCK - 1) / BLOCK};
+    if (!may_show(raster, &stroke, &blocks) || !is_open(raster, &stroke, &columns)) {
         return;
     }
-    oz_palette_grain(raster->bodies->snapshot, raster->bodies->look, i, stroke.body.rgb);
+    take_colour(raster, &stroke, k);
     for (int y = stroke.rows.first, any = 0; y < stroke.rows.end; y++) {
         OzRasterRow row = row_of(raster, &stroke, y);
         any |= row.first < row.end && draw_row(&raster->lens, &stroke.body, &row);
@@ -188,11 +212,11 @@ static void draw_body(OzRaster *raster, int64_t i, DrawRow *draw_row)
     }
 }
 
-static void draw_outline(const OzRaster *raster, int64_t i)
+static void draw_outline(const OzRaster *raster, int64_t k)
 {
-    Stroke stroke = stroke_of(raster, i);
+    Stroke stroke = stroke_of(raster, k);
     stroke.near = -1;
-    oz_palette_grain(raster->bodies->snapshot, raster->bodies->look, i, stroke.body.rgb);
+    take_colour(raster, &stroke, k);
     for (int y = stroke.rows.first; y < stroke.rows.end; y++) {
         OzRasterRow row = row_of(raster, &stroke, y);
         oz_raster_row_outlined(&raster->lens, &stroke.body, &row);
@@ -204,15 +228,15 @@ void oz_raster_draw(OzRaster *raster)
     const OzBodies *bodies = raster->bodies;
     DrawRow *const draw_row[] = {
         [OZ_SIDE_BEHIND] = oz_raster_row_whole, [OZ_SIDE_CROSSING] = oz_raster_row_sliced};
-    for (int64_t k = 0; k < bodies->snapshot->count; k++) {
-        OzSide side = oz_bodies_side(bodies, raster->view, bodies->order[k]);
+    for (int64_t k = 0; k < bodies->count; k++) {
+        OzSide side = oz_bodies_side(bodies, raster->view, k);
         if (side != OZ_SIDE_FRONT) {
-            draw_body(raster, bodies->order[k], draw_row[side]);
+            draw_body(raster, k, draw_row[side]);
         }
     }
-    for (int64_t k = 0; bodies->look->cut_outlines && k < bodies->snapshot->count; k++) {
-        if (oz_bodies_side(bodies, raster->view, bodies->order[k]) == OZ_SIDE_FRONT) {
-            draw_outline(raster, bodies->order[k]);
+    for (int64_t k = 0; bodies->look->cut_outlines && k < bodies->count; k++) {
+        if (oz_bodies_side(bodies, raster->view, k) == OZ_SIDE_FRONT) {
+            draw_outline(raster, k);
         }
     }
     clean_frame(raster);
