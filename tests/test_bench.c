@@ -85,6 +85,26 @@ static int check_table(const char *folder)
     return rows;
 }
 
+/* Each size by each view, with a positive number of pictures a second. */
+static void check_pictures(const char *folder)
+{
+    char path[1024], line[256], view[16];
+    int rows = 0, width = 0, height = 0;
+    double milliseconds = 0, per_second = 0;
+    snprintf(path, sizeof path, "%s/pictures.csv", folder);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    for (; fgets(line, sizeof line, file); rows++) {
+        assert_int_equal(sscanf(line, "%d,%d,%15[a-z],%lf,%lf", &width, &height, view,
+                                &milliseconds, &per_second),
+                         5);
+        assert_true(width > 0 && height > 0 && milliseconds > 0 && per_second > 0);
+    }
+    fclose(file);
+    assert_int_equal(rows, 12);
+}
+
 /* A ladder of a bed that settles by itself and of one that is paved. */
 static void test_tiny_ladder(void **state)
 {
@@ -98,6 +118,7 @@ static void test_tiny_ladder(void **state)
         folder, 0);
     assert_true(check_table(folder) >= 6); /* an6 and two sizes, in float and double */
     assert_true(file_size(folder, "shares.csv") > 0);
+    check_pictures(folder);
     if (system("command -v gnuplot >/dev/null") == 0) {
         assert_true(file_size(folder, "bench.png") > 1000);
     }

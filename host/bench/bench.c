@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "bench/bench_features.h"
 #include "bench/bench_limits.h"
+#include "bench/bench_pictures.h"
 #include "bench/bench_plot.h"
 #include "bench/bench_shares.h"
 #include "bench/bench_table.h"
@@ -362,11 +363,13 @@ static OzStatus take_apart(Bench *bench)
     OZ_TRY(oz_bench_bed_settle(&bench->first, options, OZ_BENCH_BED_TAPS));
     bench->first.scene.precision = OZ_PRECISION_FLOAT;
     OZ_TRY(oz_bench_shares_print(&bench->first, 0, options, bench->folder, "shares", stdout));
+    OZ_TRY(oz_bench_pictures_print(&bench->first, options, bench->folder, "pictures", stdout));
     if (large > 0) {
         OZ_TRY(make_bed(bench, &bed, large));
         bed.scene.movie.present = false;
         bed.scene.precision = OZ_PRECISION_FLOAT;
         OZ_TRY(oz_bench_shares_print(&bed, 0, options, bench->folder, "shares_large", stdout));
+        OZ_TRY(oz_bench_pictures_print(&bed, options, bench->folder, "pictures_large", stdout));
     }
     if (options->features && options->path_count == 0) {
         OZ_TRY(oz_bench_features_print(&bench->first, options, bench->folder, stdout));
