@@ -93,14 +93,15 @@ static void glass_colour(double angle, bool front, float rgba[4])
     rgba[3] = (float)alpha;
 }
 
-static void add_glass(OzMesh *mesh, const Scope *scope, double from, bool front)
+static void add_glass(OzMesh *mesh, const Scope *scope, bool front, const double ends[2])
 {
+    double from = front ? PI : 0;
     for (int i = 0; i < SEGMENTS / 2; i++) {
         double angles[2] = {from + 2 * PI * i / SEGMENTS, from + 2 * PI * (i + 1) / SEGMENTS};
         float rgba[2][4];
         glass_colour(angles[0], front, rgba[0]);
         glass_colour(angles[1], front, rgba[1]);
-        add_band(mesh, scope, angles, scope->look->height_low, scope->top, rgba);
+        add_band(mesh, scope, angles, ends[0], ends[1], rgba);
     }
 }
 
@@ -142,23 +143,39 @@ static void add_piston(OzContainer *container, const Scope *scope, double z)
     }
 }
 
-static void add_cylinder(OzContainer *container, const Scope *scope)
+/* Side edges and glass between two heights. */
+static void add_walls(OzMesh *behind, OzMesh *before, const Scope *scope, const double ends[2])
 {
-    double low = scope->look->height_low, high = scope->top;
-    bool cut = scope->view == OZ_VIEW_CUT;
-    OzMesh *behind = &container->meshes[OZ_CONTAINER_GLASS_BEHIND];
-    OzMesh *before = &container->meshes[OZ_CONTAINER_GLASS_BEFORE];
-    add_glass(behind, scope, 0, false);
-    add_arc(behind, scope, low, 0, PI, FAINT);
-    add_arc(behind, scope, high, 0, PI, EDGE);
+    add_glass(behind, scope, false, ends);
     for (int side = -1; side <= 1; side += 2) {
-        double foot[3] = {side * scope->radius, 0, low}, top[3] = {side * scope->radius, 0, high};
+        double foot[3] = {side * scope->radius, 0, ends[0]}, top[3] = {foot[0], 0, ends[1]};
         oz_mesh_line(before, scope->camera, foot, top, line_width(scope), EDGE);
     }
-    if (!cut) {
-        add_glass(before, scope, PI, true);
+    if (scope->view != OZ_VIEW_CUT) {
+        add_glass(before, scope, true, ends);
+    }
+}
+
+/* Up to what is framed it stays the same from picture to picture; grains that fly higher lengthen
+ * it. */
+static void add_cylinder(OzContainer *container, const Scope *scope)
+{
+    double framed = scope->look->height_high;
+    double low = scope->look->height_low, high = fmax(scope->top, framed);
+    OzMesh *meshes = container->meshes;
+    OzMesh *behind = &meshes[OZ_CONTAINER_GLASS_BEHIND],
+           *before = &meshes[OZ_CONTAINER_GLASS_BEFORE];
+    OzMesh *end_behind = &meshes[OZ_CONTAINER_END_BEHIND];
+    OzMesh *end_before = &meshes[OZ_CONTAINER_END_BEFORE];
+    add_walls(behind, before, scope, (const double[2]){low, framed});
+    add_arc(behind, scope, low, 0, PI, FAINT);
+    if (high > framed) {
+        add_walls(end_behind, end_before, scope, (const double[2]){framed, high});
+    }
+    add_arc(end_behind, scope, high, 0, PI, EDGE);
+    if (scope->view != OZ_VIEW_CUT) {
         add_arc(before, scope, low, PI, 2 * PI, EDGE);
-        add_arc(before, scope, high, PI, 2 * PI, EDGE);
+        add_arc(end_before, scope, high, PI, 2 * PI, EDGE);
     }
 }
 

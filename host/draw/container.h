@@ -10,8 +10,10 @@ typedef enum OzContainerMesh {
     OZ_CONTAINER_FLOORS,       /* opaque, behind the grains, with depth              */
     OZ_CONTAINER_BEHIND,       /* panes and lines behind the grains                  */
     OZ_CONTAINER_GLASS_BEHIND, /* of the upright cylinder, which stands still        */
+    OZ_CONTAINER_END_BEHIND,   /* its upper end, as high as grains fly               */
     OZ_CONTAINER_BEFORE,       /* after the grains: bodies of floors, panes, lines   */
     OZ_CONTAINER_GLASS_BEFORE,
+    OZ_CONTAINER_END_BEFORE,
     OZ_CONTAINER_COUNT
 } OzContainerMesh;
 

@@ -129,11 +129,11 @@ static OzStatus draw_view(OzGlDrawing *drawing, const OzBodies *bodies, int view
     open_panel(&drawing->context.gl, &camera->panels[view], look->height, size);
     if (!look->bare) {
         OZ_PASS(oz_container_build(container, bodies->snapshot, look, camera, look->views[view]));
-        draw_meshes(drawing, OZ_CONTAINER_FLOORS, OZ_CONTAINER_GLASS_BEHIND, camera, size);
+        draw_meshes(drawing, OZ_CONTAINER_FLOORS, OZ_CONTAINER_END_BEHIND, camera, size);
     }
     oz_capsules_draw(&drawing->capsules, view, bodies, size[0], size[1]);
     if (!look->bare) {
-        draw_meshes(drawing, OZ_CONTAINER_BEFORE, OZ_CONTAINER_GLASS_BEFORE, camera, size);
+        draw_meshes(drawing, OZ_CONTAINER_BEFORE, OZ_CONTAINER_END_BEFORE, camera, size);
     }
     return oz_gl_check(&drawing->context.gl, "drawing a view");
 }

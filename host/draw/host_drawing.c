@@ -58,7 +58,10 @@ OzStatus oz_host_drawing_draw(OzHostDrawing *drawing, const OzDrawn *drawn, cons
     paint(drawing, drawn, bodies, view, OZ_CONTAINER_FLOORS);
     paint(drawing, drawn, bodies, view, OZ_CONTAINER_BEHIND);
     OZ_PASS(lay(drawing, drawn, bodies, view, false));
+    paint(drawing, drawn, bodies, view, OZ_CONTAINER_END_BEHIND);
     OZ_PASS(draw_grains(drawn, bodies, view));
     paint(drawing, drawn, bodies, view, OZ_CONTAINER_BEFORE);
-    return lay(drawing, drawn, bodies, view, true);
+    OZ_PASS(lay(drawing, drawn, bodies, view, true));
+    paint(drawing, drawn, bodies, view, OZ_CONTAINER_END_BEFORE);
+    return OZ_OK;
 }

@@ -15,32 +15,48 @@ void oz_layer_free(OzLayer *layer)
     memset(layer, 0, sizeof *layer);
 }
 
-static bool is_of(const OzLayer *layer, const OzDrawn *drawn, const OzMesh *mesh, double scale)
-{
-    return layer->pixels && layer->count == mesh->count && layer->scale == scale &&
-           memcmp(&layer->box, &drawn->box, sizeof layer->box) == 0 &&
-           memcmp(layer->corners, mesh->corners, mesh->count * sizeof *mesh->corners) == 0;
-}
-
 static int stride_of(const OzBox *box)
 {
     return box->width + OZ_DRAWN_BLOCK;
 }
 
-static OzStatus make(OzLayer *layer, const OzDrawn *drawn, const OzMesh *mesh,
-                     const OzCamera *camera, const OzLook *look, int panel)
+static OzStatus make(OzLayer *layer, const OzMesh *mesh, const OzCamera *camera, const OzLook *look,
+                     int panel)
 {
-    int stride = stride_of(&drawn->box);
+    OzBox box = oz_mesh_rows_box(mesh, camera, look, panel);
     oz_layer_free(layer);
-    OZ_PASS(OZ_NEW(&layer->pixels, 4 * (size_t)stride * (size_t)drawn->box.height));
+    OZ_PASS(OZ_NEW(&layer->pixels, 4 * (size_t)stride_of(&box) * (size_t)box.height));
     OZ_PASS(OZ_NEW(&layer->corners, mesh->count));
     memcpy(layer->corners, mesh->corners, mesh->count * sizeof *mesh->corners);
     layer->count = mesh->count;
-    layer->box = drawn->box;
+    layer->box = box;
+    layer->panel = camera->panels[panel];
     layer->scale = camera->scale;
-    OzDrawn own = {drawn->box, stride, layer->pixels, NULL};
+    layer->height = look->height;
+    OzDrawn own = {box, stride_of(&box), layer->pixels, NULL};
     oz_mesh_rows_paint(&own, mesh, camera, look, panel, OZ_MESH_LAYER);
     return OZ_OK;
+}
+
+/* Whether painting it anew would give the same. */
+static bool is_of(const OzLayer *layer, const OzMesh *mesh, const OzCamera *camera,
+                  const OzLook *look, int panel)
+{
+    const OzPanel *own = &layer->panel, *p = &camera->panels[panel];
+    return layer->pixels && layer->count == mesh->count && layer->scale == camera->scale &&
+           layer->height == look->height && own->x == p->x && own->width == p->width &&
+           own->middle_x == p->middle_x && own->middle_y == p->middle_y &&
+           memcmp(layer->corners, mesh->corners, mesh->count * sizeof *mesh->corners) == 0;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static int most(int a, int b)
+{
+    return a > b ? a : b;
 }
 
 /* The fourth byte of the target stays. */
@@ -67,12 +83,16 @@ OzStatus oz_layer_draw(OzLayer *layer, const OzDrawn *drawn, const OzMesh *mesh,
     if (mesh->count == 0) {
         return OZ_OK;
     }
-    if (!is_of(layer, drawn, mesh, camera->scale)) {
-        OZ_PASS(make(layer, drawn, mesh, camera, look, panel));
+    if (!is_of(layer, mesh, camera, look, panel)) {
+        OZ_PASS(make(layer, mesh, camera, look, panel));
     }
-    for (int y = 0; y < drawn->box.height; y++) {
-        lay_row(layer->pixels + 4 * (size_t)y * (size_t)stride_of(&drawn->box),
-                drawn->colour + 4 * (ptrdiff_t)y * drawn->stride, drawn->box.width);
+    const OzBox *own = &layer->box, *box = &drawn->box;
+    int left = most(own->x, box->x), right = least(own->x + own->width, box->x + box->width);
+    int top = most(own->y, box->y), bottom = least(own->y + own->height, box->y + box->height);
+    for (int y = top; y < bottom && left < right; y++) {
+        ptrdiff_t row = own->y + own->height - 1 - y, target = box->y + box->height - 1 - y;
+        lay_row(layer->pixels + 4 * (row * stride_of(own) + left - own->x),
+                drawn->colour + 4 * (target * drawn->stride + left - box->x), right - left);
     }
     return OZ_OK;
 }

@@ -12,7 +12,9 @@ typedef struct OzLayer {
     OzCorner *corners; /* of the mesh that it is of     */
     size_t count;
     OzBox box;
+    OzPanel panel; /* and what else it depends on */
     double scale;
+    int height;
 } OzLayer;
 
 void oz_layer_free(OzLayer *layer); /* zeroed is fine */

@@ -183,3 +183,22 @@ void oz_mesh_rows_paint(const OzDrawn *drawn, const OzMesh *mesh, const OzCamera
         }
     }
 }
+
+OzBox oz_mesh_rows_box(const OzMesh *mesh, const OzCamera *camera, const OzLook *look, int panel)
+{
+    const OzPanel *p = &camera->panels[panel];
+    OzDrawn whole = {.box = {p->x, 0, p->width, look->height}};
+    double low[2] = {p->width, look->height}, high[2] = {0, 0};
+    for (size_t i = 0; i < mesh->count; i++) {
+        Corner corner;
+        set_corner(&corner, &mesh->corners[i], &whole, camera, look, panel);
+        low[0] = fmin(low[0], corner.x);
+        low[1] = fmin(low[1], corner.y);
+        high[0] = fmax(high[0], corner.x);
+        high[1] = fmax(high[1], corner.y);
+    }
+    int left = (int)fmax(floor(low[0]), 0), right = (int)fmin(ceil(high[0]), p->width);
+    int bottom = (int)fmax(floor(low[1]), 0), top = (int)fmin(ceil(high[1]), look->height);
+    return (OzBox){p->x + left, look->height - top, right > left ? right - left : 0,
+                   top > bottom ? top - bottom : 0};
+}

@@ -15,3 +15,6 @@ typedef enum OzMeshUse {
 /* Into the planes of the panel's view. */
 void oz_mesh_rows_paint(const OzDrawn *drawn, const OzMesh *mesh, const OzCamera *camera,
                         const OzLook *look, int panel, OzMeshUse use);
+
+/* The pixels of the panel that hold all of a mesh. */
+OzBox oz_mesh_rows_box(const OzMesh *mesh, const OzCamera *camera, const OzLook *look, int panel);
