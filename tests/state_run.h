@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "run/worker.h"
 #include "run/worker_state.h"
 #include "sim/sim_state.h"
 

@@ -1,5 +1,6 @@
 /* What differs between two scenes, in words, and what of it cannot be while one of them runs. */
 #include "scene/changes.h"
+#include "scene/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

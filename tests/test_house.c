@@ -309,6 +309,82 @@ static void test_circles_are_seen(void **state)
     assert_false(find_header(name, "host/model/insert.h", "math.h"));
 }
 
+/* A source and its header are one: "host/sim/sim.c" and "host/sim/sim.h" are host/sim/sim. */
+static void unit_of(char unit[NAME_SIZE], const char *path)
+{
+    snprintf(unit, NAME_SIZE, "%.*s", (int)(strrchr(path, '.') - path), path);
+}
+
+/* So are these two, and what only a file's own parts may know of it: sim.h and sim_private.h. */
+static bool is_same_unit(const char *one, const char *other)
+{
+    size_t length = strlen(one);
+    return begins(other, one) && (!other[length] || strcmp(other + length, "_private") == 0);
+}
+
+static void add_needs(Arrows *arrows, const char *full_path)
+{
+    char line[LINE_SIZE], name[NAME_SIZE], from[NAME_SIZE], to[NAME_SIZE], mark, *header;
+    const char *path = full_path + strlen(ORZO_SOURCE) + 1;
+    FILE *file = fopen(full_path, "r");
+    assert_non_null(file);
+    unit_of(from, path);
+    while (fgets(line, sizeof line, file)) {
+        if (parse_include(line, &header, &mark) && mark == '"' && find_header(name, path, header)) {
+            unit_of(to, name);
+            if (!is_same_unit(from, to) && !is_same_unit(to, from)) {
+                add_arrow(arrows, from, to);
+            }
+        }
+    }
+    fclose(file);
+}
+
+/* Returns the number of arrows that have one the other way, printing each. */
+static int count_mutual(const Arrows *arrows)
+{
+    int mutual = 0;
+    for (int i = 0; i < arrows->arrow_count; i++) {
+        bool back = false;
+        for (int j = 0; j < arrows->arrow_count && !back; j++) {
+            back = arrows->from[j] == arrows->to[i] && arrows->to[j] == arrows->from[i];
+        }
+        if (back) {
+            print_error("%s and %s include each other\n", arrows->name[arrows->from[i]],
+                        arrows->name[arrows->to[i]]);
+        }
+        mutual += back;
+    }
+    return mutual;
+}
+
+static Arrows files, two_files;
+
+/* A source and its header count as one: what both of two files need is in a third one. */
+static void test_no_files_include_each_other(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char pattern[NAME_SIZE * 4];
+        glob_t found;
+        snprintf(pattern, sizeof pattern, "%s/host/%s", ORZO_SOURCE, i ? "*/*.[ch]" : "*.[ch]");
+        assert_int_equal(glob(pattern, 0, NULL, &found), 0);
+        for (size_t f = 0; f < found.gl_pathc; f++) {
+            add_needs(&files, found.gl_pathv[f]);
+        }
+        globfree(&found);
+    }
+    assert_true(files.arrow_count > 1000); /* some for each file */
+    assert_int_equal(count_mutual(&files), 0);
+    add_arrow(&two_files, "a", "b");
+    add_arrow(&two_files, "b", "c");
+    assert_int_equal(count_mutual(&two_files), 0);
+    add_arrow(&two_files, "b", "a");
+    assert_int_equal(count_mutual(&two_files), 2);
+    assert_true(is_same_unit("sim/sim", "sim/sim_private"));
+    assert_false(is_same_unit("sim/sim", "sim/sim_state"));
+}
+
 /* oz_grains_axis may be in grains.c alone. The table that the build makes is the one exception;
  * names that begin with __ are the sanitizers' own. */
 static bool symbol_is_allowed(const char *file, const char *symbol)
@@ -359,8 +435,11 @@ static void test_linking_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rules_can_fail),   cmocka_unit_test(test_includes_run_downwards),
-        cmocka_unit_test(test_circles_are_seen), cmocka_unit_test(test_no_headers_in_a_circle),
+        cmocka_unit_test(test_rules_can_fail),
+        cmocka_unit_test(test_includes_run_downwards),
+        cmocka_unit_test(test_circles_are_seen),
+        cmocka_unit_test(test_no_headers_in_a_circle),
+        cmocka_unit_test(test_no_files_include_each_other),
         cmocka_unit_test(test_linking_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -49,7 +49,7 @@ ROW
 put after kernels/walls.h 'X(PLANE,' <<'ROW'
     X(CONE, cone, "cone", 0) \
 ROW
-put after host/scene/scene.h 'X(SQUARE,' <<'ROW'
+put after host/scene/scene_types.h 'X(SQUARE,' <<'ROW'
     X(RHOMBUS, rhombus, "rhombus") \
 ROW
 put after host/observe/observables.c '{"time", "s"' <<'ROW'
@@ -60,7 +60,7 @@ put before host/scene/rows_walls.h '{"walls[].motion", OF(SECTION)' <<'ROW'
      DEFAULT("45"), SOLID, .help = "of the cone"},
 ROW
 
-put after host/scene/scene.h 'double diameter;            /* m, cylinder' <<'CODE'
+put after host/scene/scene_types.h 'double diameter;            /* m, cylinder' <<'CODE'
     double half_angle; /* rad, cone */
 CODE
 refuses OZ_LAWS host/model/contact.c constants_brake

@@ -3,7 +3,7 @@
  * of the scene's size, so that all coordinates in shaders are of order one. */
 #pragma once
 
-#include "draw/renderer.h"
+#include "draw/look.h"
 
 /* A view's part of the picture, pixels from the top left. */
 typedef struct OzPanel {

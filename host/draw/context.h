@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 #include "draw/gl.h"
-#include "draw/renderer.h"
+#include "draw/look.h"
 
 #include <stdio.h>
 

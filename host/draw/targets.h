@@ -2,7 +2,7 @@
 #pragma once
 
 #include "draw/gl.h"
-#include "draw/renderer.h"
+#include "draw/look.h"
 
 typedef struct OzTargets {
     const OzGl *gl;                      /* borrowed; NULL before the first picture            */

@@ -46,3 +46,10 @@ double oz_grains_volume(double diameter, double length);
 /* Refuses, with OZ_ERR_INPUT, more grains than this machine's memory holds whatever else the scene
  * asks for. */
 OzStatus oz_grains_check_memory(const char *scene_path, int64_t count);
+
+/* One scene of a simulation, which copies what it needs of it, and its grains, borrowed, which must
+ * outlive it. */
+typedef struct OzMember {
+    const OzScene *scene;
+    const OzGrains *grains;
+} OzMember;

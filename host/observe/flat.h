@@ -2,7 +2,7 @@
  * Where one serves several columns, the index of the observation tells them apart. */
 #pragma once
 
-#include "observe/observables.h"
+#include "observe/column.h"
 
 bool oz_flat_speed_mean(const OzObservation *observation, double *value);
 bool oz_flat_spin_mean(const OzObservation *observation, double *value);

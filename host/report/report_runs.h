@@ -2,7 +2,7 @@
  * setting, and one start for each phase of first touch (or for each start of the case's own). */
 #pragma once
 
-#include "report/report_point.h"
+#include "report/report_job.h"
 #include "sim/sim.h"
 
 enum { OZ_REPORT_RUNS_MOST = 256 };

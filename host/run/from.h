@@ -2,35 +2,9 @@
  * SCENE --from DIR`), of which its folder keeps a copy. */
 #pragma once
 
-#include "model/grains.h"
-#include "run/checkpoint.h"
+#include "run/from_types.h"
 #include "run/inputs.h"
-#include "run/worker.h"
-
-/* A file of states: of a plain run, or of some members of an ensemble. */
-typedef struct OzFromFile {
-    char *path; /* owned */
-    OzState state;
-    OzCheckpointHead head;
-} OzFromFile;
-
-/* A member of that run. Zeroed is none. */
-typedef struct OzFromMember {
-    OzFromFile *file;
-    int index;       /* in the file                                          */
-    char *name;      /* "seed_00003"; of a plain run "" or NULL; owned       */
-    OzScene scene;   /* as it ran, its walls' phases included                */
-    OzGrains grains; /* as they were placed; their geometry holds            */
-} OzFromMember;
-
-/* Zeroed is valid: none. */
-typedef struct OzFrom {
-    char *asked; /* NULL: none; owned                                       */
-    OzFromFile *files;
-    int count;
-    char *only;        /* the member that was named; NULL: whichever fits; owned */
-    OzFromMember last; /* that was looked at                                */
-} OzFrom;
+#include "run/worker_types.h"
 
 /* asked: "DIR", its newest states, or "DIR@tap=N", "DIR@time=T", those that were kept
  * (checkpoint.taps). DIR is a run's folder, or a member's in an ensemble's. Files are added to

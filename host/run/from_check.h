@@ -1,7 +1,7 @@
 /* Whether a scene can begin with a member of another run. */
 #pragma once
 
-#include "run/from.h"
+#include "run/from_types.h"
 
 /* Refuses by name a scene and its grains that cannot begin there: other grains, another step, a
  * wall that would jump, or one of trigrains that is another. */

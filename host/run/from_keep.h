@@ -3,7 +3,7 @@
  * seen from the folder. A member's folder in an ensemble's has a from.txt of its own. */
 #pragma once
 
-#include "run/from.h"
+#include "run/from_types.h"
 
 /* Puts the copy and from.txt into a run's folder; without a state it does nothing. */
 OzStatus oz_from_keep_copy(const OzFrom *from, const char *folder);

@@ -1,7 +1,7 @@
 /* A run that goes no faster than somebody can watch it. */
 #pragma once
 
-#include "run/worker.h"
+#include "run/worker_types.h"
 
 /* Simulated seconds a wall second at most, by --realtime: as asked, or as the scene's movie shows;
  * 0: as fast as it can. */

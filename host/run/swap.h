@@ -3,7 +3,7 @@
  * outputs and its schedule. Programs are built in a thread while the old one goes on. */
 #pragma once
 
-#include "run/worker.h"
+#include "run/worker_types.h"
 
 /* Takes what can be taken at this step. The schedule's event in hand is given back then. */
 OzStatus oz_swap_serve(OzWorker *worker);

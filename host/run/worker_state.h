@@ -1,7 +1,7 @@
 /* The state of a worker: all that the rest of its members' run depends on, saved and loaded. */
 #pragma once
 
-#include "run/worker.h"
+#include "run/worker_types.h"
 
 /* Saves or loads (base/state.h), between launches and not while members are looked at; also while
  * they settle. The event that is next belongs to the rest, so that a run which has loaded may end

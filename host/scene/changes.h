@@ -1,7 +1,7 @@
 /* What differs between a scene that runs and one that shall take over, key by key. */
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 #include "scene/tree.h"
 
 /* A key whose value differs; owned texts, as YAML. */

@@ -1,7 +1,7 @@
 /* What follows from a scene's values, and whether they agree with one another. */
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 #include "scene/tree.h"
 
 /* The most that a scene may ask for, each stated in its message. */

@@ -1,7 +1,7 @@
 /* What the values of a trigrains scene must be together: shapes, walls and their motion. */
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 #include "scene/tree.h"
 
 /* Adds a fault for each thing that cannot be, and gives every wall the scene's contact values.

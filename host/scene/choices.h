@@ -2,7 +2,7 @@
  * trigrains where they differ from those of rods. */
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 
 /* Named choices, in the order of their enums; "": not for this model. */
 static const char *const MODELS[] = {

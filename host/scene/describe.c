@@ -1,7 +1,7 @@
 /* Keys in words. Knows the list of keys and no value of any. */
 #include "scene/describe.h"
 
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "scene/keys.h"
 
 #include "scene/rows.h"
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 
 #include <stdint.h>
 #include <string.h>

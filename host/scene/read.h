@@ -1,7 +1,7 @@
 /* A tree into a scene, by the list of keys. */
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 #include "scene/tree.h"
 
 /* Puts every default and then every written value into a zeroed scene. Takes out of the tree what

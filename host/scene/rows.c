@@ -5,7 +5,7 @@
 
 #include "scene/choices.h"
 #include "scene/fixed.h"
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 
 enum {
     RANDOM = 1 << OZ_GRAINS_RANDOM,

@@ -2,7 +2,7 @@
  * of an ensemble. */
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 #include "scene/tree.h"
 
 enum {

@@ -5,7 +5,7 @@
 #define OZ_HOST
 
 #include "kernels/wall_shape.h"
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 
 enum { OZ_WALL_SIDES_MAX = 6 };
 

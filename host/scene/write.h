@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/keys.h"
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 
 /* Writes every key with its value, in the order of the list of keys. */
 void oz_write_scene(const OzScene *scene, FILE *file);

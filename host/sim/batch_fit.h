@@ -1,7 +1,8 @@
 /* Which scenes may be members of one simulation, and how many a device holds. */
 #pragma once
 
-#include "sim/sim.h"
+#include "compute/device.h"
+#include "model/grains.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* How trigrains start: the part of sim/start.h that knows triangles. */
 #pragma once
 
-#include "sim/start.h"
+#include "sim/start_overlap.h"
 
 /* Adds what there is to say of the start. The depth of two triangles is twice their contact's
  * energy over its force: how far two flat edges have gone into each other; of a corner it is two

@@ -10,13 +10,6 @@
 
 typedef struct OzSim OzSim;
 
-/* One scene of a simulation, which copies what it needs of it, and its grains, borrowed, which must
- * outlive it. */
-typedef struct OzMember {
-    const OzScene *scene;
-    const OzGrains *grains;
-} OzMember;
-
 /* What a run has cost so far; refreshes and rebuilds are those of a mean member, crossed all
  * members'. */
 typedef struct OzSimCounts {

@@ -4,10 +4,6 @@
 
 #include "sim/start_overlap.h"
 
-/* Overlaps up to this share of the smaller radius are rounding's. */
-#define OZ_START_ROUNDING 1e-3
-/* Beyond this share a scene is refused. */
-#define OZ_START_MOST 0.5
 /* Grains beyond this number are not looked at: it would take longer than a second. */
 #define OZ_START_COUNT_MOST 200000
 

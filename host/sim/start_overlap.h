@@ -25,6 +25,11 @@ typedef struct OzStart {
     int64_t outside_first; /* the first of them                                                */
 } OzStart;
 
+/* Overlaps up to this share of the smaller radius are rounding's. */
+#define OZ_START_ROUNDING 1e-3
+/* Beyond this share a scene is refused. */
+#define OZ_START_MOST 0.5
+
 /* What a contact of a bed at rest may bear, N: three times the weight of a column of the heaviest
  * grain as high as the bed. */
 double oz_start_overlap_load(const OzScene *scene, const OzGrains *grains);

@@ -5,7 +5,8 @@
 
 #define OZ_HOST
 #include "kernels/element_layout.h"
-#include "sim/constants.h"
+#include "kernels/layout.h"
+#include "model/grains.h"
 
 /* Near the smallest diameter of rods or the smallest reach of elements; the time of a contact of 32
  * steps; and the mean of the lightest and the heaviest mass (geometric: their squares are then as

@@ -1,0 +1,31 @@
+/* What a picture shows, and what it is drawn by. */
+#pragma once
+
+#include "model/snapshot.h"
+
+/* Who draws rods: a GPU by OpenGL where there is one, else the host; one of two OpenGL libraries,
+ * whatever they draw with; the host. Flat grains are always drawn by OpenGL. */
+typedef enum OzGlBackend { OZ_GL_AUTO, OZ_GL_EGL, OZ_GL_OSMESA, OZ_GL_HOST } OzGlBackend;
+
+/* What a picture shows. Start from oz_renderer_look and change size, views and colour at will: the
+ * framing is in metres and holds for any of them. */
+typedef struct OzLook {
+    int width, height; /* pixels, OZ_PICTURE_SIDE_MIN to _MAX, any aspect */
+    OzView views[2];
+    int view_count; /* 1, or 2 side by side */
+    OzColour colour;
+    double height_low, height_high; /* m: the vertical range that the camera frames */
+    double speed_high;              /* m/s at the top of the colour bar, for OZ_COLOUR_SPEED */
+    double centre[2];               /* m: x and y at the middle of the picture */
+    double half_width;    /* m: what is framed to the left and right of the middle, and in depth */
+    double cut;           /* m: the cut view shows what lies at y above this */
+    double elevation;     /* rad: how far above the horizon the camera stands */
+    bool bare;            /* grains alone on white: no container, no overlay */
+    bool flat;            /* seen straight on in the plane x-y, as trigrains are: height_low and
+                           * height_high are of y, views and cut say nothing */
+    bool cut_outlines;    /* the cut view: grains before the plane as faint outlines */
+    bool outlines, beams; /* flat: of grains                              */
+    const char *caption;  /* above the lower edge; NULL: none; borrowed                    */
+    double strobe;        /* flat: s between states that are laid over each other, for the caption;
+                           * 0 for a single one */
+} OzLook;
