@@ -69,22 +69,15 @@ typedef struct Barrel {
 static Barrel make_barrel(const OzWallOutline *o, const OzWall *wall, const double shift[3])
 {
     Barrel b = {.radius = wall->diameter / 2, .high = wall->length};
-    const double *axis = wall->axis;
-    int least = fabs(axis[0]) < fabs(axis[1]) ? 0 : 1;
-    double length = sqrt(1 - axis[least] * axis[least]);
     if (wall->length == 0) {
         b.low = -o->reach;
         b.high = o->reach;
     }
     for (int k = 0; k < 3; k++) {
-        b.axis[k] = axis[k];
+        b.axis[k] = wall->axis[k];
         b.point[k] = wall->point[k] + shift[k];
-        b.across[0][k] = ((k == least) - axis[least] * axis[k]) / length;
     }
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        b.across[1][k] = axis[i] * b.across[0][j] - axis[j] * b.across[0][i];
-    }
+    oz_wall_shape_across(b.axis, b.across[0], b.across[1]);
     return b;
 }
 

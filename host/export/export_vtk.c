@@ -92,38 +92,49 @@ static OzStatus add_columns(Arrays *arrays, const OzSnapshot *now, const int64_t
     return OZ_OK;
 }
 
+/* Cells of `each` points, one after the other: what is said of them is said of each point where
+ * that is the whole cell. */
+static OzStatus write_cells(Writer *writer, Kind kind, double time, int each, int64_t count,
+                            const float *points, const Arrays *arrays)
+{
+    OzStatus status = OZ_OK;
+    int64_t *corners = NULL, *ends = NULL;
+    OzVtkFile vtk = {.time = time,
+                     .points = points,
+                     .point_count = each * count,
+                     .cells = each == 1 ? OZ_VTK_VERTICES : OZ_VTK_LINES,
+                     .cell_count = count};
+    *(each == 1 ? &vtk.point_arrays : &vtk.cell_arrays) = arrays->array;
+    *(each == 1 ? &vtk.point_array_count : &vtk.cell_array_count) = arrays->count;
+    OZ_TRY(OZ_NEW(&corners, each * count));
+    OZ_TRY(OZ_NEW(&ends, count));
+    for (int64_t i = 0; i < each * count; i++) {
+        corners[i] = i;
+        ends[i / each] = i + 1;
+    }
+    vtk.corners = corners;
+    vtk.ends = ends;
+    OZ_TRY(write_file(writer, kind, &vtk));
+done:
+    free(corners);
+    free(ends);
+    return status;
+}
+
 static OzStatus write_rods(Writer *writer, const OzSnapshot *now)
 {
     OzStatus status = OZ_OK;
     Arrays arrays = {0};
     float *points = NULL;
-    int64_t *corners = NULL, *ends = NULL, count = now->count;
-    OZ_TRY(OZ_NEW(&points, 3 * count));
-    OZ_TRY(OZ_NEW(&corners, count));
-    OZ_TRY(OZ_NEW(&ends, count));
-    OZ_TRY(add_columns(&arrays, now, NULL, count));
-    for (int64_t i = 0; i < count; i++) {
-        for (int k = 0; k < 3; k++) {
-            points[3 * i + k] = (float)now->position[3 * i + k];
-        }
-        corners[i] = i;
-        ends[i] = i + 1;
+    OZ_TRY(OZ_NEW(&points, 3 * now->count));
+    OZ_TRY(add_columns(&arrays, now, NULL, now->count));
+    for (int64_t i = 0; i < 3 * now->count; i++) {
+        points[i] = (float)now->position[i];
     }
-    OZ_TRY(write_file(writer, GRAINS,
-                      &(OzVtkFile){.time = now->time,
-                                   .points = points,
-                                   .point_count = count,
-                                   .cells = OZ_VTK_VERTICES,
-                                   .corners = corners,
-                                   .ends = ends,
-                                   .cell_count = count,
-                                   .point_arrays = arrays.array,
-                                   .point_array_count = arrays.count}));
+    OZ_TRY(write_cells(writer, GRAINS, now->time, 1, now->count, points, &arrays));
 done:
     free_arrays(&arrays);
     free(points);
-    free(corners);
-    free(ends);
     return status;
 }
 
@@ -202,48 +213,28 @@ static OzStatus add_contact_arrays(Arrays *arrays, const OzContactList *list)
     return OZ_OK;
 }
 
-/* Both ends of every contact: the centre of a; the centre of b, or the point on the wall. */
-static void fill_ends(const OzSnapshot *now, float *points, int64_t *corners, int64_t *ends)
+/* Lines between both ends of every contact: the centre of a; the centre of b, or the point on the
+ * wall. */
+static OzStatus write_contacts(Writer *writer, const OzSnapshot *now)
 {
-    for (int64_t i = 0; i < now->contacts.count; i++) {
+    OzStatus status = OZ_OK;
+    Arrays arrays = {0};
+    float *points = NULL;
+    int64_t count = now->contacts.count;
+    OZ_TRY(OZ_NEW(&points, 6 * count));
+    OZ_TRY(add_contact_arrays(&arrays, &now->contacts));
+    for (int64_t i = 0; i < count; i++) {
         const OzContactEntry *e = &now->contacts.entry[i];
         const double *to = e->b >= 0 ? &now->position[3 * e->b] : e->point;
         for (int k = 0; k < 3; k++) {
             points[6 * i + k] = (float)now->position[3 * e->a + k];
             points[6 * i + 3 + k] = (float)to[k];
         }
-        corners[2 * i] = 2 * i;
-        corners[2 * i + 1] = 2 * i + 1;
-        ends[i] = 2 * (i + 1);
     }
-}
-
-static OzStatus write_contacts(Writer *writer, const OzSnapshot *now)
-{
-    OzStatus status = OZ_OK;
-    Arrays arrays = {0};
-    float *points = NULL;
-    int64_t *corners = NULL, *ends = NULL, count = now->contacts.count;
-    OZ_TRY(OZ_NEW(&points, 6 * count));
-    OZ_TRY(OZ_NEW(&corners, 2 * count));
-    OZ_TRY(OZ_NEW(&ends, count));
-    OZ_TRY(add_contact_arrays(&arrays, &now->contacts));
-    fill_ends(now, points, corners, ends);
-    OZ_TRY(write_file(writer, CONTACTS,
-                      &(OzVtkFile){.time = now->time,
-                                   .points = points,
-                                   .point_count = 2 * count,
-                                   .cells = OZ_VTK_LINES,
-                                   .corners = corners,
-                                   .ends = ends,
-                                   .cell_count = count,
-                                   .cell_arrays = arrays.array,
-                                   .cell_array_count = arrays.count}));
+    OZ_TRY(write_cells(writer, CONTACTS, now->time, 2, count, points, &arrays));
 done:
     free_arrays(&arrays);
     free(points);
-    free(corners);
-    free(ends);
     return status;
 }
 

@@ -95,28 +95,13 @@ static Ball find_ball(const OzSnapshot *now)
     return ball;
 }
 
-/* Two unit vectors across a third. */
-static void find_across(const double normal[3], double u[3], double v[3])
-{
-    int least = fabs(normal[0]) < fabs(normal[1]) ? 0 : 1;
-    least = fabs(normal[2]) < fabs(normal[least]) ? 2 : least;
-    double length = sqrt(1 - normal[least] * normal[least]);
-    for (int k = 0; k < 3; k++) {
-        u[k] = ((k == least) - normal[least] * normal[k]) / length;
-    }
-    for (int k = 0; k < 3; k++) {
-        int a = (k + 1) % 3, b = (k + 2) % 3;
-        v[k] = normal[a] * u[b] - normal[b] * u[a];
-    }
-}
-
 /* A square of twice the grains' reach about the foot of their middle. */
 static OzStatus add_plane(OzSurface *s, const OzWall *wall, double offset, const Ball *ball,
                           int64_t number)
 {
     double u[3], v[3], corners[4][3], height = 0, shift[3];
     oz_wall_shape_shift(wall, offset, shift);
-    find_across(wall->normal, u, v);
+    oz_wall_shape_across(wall->normal, u, v);
     for (int k = 0; k < 3; k++) {
         height += (ball->middle[k] - wall->point[k] - shift[k]) * wall->normal[k];
     }
@@ -225,7 +210,7 @@ static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, 
     if (wall->kind == OZ_WALL_CYLINDER) {
         oz_wall_shape_axis(wall, round.axis);
     }
-    find_across(round.axis, round.across[0], round.across[1]);
+    oz_wall_shape_across(round.axis, round.across[0], round.across[1]);
     switch (wall->kind) {
     case OZ_WALL_PLANE:
         return add_plane(s, wall, now->wall_offset[w], ball, w);

@@ -188,28 +188,24 @@ static double work_of_walls(const OzSnapshot *s)
     return is_flat(s) ? s->element_ledger.work_walls : s->ledger.work_walls;
 }
 
+#define ADD(NAME, member, column, meaning) +ledger->member
+
 double oz_observables_lost(const OzSnapshot *snapshot)
 {
     const OzLedger *ledger = &snapshot->ledger;
-    double lost = is_flat(snapshot) ? oz_element_energy_lost(snapshot)
-                                    : ledger->dissipated + ledger->friction;
+    double lost = is_flat(snapshot) ? oz_element_energy_lost(snapshot) : 0 OZ_LEDGER_LOSSES(ADD);
     return snapshot->has_ledger ? lost : 0;
-}
-
-static double flat_energy(const OzSnapshot *snapshot)
-{
-    return kinetic_energy(snapshot) + rotational_energy(snapshot) + potential_energy(snapshot) +
-           oz_element_energy_stored(snapshot) + oz_observables_lost(snapshot) -
-           work_of_walls(snapshot);
 }
 
 double oz_observables_energy(const OzSnapshot *snapshot)
 {
     const OzLedger *ledger = &snapshot->ledger;
-    return is_flat(snapshot) ? flat_energy(snapshot)
-                             : kinetic_energy(snapshot) + rotational_energy(snapshot) +
-                                   potential_energy(snapshot) + ledger->elastic +
-                                   ledger->dissipated + ledger->friction - ledger->work_walls;
+    double now =
+        kinetic_energy(snapshot) + rotational_energy(snapshot) + potential_energy(snapshot);
+    now = is_flat(snapshot)
+              ? now + oz_element_energy_stored(snapshot) + oz_observables_lost(snapshot)
+              : now + ledger->elastic OZ_LEDGER_LOSSES(ADD);
+    return now - work_of_walls(snapshot);
 }
 
 static bool kinetic(const OzObservation *o, double *value)

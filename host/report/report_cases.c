@@ -109,8 +109,11 @@ static double value_apex(const OzSnapshot *end)
 static double value_residual(const OzSnapshot *end)
 {
     double start = oz_report_energy_start(end);
-    double now = oz_report_energy_now(end) + end->ledger.elastic + end->ledger.dissipated +
-                 end->ledger.friction - end->ledger.work_walls;
+    const OzLedger *ledger = &end->ledger;
+#define ADD(NAME, member, column, meaning) +ledger->member
+    double now =
+        oz_report_energy_now(end) + ledger->elastic OZ_LEDGER_LOSSES(ADD) - ledger->work_walls;
+#undef ADD
     return end->has_ledger ? (now - start) / start : NAN;
 }
 

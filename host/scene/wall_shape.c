@@ -23,6 +23,20 @@ void oz_wall_shape_axis(const OzWall *wall, double axis[3])
     }
 }
 
+void oz_wall_shape_across(const double normal[3], double u[3], double v[3])
+{
+    int least = fabs(normal[0]) < fabs(normal[1]) ? 0 : 1;
+    least = fabs(normal[2]) < fabs(normal[least]) ? 2 : least;
+    double length = sqrt(1 - normal[least] * normal[least]);
+    for (int k = 0; k < 3; k++) {
+        u[k] = ((k == least) - normal[least] * normal[k]) / length;
+    }
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        v[k] = normal[a] * u[b] - normal[b] * u[a];
+    }
+}
+
 static void shape_tube(OzWallShape *shape, const OzWall *wall)
 {
     oz_wall_shape_axis(wall, shape->normal);

@@ -16,12 +16,16 @@ int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]
 /* The unit vector along a cylinder's axis. */
 void oz_wall_shape_axis(const OzWall *wall, double axis[3]);
 
+/* Two unit vectors across a third. */
+void oz_wall_shape_across(const double normal[3], double u[3], double v[3]);
+
 /* Whether it is a cylinder about the z axis: that kernels know for itself, that pictures look into
  * and in which density is defined. */
 bool oz_wall_shape_is_upright(const OzWall *wall);
 
-/* Distance of a point from the wall's nearest side, m, > 0 on the free side; offset: m, by which the
- * wall has moved along its direction. normal, unless NULL, receives the unit vector into the free side. */
+/* Distance of a point from the wall's nearest side, m, > 0 on the free side; offset: m, by which
+ * the wall has moved along its direction. normal, unless NULL, receives the unit vector into the
+ * free side. */
 double oz_wall_shape_distance(const OzWall *wall, double offset, const double point[3],
                               double normal[3]);
 
