@@ -7,8 +7,9 @@
 
 #include <cmocka.h>
 
-#include "report/report_element.h"
+#include "report/report_cases.h"
 #include "report/report_midpoint.h"
+#include "report/report_point.h"
 #include "report/report_table.h"
 
 #include <math.h>
@@ -21,12 +22,11 @@ static OzOptions plain;
 static OzReportJob job_of(const char *scene, const OzOptions *options, char path[static 512])
 {
     snprintf(path, 512, "%s/report/%s.yaml", ORZO_SCENES, scene);
-    const OzReportElementCase *elements = oz_report_element_cases_find(scene);
-    assert_non_null(elements);
+    const OzReportCase *row = oz_report_cases_find(scene);
+    assert_non_null(row);
     return (OzReportJob){.options = options,
                          .path = path,
-                         .row = &elements->row,
-                         .elements = elements,
+                         .row = row,
                          .phases = 4,
                          .repeats = 1};
 }
@@ -46,7 +46,7 @@ static OzReportPoint measured(const char *scene, const OzOptions *options, OzInt
                            .host = !device,
                            .steps = steps};
     job.device = device;
-    assert_int_equal(OZ_OK, oz_report_element_truth(&job));
+    assert_int_equal(OZ_OK, oz_report_point_truth(&job));
     assert_int_equal(OZ_OK, oz_report_point_measure(&point, &job));
     return point;
 }
@@ -61,11 +61,10 @@ static double error_of(const char *scene, OzIntegrator integrator, int substeps,
 static void test_every_case_has_its_scene(void **state)
 {
     (void)state;
-    for (const OzReportElementCase *elements = oz_report_element_cases_all(); elements->row.scene;
-         elements++) {
+    for (const OzReportCase *row = oz_report_cases_all(OZ_MODEL_TRIGRAINS); row->scene; row++) {
         char path[512];
         OzScene scene = {0};
-        snprintf(path, sizeof path, "%s/report/%s.yaml", ORZO_SCENES, elements->row.scene);
+        snprintf(path, sizeof path, "%s/report/%s.yaml", ORZO_SCENES, row->scene);
         assert_int_equal(OZ_OK, oz_scene_load(&scene, path, NULL, 0));
         assert_int_equal(OZ_MODEL_TRIGRAINS, scene.model);
         oz_scene_free(&scene);
@@ -210,7 +209,7 @@ static void test_sentence(void **state)
     OzReportPoint point = {.scene = "made_up",
                            .label = "host",
                            .cycle = "period",
-                           .row = &oz_report_element_cases_find("two_dice")->row,
+                           .row = oz_report_cases_find("two_dice"),
                            .integrator = OZ_INTEGRATOR_VELOCITY_VERLET,
                            .precision = OZ_PRECISION_DOUBLE,
                            .substeps = 4,

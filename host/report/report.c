@@ -5,35 +5,28 @@
 #include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "model/predict.h"
 #include "report/report_bed.h"
-#include "report/report_element.h"
+#include "report/report_cases.h"
 #include "report/report_ensemble.h"
 #include "report/report_extreme.h"
 #include "report/report_hits.h"
 #include "report/report_map.h"
+#include "report/report_methods.h"
 #include "report/report_own.h"
 #include "report/report_plot.h"
+#include "report/report_point.h"
 #include "report/report_table.h"
 
 #include <libgen.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps per contact. Beds are run at 20 to 60; below 10 no hit is resolved, and at 1000 float's
- * rounding shows. */
-static const int ladder[] = {10, 14, 20, 30, 50, 100, 200, 500, 1000};
-static const int ladder_quick[] = {20, 50, 200};
-
 enum {
-    RUNGS = sizeof ladder / sizeof ladder[0],
-    RUNGS_QUICK = sizeof ladder_quick / sizeof ladder_quick[0],
-    PRECISIONS = 2,
     PHASES = 32,
     PHASES_QUICK = 8,
     REPEATS = 5,
     DEVICES_MOST = 4,
-    METHODS_MOST = 16 * DEVICES_MOST /* integrators x precisions x devices */
+    POINTS_MOST = OZ_REPORT_METHODS_MOST * DEVICES_MOST * OZ_REPORT_RUNGS_MOST /* of a scene */
 };
 
 /* Without --tolerance. */
@@ -54,10 +47,8 @@ typedef struct Report {
     OzFolder owned; /* the folder, in use */
 } Report;
 
-/* "scenes/report/bounce.yaml" is the case "bounce"; *elements is NULL unless it is one of
- * trigrains, *row where no answer is known. */
-static OzStatus find_case(const OzReportCase **row, const OzReportElementCase **elements,
-                          const char *path)
+/* "scenes/report/bounce.yaml" is the case "bounce"; *row is NULL where no answer is known. */
+static OzStatus find_case(const OzReportCase **row, const char *path)
 {
     OzStatus status = OZ_OK;
     char *copy = NULL;
@@ -66,8 +57,7 @@ static OzStatus find_case(const OzReportCase **row, const OzReportElementCase **
     if (dot) {
         *dot = '\0';
     }
-    *elements = oz_report_element_cases_find(name);
-    *row = *elements ? &(*elements)->row : oz_report_cases_find(name);
+    *row = oz_report_cases_find(name);
 done:
     free(copy);
     return status;
@@ -76,13 +66,9 @@ done:
 static OzStatus study_method(Report *report, const OzReportJob *job, const OzReportPoint *like)
 {
     OzStatus status = OZ_OK;
-    bool quick = job->options->quick;
-    const int *steps = quick ? ladder_quick : ladder;
-    int rungs = quick ? RUNGS_QUICK : RUNGS;
-    if (job->elements) {
-        steps = oz_report_element_ladder(quick, &rungs);
-    }
-    for (int r = 0; r < rungs; r++) {
+    const OzReportMethods *methods = oz_report_methods_of(job->row->model);
+    const int *steps = job->options->quick ? methods->quick : methods->steps;
+    for (int r = 0; r < OZ_REPORT_RUNGS_MOST && steps[r] > 0; r++) {
         OzReportPoint *point = &report->points[report->count];
         char method[64];
         *point = *like;
@@ -98,49 +84,31 @@ done:
     return status;
 }
 
-/* Those of trigrains: on the host once, and on every device. */
-static OzStatus study_elements(Report *report, OzReportJob *job, const OzReportPoint *like)
+/* Every method on a device, those of the host with the first one. */
+static OzStatus study_device(Report *report, OzReportJob *job, int d)
 {
-    int count;
-    const OzReportMethod *methods = oz_report_element_methods(&count);
-    for (int i = 0; i < count; i++) {
-        OzReportPoint point = *like;
-        point.integrator = methods[i].integrator;
-        point.precision = methods[i].precision;
-        point.substeps = methods[i].substeps;
-        point.host = methods[i].host;
-        point.label = point.host ? "host" : "";
-        for (int d = 0; d < (point.host ? 1 : report->device_count); d++) {
-            job->device = point.device = point.host ? NULL : &report->devices[d];
-            if (!point.host && report->device_count > 1) {
-                point.label = report->labels[d];
-            }
-            if (point.host || point.precision == OZ_PRECISION_FLOAT || point.device->has_double) {
-                OZ_PASS(study_method(report, job, &point));
-            }
+    const OzReportMethods *methods = oz_report_methods_of(job->row->model);
+    for (int i = 0; i < methods->count; i++) {
+        const OzReportMethod *method = &methods->methods[i];
+        OzReportPoint point = {.cycle = methods->cycle,
+                               .floor = job->row->floor,
+                               .integrator = method->integrator,
+                               .precision = method->precision,
+                               .substeps = method->substeps,
+                               .host = method->host};
+        job->device = point.device = method->host ? NULL : &report->devices[d];
+        point.label = method->host ? "host" : report->device_count > 1 ? report->labels[d] : "";
+        bool known = method->host
+                         ? d == 0
+                         : method->precision == OZ_PRECISION_FLOAT || point.device->has_double;
+        if (known) {
+            OZ_PASS(study_method(report, job, &point));
         }
     }
     return OZ_OK;
 }
 
-static OzStatus study_device(Report *report, OzReportJob *job, OzReportPoint *like, int d)
-{
-    job->device = like->device = &report->devices[d];
-    like->label = report->device_count > 1 ? report->labels[d] : "";
-    for (int i = 0; i < OZ_PREDICT_INTEGRATORS; i++) {
-        for (int p = 0; p < PRECISIONS; p++) {
-            like->integrator = (OzIntegrator)i;
-            like->precision = p == 0 ? OZ_PRECISION_FLOAT : OZ_PRECISION_DOUBLE;
-            if (like->precision == OZ_PRECISION_FLOAT || like->device->has_double) {
-                OZ_PASS(study_method(report, job, like));
-            }
-        }
-    }
-    return OZ_OK;
-}
-
-static OzStatus study_scene(Report *report, const char *path, const OzReportCase *row,
-                            const OzReportElementCase *elements)
+static OzStatus study_scene(Report *report, const char *path, const OzReportCase *row)
 {
     const OzOptions *options = report->options;
     double tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE;
@@ -148,19 +116,11 @@ static OzStatus study_scene(Report *report, const char *path, const OzReportCase
     OzReportJob job = {.options = options,
                        .path = path,
                        .row = row,
-                       .elements = elements,
                        .phases = options->quick ? PHASES_QUICK : PHASES,
                        .repeats = REPEATS};
-    OzReportPoint like = {.cycle = elements ? "period" : "contact",
-                          .floor = elements ? elements->floor : 0};
-    if (elements) {
-        OZ_PASS(oz_report_element_truth(&job));
-        OZ_PASS(study_elements(report, &job, &like));
-    } else {
-        OZ_PASS(oz_report_point_truth(&like.truth, &job));
-    }
-    for (int d = 0; d < report->device_count && !elements; d++) {
-        OZ_PASS(study_device(report, &job, &like, d));
+    OZ_PASS(oz_report_point_truth(&job));
+    for (int d = 0; d < report->device_count; d++) {
+        OZ_PASS(study_device(report, &job, d));
     }
     oz_report_table_front(report->points + first, report->count - first);
     oz_report_table_say(stdout, report->points + first, report->count - first, tolerance,
@@ -198,18 +158,17 @@ static OzStatus study_scenes(Report *report)
     const OzFolderUse use = {.keep = true};
     const OzOptions *options = report->options;
     double start = oz_clock_now();
-    OZ_TRY(OZ_NEW(&report->points, options->path_count * METHODS_MOST * RUNGS));
+    OZ_TRY(OZ_NEW(&report->points, options->path_count * POINTS_MOST));
     OZ_TRY(open_devices(report));
     OZ_TRY(oz_folder_open(&report->owned, report->folder, &use));
     OZ_TRY(oz_folder_note(report->folder, "report.csv")); /* refused now, not at the end */
     for (int i = 0; i < options->path_count; i++) {
         const OzReportCase *row = NULL;
-        const OzReportElementCase *elements = NULL;
-        OZ_TRY(find_case(&row, &elements, options->paths[i]));
+        OZ_TRY(find_case(&row, options->paths[i]));
         OZ_TRY(!row         ? oz_report_own_study(options->paths[i], report->folder, options,
                                                   &report->devices[0])
                : row->study ? row->study(options->paths[i], report->folder, options)
-                            : study_scene(report, options->paths[i], row, elements));
+                            : study_scene(report, options->paths[i], row));
     }
     if (report->count == 0) {
         goto done; /* no table */

@@ -2,6 +2,7 @@
 #include "report/report_cases.h"
 
 #include "model/contact.h"
+#include "report/report_element_cases.h"
 #include "report/report_energy.h"
 #include "report/report_parallel.h"
 
@@ -78,12 +79,6 @@ static double value_axis(const OzSnapshot *end)
     return sqrt(dot(apart, apart));
 }
 
-static double exact_nothing(const OzSnapshot *end)
-{
-    (void)end;
-    return 0;
-}
-
 /* Of a rod lying flat on the plane z = 0. */
 static double value_overlap(const OzSnapshot *end)
 {
@@ -118,36 +113,60 @@ static double value_residual(const OzSnapshot *end)
 }
 
 static const OzReportCase rows[] = {
-    {"normal_hit", "restitution", "", true, value_restitution, exact_restitution, NULL},
-    {"oblique_smooth", "spin after the hit", "", true, value_spin, NULL, NULL},
-    {"oblique_rough", "spin after the hit", "", true, value_spin, NULL, NULL},
-    {"rolling_sphere", "way travelled", "", false, value_way, NULL, NULL},
-    {"rolling_rod", "way travelled", "", false, value_way, NULL, NULL},
-    {"free_rotation", "direction of the shaft", "rad", false, value_axis, exact_nothing, NULL},
-    {"rest", "overlap at rest", "", false, value_overlap, exact_overlap, NULL},
-    {"bounce", "height of the third bounce", "", true, value_apex, NULL, NULL},
-    {"ten_rods", "energy", "of the energy", false, value_residual, exact_nothing, NULL},
-    {"aligned", "energy", "of the energy", false, NULL, NULL, oz_report_parallel_study},
-    {NULL, NULL, NULL, false, NULL, NULL, NULL},
+    {"normal_hit", "restitution", "", true, .value = value_restitution, .exact = exact_restitution},
+    {"oblique_smooth", "spin after the hit", "", true, .value = value_spin},
+    {"oblique_rough", "spin after the hit", "", true, .value = value_spin},
+    {"rolling_sphere", "way travelled", "", false, .value = value_way},
+    {"rolling_rod", "way travelled", "", false, .value = value_way},
+    {"free_rotation", "direction of the shaft", "rad", false, .value = value_axis, .zero = true},
+    {"rest", "overlap at rest", "", false, .value = value_overlap, .exact = exact_overlap},
+    {"bounce", "height of the third bounce", "", true, .value = value_apex},
+    {"ten_rods", "energy", "of the energy", false, .value = value_residual, .zero = true},
+    {"aligned", "energy", "of the energy", false, .study = oz_report_parallel_study},
+    {NULL},
 };
 
-const OzReportCase *oz_report_cases_all(void)
+static const OzReportCase *const lists[] = {
+    [OZ_MODEL_RODS] = rows, [OZ_MODEL_TRIGRAINS] = oz_report_element_cases_rows};
+
+const OzReportCase *oz_report_cases_all(OzModelKind model)
 {
-    return rows;
+    return lists[model];
 }
 
 const OzReportCase *oz_report_cases_find(const char *scene)
 {
-    for (const OzReportCase *row = rows; row->scene; row++) {
-        if (strcmp(row->scene, scene) == 0) {
-            return row;
+    for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
+        for (const OzReportCase *row = lists[k]; row->scene; row++) {
+            if (strcmp(row->scene, scene) == 0) {
+                return row;
+            }
         }
     }
     return NULL;
 }
 
-double oz_report_cases_error(const OzReportCase *row, double value, double truth)
+void oz_report_cases_read(const OzReportCase *row, const OzSnapshot *end,
+                          double values[OZ_REPORT_VALUES])
 {
-    double apart = fabs(value - truth);
-    return row->unit[0] ? apart : apart / fabs(truth);
+    if (row->values) {
+        row->values(end, values);
+    } else {
+        values[0] = row->value(end);
+    }
+}
+
+double oz_report_cases_error(const OzReportCase *row, const OzSnapshot *end,
+                             const double truth[OZ_REPORT_VALUES])
+{
+    double values[OZ_REPORT_VALUES], squares = 0;
+    if (!row->values) {
+        double apart = fabs(row->value(end) - truth[0]);
+        return row->unit[0] ? apart : apart / fabs(truth[0]);
+    }
+    int count = row->values(end, values);
+    for (int i = 0; i < count; i++) {
+        squares += (values[i] - truth[i]) * (values[i] - truth[i]);
+    }
+    return sqrt(squares);
 }

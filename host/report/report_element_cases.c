@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 /* Of a beam's length and in radians: what is not linear in the mode itself is its square, 1e-8, and
  * in float it is still a thousand roundings of a coordinate. */
@@ -150,51 +149,13 @@ static int values_energy(const OzSnapshot *end, double *values)
     return 1;
 }
 
-static const OzReportElementCase rows[] = {
-    {{"beam_vibration", "the shape of a beam", "", false, NULL, NULL, NULL},
-     MODES,
-     AMPLITUDE *AMPLITUDE,
-     true,
-     start_mode,
-     values_modes},
-    {{"two_dice", "velocities and spins", "", true, NULL, NULL, NULL},
-     0,
-     0,
-     false,
-     NULL,
-     values_motion},
-    {{"undamped_dice", "the energy", "", true, NULL, NULL, NULL}, 0, 0, true, NULL, values_energy},
-    {{"settled_pile", "energy", "", false, NULL, NULL, oz_report_midpoint_study},
-     0,
-     0,
-     false,
-     NULL,
-     NULL},
-    {{NULL, NULL, NULL, false, NULL, NULL, NULL}, 0, 0, false, NULL, NULL},
+#define TRIGRAINS .model = OZ_MODEL_TRIGRAINS
+
+const OzReportCase oz_report_element_cases_rows[] = {
+    {"beam_vibration", "the shape of a beam", "", false, TRIGRAINS, .values = values_modes,
+     .zero = true, .starts = MODES, .floor = AMPLITUDE * AMPLITUDE, .start = start_mode},
+    {"two_dice", "velocities and spins", "", true, TRIGRAINS, .values = values_motion},
+    {"undamped_dice", "the energy", "", true, TRIGRAINS, .values = values_energy, .zero = true},
+    {"settled_pile", "energy", "", false, TRIGRAINS, .study = oz_report_midpoint_study},
+    {NULL},
 };
-
-const OzReportElementCase *oz_report_element_cases_all(void)
-{
-    return rows;
-}
-
-const OzReportElementCase *oz_report_element_cases_find(const char *scene)
-{
-    for (const OzReportElementCase *elements = rows; elements->row.scene; elements++) {
-        if (strcmp(elements->row.scene, scene) == 0) {
-            return elements;
-        }
-    }
-    return NULL;
-}
-
-double oz_report_element_cases_error(const OzReportElementCase *elements, const OzSnapshot *end,
-                                     const double truth[OZ_REPORT_ELEMENT_VALUES])
-{
-    double values[OZ_REPORT_ELEMENT_VALUES], squares = 0;
-    int count = elements->values(end, values);
-    for (int i = 0; i < count; i++) {
-        squares += (values[i] - truth[i]) * (values[i] - truth[i]);
-    }
-    return sqrt(squares);
-}

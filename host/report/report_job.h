@@ -3,15 +3,14 @@
 
 #include "cli.h"
 #include "compute/device.h"
-#include "report/report_element_cases.h"
+#include "report/report_case.h"
 
 typedef struct OzReportJob {
     const OzOptions *options; /* settings, source folder, --force */
     const OzDevice *device;   /* that of the points */
     const char *path;         /* scene file                                       */
     const OzReportCase *row;
-    const OzReportElementCase *elements;    /* of trigrains, and row is its; NULL of rods      */
-    double truth[OZ_REPORT_ELEMENT_VALUES]; /* of elements' values                               */
+    double truth[OZ_REPORT_VALUES]; /* what its values should be                    */
     int phases;  /* copies side by side, each starting earlier by another share of a step, evenly
                     stratified  (without phases of first touch all alike)  */
     int repeats; /* timed runs of all copies                                              */
@@ -27,10 +26,9 @@ typedef struct OzReportPoint {
     int substeps;      /* of beams; 0: none                                    */
     bool host;         /* by the reference on the host, one copy after another */
     int steps;         /* per cycle                                            */
-    const char *cycle; /* "contact": the contact time; "period" of the fastest
-                         vibration                                            */
+    const char *cycle; /* as OzReportMethods says                              */
     double step;       /* s                                                    */
-    double truth;      /* what the value should be; of elements 0, the distance  */
+    double truth;      /* what the value should be; of several 0, their distance */
     double floor;      /* errors below it are not the method's                 */
     double error_rms;  /* over the phases                                      */
     double error_max;  /* of any phase                                         */

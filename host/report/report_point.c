@@ -3,6 +3,8 @@
 
 #include "base/clock.h"
 #include "base/order.h"
+#include "report/report_cases.h"
+#include "report/report_methods.h"
 #include "report/report_refuse.h"
 #include "report/report_runs.h"
 #include "sim/element_reference.h"
@@ -11,42 +13,66 @@
 #include "sim/sim.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 enum { REPEATS_MOST = 64 };
 
-OzStatus oz_report_point_truth(double *truth, const OzReportJob *job)
+/* The run that begins with the i-th start, by the reference on the host; *seconds receives what its
+ * steps took. */
+static OzStatus run_reference(OzSnapshot *end, double *seconds, const OzReportRuns *runs, int i)
+{
+    OzStatus status = OZ_OK;
+    const OzGrains *start = &runs->starts[i];
+    OzReference *reference = NULL;
+    OzElementReference *elements = NULL;
+    double begun = NAN;
+    if (start->elements) {
+        OZ_TRY(oz_element_reference_create(&elements, &runs->scene, start));
+        begun = oz_clock_now();
+        OZ_TRY(oz_element_reference_advance(elements, runs->steps));
+        *seconds = oz_clock_now() - begun;
+        OZ_TRY(oz_element_reference_snapshot(elements, end));
+    } else {
+        OZ_TRY(oz_reference_create(&reference, &runs->scene, start));
+        begun = oz_clock_now();
+        OZ_TRY(oz_reference_advance(reference, runs->steps));
+        *seconds = oz_clock_now() - begun;
+        OZ_TRY(oz_reference_snapshot(reference, end));
+    }
+done:
+    oz_reference_free(reference);
+    oz_element_reference_free(elements);
+    return status;
+}
+
+OzStatus oz_report_point_truth(OzReportJob *job)
 {
     OzStatus status = OZ_OK;
     OzReportJob alone = *job;
-    OzReference *reference = NULL;
     OzSnapshot end = {0};
     OzReportRuns *runs = NULL;
-    OzReportPoint point = {.integrator = OZ_INTEGRATOR_VELOCITY_VERLET,
+    const OzReportMethods *methods = oz_report_methods_of(job->row->model);
+    OzReportPoint point = {.integrator = methods->truth,
                            .precision = OZ_PRECISION_DOUBLE,
-                           .steps = OZ_REPORT_POINT_TRUTH};
+                           .steps = methods->truth_steps};
+    double seconds = 0;
+    memset(job->truth, 0, sizeof job->truth);
+    if (job->row->zero) {
+        return OZ_OK;
+    }
     alone.phases = 1;
     OZ_TRY(oz_report_runs_open(&runs, &alone, &point));
     OZ_TRY(oz_snapshot_create(&end, &runs->scene, &runs->starts[0]));
     if (job->row->exact) {
-        *truth = job->row->exact(&end);
+        job->truth[0] = job->row->exact(&end);
     } else {
-        OZ_TRY(oz_reference_create(&reference, &runs->scene, &runs->starts[0]));
-        OZ_TRY(oz_reference_advance(reference, runs->steps));
-        OZ_TRY(oz_reference_snapshot(reference, &end));
-        *truth = job->row->value(&end);
+        OZ_TRY(run_reference(&end, &seconds, runs, 0));
+        oz_report_cases_read(job->row, &end, job->truth);
     }
 done:
-    oz_reference_free(reference);
     oz_snapshot_free(&end);
     oz_report_runs_close(runs);
     return status;
-}
-
-static double error_of(const OzReportJob *job, const OzReportPoint *point, const OzSnapshot *end)
-{
-    return job->elements ? oz_report_element_cases_error(job->elements, end, job->truth)
-                         : oz_report_cases_error(point->row, point->row->value(end), point->truth);
 }
 
 /* error_rms holds the sum of squares until the last copy. */
@@ -72,7 +98,7 @@ static OzStatus take_errors(OzReportPoint *point, const OzReportJob *job, OzSim 
         }
         OZ_TRY(oz_snapshot_create(&end, &runs->scene, &runs->starts[i]));
         OZ_TRY(oz_read_snapshot_snapshot(sim, i, &end, true));
-        take_error(point, error_of(job, point, &end), i, runs->count);
+        take_error(point, oz_report_cases_error(job->row, &end, job->truth), i, runs->count);
         oz_snapshot_free(&end);
     }
 done:
@@ -125,24 +151,16 @@ static OzStatus run_all(OzReportPoint *point, const OzReportJob *job, const OzRe
 static OzStatus run_on_host(OzReportPoint *point, const OzReportJob *job, const OzReportRuns *runs)
 {
     OzStatus status = OZ_OK;
-    OzElementReference *reference = NULL;
     OzSnapshot end = {0};
     double seconds[OZ_REPORT_RUNS_MOST];
     for (int i = 0; i < runs->count; i++) {
         OZ_TRY(oz_snapshot_create(&end, &runs->scene, &runs->starts[i]));
-        OZ_TRY(oz_element_reference_create(&reference, &runs->scene, &runs->starts[i]));
-        double start = oz_clock_now();
-        OZ_TRY(oz_element_reference_advance(reference, runs->steps));
-        seconds[i] = oz_clock_now() - start;
-        OZ_TRY(oz_element_reference_snapshot(reference, &end));
-        take_error(point, error_of(job, point, &end), i, runs->count);
-        oz_element_reference_free(reference);
+        OZ_TRY(run_reference(&end, &seconds[i], runs, i));
+        take_error(point, oz_report_cases_error(job->row, &end, job->truth), i, runs->count);
         oz_snapshot_free(&end);
-        reference = NULL;
     }
     take_times(point, seconds, runs->count, runs);
 done:
-    oz_element_reference_free(reference);
     oz_snapshot_free(&end);
     return status;
 }
@@ -163,6 +181,7 @@ OzStatus oz_report_point_measure(OzReportPoint *point, const OzReportJob *job)
     OzReportRuns *runs = NULL;
     OZ_TRY(oz_report_runs_open(&runs, job, point));
     point->row = job->row;
+    point->truth = job->row->values ? 0 : job->truth[0];
     point->step = runs->scene.step;
     point->evaluations = 1 / runs->scene.step;
     snprintf(point->scene, sizeof point->scene, "%s", runs->scene.name);

@@ -5,7 +5,6 @@
 #include "base/random.h"
 #include "model/beam_limits.h"
 #include "model/insert.h"
-#include "report/report_element_cases.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -23,12 +22,17 @@ enum {
 
 static const double PI = 3.14159265358979323846;
 
+static bool is_flat(const OzReportJob *job)
+{
+    return job->row->model == OZ_MODEL_TRIGRAINS;
+}
+
 /* The user's settings, then the point's. */
 static OzStatus load(OzScene *scene, const OzReportJob *job, const OzReportPoint *point,
                      double cycle)
 {
     char own[OWN_SETTINGS][SETTING_SIZE], *all[OZ_CLI_SETTINGS_MAX + OWN_SETTINGS];
-    int count = job->options->setting_count, more = job->elements ? OWN_SETTINGS : OWN_SETTINGS - 1;
+    int count = job->options->setting_count, more = is_flat(job) ? OWN_SETTINGS : OWN_SETTINGS - 1;
     memcpy(all, job->options->settings, (size_t)count * sizeof *all);
     snprintf(own[0], SETTING_SIZE, "time.step=%.17g", cycle / point->steps);
     snprintf(own[1], SETTING_SIZE, "integrator=%s",
@@ -53,7 +57,7 @@ static OzStatus find_cycle(double *cycle, const OzReportJob *job)
     OzReportPoint none = {.steps = 1};
     OZ_TRY(load(&scene, job, &none, 0));
     *cycle = scene.contact.contact_time;
-    if (job->elements) {
+    if (is_flat(job)) {
         OZ_TRY(oz_insert_grains(&grains, &scene));
         OZ_TRY(oz_beam_limits_find(&limit, &scene, &grains));
         *cycle = 2 * PI / limit.rate;
@@ -85,7 +89,7 @@ static void start_earlier(OzGrains *grains, const double gravity[3], double earl
 
 static int copies_of(const OzReportJob *job)
 {
-    int own = job->elements && job->elements->starts > 0 ? job->elements->starts : COPIES;
+    int own = job->row->starts > 0 ? job->row->starts : COPIES;
     int copies = job->row->phases ? job->phases : own;
     return copies < OZ_REPORT_RUNS_MOST ? copies : OZ_REPORT_RUNS_MOST;
 }
@@ -102,8 +106,8 @@ static OzStatus place(OzReportRuns *runs, const OzReportJob *job)
             double share = (i + oz_random_uniform(&random, 0, 1)) / copies;
             start_earlier(&runs->starts[i], runs->scene.gravity, share * runs->scene.step);
         }
-        if (job->elements && job->elements->start) {
-            job->elements->start(&runs->scene, &runs->starts[i], i);
+        if (job->row->start) {
+            job->row->start(&runs->scene, &runs->starts[i], i);
         }
     }
     return OZ_OK;
