@@ -7,7 +7,8 @@
 #include "model/hertz.h"
 
 /* Integrators that move rods: the first of the list (OzIntegrator). */
-#define OZ_PREDICT_INTEGRATORS 3
+#define OZ_PREDICT_ONE(NAME, name, choice, flat_choice, share, first) +1
+enum { OZ_PREDICT_INTEGRATORS = 0 OZ_INTEGRATORS(OZ_PREDICT_ONE) };
 
 /* Phases of first touch over which a prediction is averaged. */
 #define OZ_PREDICT_PHASES 64

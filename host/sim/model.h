@@ -95,14 +95,14 @@ typedef struct OzModel {
 
     size_t switches_bytes, sizes_bytes, parameters_bytes, control_bytes;
 
-    /* What a scene needs of the kernels. program: that of these switches. more_left_out (may be
-     * NULL) prints what else they leave out, after the separator. */
+    /* What a scene needs of the kernels. more_left_out (may be NULL) prints what else its switches
+     * leave out, after the separator. */
     int switch_count;
     const OzSwitch *switches;
     void (*derive)(void *switches, const OzScene *scene, const OzGrains *grains,
                    const OzDevice *device);
     void (*more_left_out)(const void *switches, const char *separator, FILE *file);
-    const char *(*program)(const void *switches);
+    const char *program;
 
     /* Constants of a scene, in double and SI, in the units of running parameters where there are
      * such (else NULL): it can be called again at any time; sizes that a member needs, and what

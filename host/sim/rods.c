@@ -49,12 +49,6 @@ static void print_more_left_out(const void *switches, const char *separator, FIL
     }
 }
 
-static const char *program(const void *switches)
-{
-    (void)switches;
-    return "kernels/rods.cl";
-}
-
 static int64_t count_grains(const OzGrains *grains)
 {
     return grains->count;
@@ -294,7 +288,7 @@ const OzModel oz_rods_model = {
     .switches = switch_rows,
     .derive = derive,
     .more_left_out = print_more_left_out,
-    .program = program,
+    .program = "kernels/rods.cl",
     .fill = fill,
     .choose = oz_sizes_choose,
     .join = oz_sizes_join,

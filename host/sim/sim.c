@@ -76,7 +76,7 @@ static OzStatus build(OzSim *sim, const char *source_dir)
                              .is_double = switches->is_double != 0};
     OZ_PASS(oz_device_check_double(sim->device, switches->is_double || switches->ledger));
     oz_model_options(model, switches, options, sizeof options);
-    OZ_PASS(oz_program_build(&sim->program, sim->device, source_dir, model->program(switches),
+    OZ_PASS(oz_program_build(&sim->program, sim->device, source_dir, model->program,
                              options));
     OZ_PASS(oz_launch_open(sim));
     OZ_PASS(model->open(sim));

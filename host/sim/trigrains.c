@@ -39,12 +39,6 @@ static void derive(void *switches, const OzScene *scene, const OzGrains *grains,
     *(OzElementSwitches *)switches = oz_element_switches_derive(scene, grains, device);
 }
 
-static const char *program(const void *switches)
-{
-    (void)switches;
-    return "kernels/trigrains.cl";
-}
-
 static int64_t count_elements(const OzGrains *grains)
 {
     return grains->elements->count;
@@ -238,7 +232,7 @@ const OzModel oz_trigrains_model = {
     .switch_count = sizeof switch_rows / sizeof switch_rows[0],
     .switches = switch_rows,
     .derive = derive,
-    .program = program,
+    .program = "kernels/trigrains.cl",
     .fill = oz_element_sizes_parameters,
     .choose = oz_element_sizes_choose,
     .join = oz_element_sizes_join,
