@@ -1,8 +1,9 @@
-/* Encoders, their settings, and colours from RGB to bt709. Knows no file. */
+/* Encoders, their settings, and pictures in and packets out. Knows no file. */
 #include "draw/movie_codec.h"
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "draw/yuv.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -109,22 +110,16 @@ done:
     return status;
 }
 
-/* The picture that the encoder reads, and the conversion into it: full-range RGB to limited-range
- * bt709, which is also what the file says it holds. */
-static OzStatus open_conversion(OzMovieCodec *codec)
+/* The picture that the encoder reads. */
+static OzStatus open_frame(OzMovieCodec *codec)
 {
+    OZ_PASS(OZ_NEW(&codec->sums, OZ_YUV_ROOM(codec->width)));
     AV_PASS_NEW(codec->packet, av->av_packet_alloc());
     AV_PASS_NEW(codec->frame, av->av_frame_alloc());
     codec->frame->format = AV_PIX_FMT_YUV420P;
     codec->frame->width = codec->width;
     codec->frame->height = codec->height;
     AV_PASS(av->av_frame_get_buffer(codec->frame, 0));
-    AV_PASS_NEW(codec->scaler,
-                av->sws_getContext(codec->width, codec->height, AV_PIX_FMT_RGBA, codec->width,
-                                   codec->height, AV_PIX_FMT_YUV420P,
-                                   SWS_BILINEAR | SWS_ACCURATE_RND, NULL, NULL, NULL));
-    const int *bt709 = av->sws_getCoefficients(SWS_CS_ITU709);
-    AV_PASS(av->sws_setColorspaceDetails(codec->scaler, bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16));
     return OZ_OK;
 }
 
@@ -157,8 +152,8 @@ OzStatus oz_movie_codec_open(OzMovieCodec *codec)
     }
     OZ_TRY(open_context(codec));
     OZ_TRY(check_head(codec));
-    if (!codec->scaler) {
-        OZ_TRY(open_conversion(codec));
+    if (!codec->frame) {
+        OZ_TRY(open_frame(codec));
     }
 done:
     if (status != OZ_OK) {
@@ -173,11 +168,8 @@ OzStatus oz_movie_codec_send(OzMovieCodec *codec, const OzImage *image, int64_t 
         AV_PASS(av->avcodec_send_frame(codec->context, NULL));
         return OZ_OK;
     }
-    const uint8_t *rows[4] = {image->pixels};
-    int row_bytes[4] = {4 * image->width};
     AV_PASS(av->av_frame_make_writable(codec->frame)); /* the encoder may still hold the last one */
-    AV_PASS(av->sws_scale(codec->scaler, rows, row_bytes, 0, image->height, codec->frame->data,
-                          codec->frame->linesize));
+    oz_yuv_convert(image, codec->sums, codec->frame->data, codec->frame->linesize);
     codec->frame->pts = number;
     AV_PASS(av->avcodec_send_frame(codec->context, codec->frame));
     return OZ_OK;
@@ -212,9 +204,7 @@ void oz_movie_codec_free(OzMovieCodec *codec)
     if (codec->frame) {
         av->av_frame_free(&codec->frame);
     }
-    if (codec->scaler) {
-        av->sws_freeContext(codec->scaler);
-    }
+    free(codec->sums);
     free(codec->head);
     *codec = (OzMovieCodec){0};
 }

@@ -22,7 +22,7 @@ typedef struct OzMovieCodec {
     int delay; /* frames by which a packet's decoding may be ahead of its showing */
     AVFrame *frame;
     AVPacket *packet; /* the one that was received last */
-    struct SwsContext *scaler;
+    int32_t *sums;    /* OZ_YUV_ROOM */
 } OzMovieCodec;
 
 /* The named encoder ("libx264", "mpeg4"), or with NULL the best that this libav has, whose lack of

@@ -73,8 +73,6 @@ static OzStatus load_libraries(void)
     OZ_AVCODEC_FUNCTIONS(FIND)
     OZ_PASS(open_library(&library, SONAME("avformat", LIBAVFORMAT_VERSION_MAJOR)));
     OZ_AVFORMAT_FUNCTIONS(FIND)
-    OZ_PASS(open_library(&library, SONAME("swscale", LIBSWSCALE_VERSION_MAJOR)));
-    OZ_SWSCALE_FUNCTIONS(FIND)
     av->av_log_set_callback(take_log);
     return OZ_OK;
 }

@@ -8,7 +8,6 @@
 #include <libavformat/avformat.h>
 #include <libavutil/imgutils.h>
 #include <libavutil/opt.h>
-#include <libswscale/swscale.h>
 
 /* clang-format off */
 /* Every function of libav that is called, by library; the table below and its filling walk these. */
@@ -28,9 +27,6 @@
     F(avformat_new_stream) F(avformat_open_input) F(avformat_write_header)                         \
     F(avio_alloc_context) F(avio_closep) F(avio_context_free) F(avio_flush) F(avio_open)           \
     F(avio_seek)
-#define OZ_SWSCALE_FUNCTIONS(F)                                                                    \
-    F(sws_freeContext) F(sws_getCoefficients) F(sws_getContext) F(sws_scale)                       \
-    F(sws_setColorspaceDetails)
 /* clang-format on */
 
 /* What the libraries export, the same for every movie of the process: a constant once loaded. */
@@ -39,7 +35,6 @@ typedef struct OzMovieLibav {
     OZ_AVUTIL_FUNCTIONS(OZ_AV_MEMBER)
     OZ_AVCODEC_FUNCTIONS(OZ_AV_MEMBER)
     OZ_AVFORMAT_FUNCTIONS(OZ_AV_MEMBER)
-    OZ_SWSCALE_FUNCTIONS(OZ_AV_MEMBER)
 #undef OZ_AV_MEMBER
 } OzMovieLibav;
 
