@@ -1,6 +1,7 @@
 /* The start of trigrains: grains and walls as elements, from a scene's populations. */
 #pragma once
 
+#include "base/stage.h"
 #include "model/grains.h"
 
 /* Fills grains and grains->elements (the caller frees with oz_grains_free) with every population in
@@ -15,5 +16,5 @@
  *
  * A grain's inertia (both of them) is that about z, its quaternion its turn about z. Fails with
  * OZ_ERR_INPUT, naming the population's line, for shapes that cannot be made or that are beyond the
- * limits of `beams`, and when there is no room. */
-OzStatus oz_insert_flat_grains(OzGrains *grains, const OzScene *scene);
+ * limits of `beams`, and when there is no room. Says through the stage how far it is. */
+OzStatus oz_insert_flat_grains(OzGrains *grains, const OzScene *scene, OzStage *stage);
