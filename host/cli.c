@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,8 +25,9 @@ static const struct {
      "orzo check scenes/an6.yaml --set time.step=2e-5 --verbose"},
     {"draw", "DIR", "osgS", "movie and pictures again from a run's frames.bin, into DIR/draw or -o",
      1, 1, "orzo draw runs/an6 -o pictures --set movie.colour=speed"},
-    {"export", "DIR", "oak", "a run's frames as VTK, extended XYZ, H5MD or CSV, into DIR/export or -o",
-     1, 1, "orzo export runs/an6 --to vtk,xyz"},
+    {"export", "DIR", "oak",
+     "a run's frames as VTK, extended XYZ, H5MD or CSV, into DIR/export or -o", 1, 1,
+     "orzo export runs/an6 --to vtk,xyz"},
     {"plot", "DIR [COLUMN]...", "oj",
      "columns of series.csv as plot.png and plot.svg; of an ensemble mean, interval and members", 1,
      OZ_CLI_PATHS_MAX, "orzo plot runs/an6 density_tap_mean angle --against tap"},
@@ -39,116 +41,6 @@ static const struct {
      OZ_CLI_PATHS_MAX, "orzo report scenes/report/normal_hit.yaml --tolerance 0.01"},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0, "orzo devices"},
 };
-
-/* One option: its letter in command_rows, its names, its value and help. */
-static const struct {
-    char letter;
-    const char *name, *value, *help;
-} option_rows[] = {
-    {'o', "-o", "DIR",
-     "folder to write (default runs/<scene name>; of draw DIR/draw, of export DIR/export, of bench and report their "
-     "names)"},
-    {'O', "--overwrite", NULL, "replace the run that is there"},
-    {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2"},
-    {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all"},
-    {'r', "--from", "DIR[@tap=N]",
-     "begin with the grains of a run's last state, springs included, or of a kept one (@time=T)"},
-    {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)"},
-    {'t', "--threads", "N", "threads of a CPU device"},
-    {'p', "--precision", "float|double", "the same as --set precision=..."},
-    {'g', "--gl", "egl|osmesa|host", "how to draw off-screen"},
-    {'u', "--until", "T", "stop at time T, s"},
-    {'w', "--watch", NULL, "take what is changed in the scene file while it runs"},
-    {'R', "--replay", NULL, "SCENE is a run's folder: that run again, with its changes"},
-    {'P', "--realtime", "[F]",
-     "no faster than F simulated seconds a second (default: as the movie shows; no movie: 1)"},
-    {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later"},
-    {'m', "--stream", "FILE|-",
-     "pictures as they are drawn, as Matroska: into a new file, a named pipe or a pipe"},
-    {'l', "--latest", NULL, "keep latest.png, the newest picture, in the folder"},
-    {'V', "--serve", "[PORT]",
-     "show the run on a page of this machine alone, whose address is printed (default: a free port)"},
-    {'f', "--force", NULL, "only warn of a step at which a contact is unstable"},
-    {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder"},
-    {'Q', "--quick", NULL, "a short ladder, in about a minute"},
-    {'F', "--features", NULL, "what each feature of an6 costs, too"},
-    {'z', "--sizes", "N,N,...", "the ladder's numbers of grains"},
-    {'b', "--budget", "S", "seconds that all timed pieces together shall take"},
-    {'y', "--yardstick", "PROGRAM", "the scalar yardstick (default: found beside orzo)"},
-    {'T', "--tolerance", "X", "error to be met; prints the cheapest setting, ready to paste"},
-    {'X', "--extreme", NULL, "stiff and extreme cases instead: expected, got, verdict"},
-    {'M', "--map", NULL, "stability map over steps per contact and restitution instead"},
-    {'B', "--stability", NULL, "the largest stable step of each scene's settled bed instead"},
-    {'E', "--ensemble", NULL, "a shaken bed at every step and integrator, for many seeds, instead"},
-    {'H', "--hits", NULL,
-     "how often two grains hit and how they spin then, for each value, instead"},
-    {'a', "--to", "FORMAT", "vtk, xyz, h5md or csv, or several with commas between"},
-    {'j', "--against", "COLUMN", "along x: step, time or tap (default: tap where there is one)"},
-    {'k', "--every", "N", "only each N-th frame"},
-    {'v', "--verbose", NULL, "kernel switches, what is left out, device memory, too"},
-    {'x', "--share", "X", "of --hits: from which share of the impulse a hit counts (default 0.05)"},
-    {'c', "--columns", NULL, "the columns of series.csv instead"},
-};
-
-enum {
-    COMMANDS = sizeof command_rows / sizeof command_rows[0],
-    OPTIONS = sizeof option_rows / sizeof option_rows[0]
-};
-
-static int find_command(const char *name)
-{
-    for (int c = 0; c < COMMANDS; c++) {
-        if (strcmp(command_rows[c].name, name) == 0) {
-            return c;
-        }
-    }
-    return -1;
-}
-
-static int find_option(const char *name)
-{
-    for (int o = 0; o < OPTIONS; o++) {
-        if (strcmp(option_rows[o].name, name) == 0) {
-            return o;
-        }
-    }
-    return -1;
-}
-
-static void print_command(int c)
-{
-    printf("orzo %s%s%s\n    %s\n", command_rows[c].name, command_rows[c].most_paths ? " " : "",
-           command_rows[c].arguments, command_rows[c].help);
-    for (int o = 0; o < OPTIONS; o++) {
-        if (strchr(command_rows[c].takes, option_rows[o].letter)) {
-            printf("    %-13s %-12s %s\n", option_rows[o].name,
-                   option_rows[o].value ? option_rows[o].value : "", option_rows[o].help);
-        }
-    }
-}
-
-void oz_cli_help(const char *command)
-{
-    int only = command ? find_command(command) : -1;
-    if (only < 0) {
-        printf("orzo: granular matter computed with OpenCL, shown as a movie, with its error "
-               "stated\n\n");
-    }
-    for (int c = 0; c < COMMANDS; c++) {
-        if (only < 0 || c == only) {
-            print_command(c);
-        }
-    }
-    if (only >= 0) {
-        printf("example: %s\n", command_rows[only].example);
-    }
-    if (only < 0) {
-        printf(
-            "orzo --help | --version\n\n"
-            "exit status: 0 done; 1 something failed or a guard stopped a run; 2 a scene, key or\n"
-            "option refused, of `check` also a step that `run` would refuse; 130 interrupted\n");
-    }
-}
 
 static OzStatus wrong(const char *argument, const char *expected)
 {
@@ -275,12 +167,6 @@ static OzStatus parse_precision(OzOptions *options, const char *value)
     return wrong(value, "--precision float or --precision double");
 }
 
-static OzStatus take_name(const char **name, const char *value, const char *expected)
-{
-    *name = value;
-    return value[0] ? OZ_OK : wrong(value, expected);
-}
-
 static OzStatus parse_serve(OzOptions *options, const char *value)
 {
     options->serve = true;
@@ -290,84 +176,155 @@ static OzStatus parse_serve(OzOptions *options, const char *value)
                : OZ_OK;
 }
 
-/* Where a text that is taken as it is goes. */
-static const char **text_of(OzOptions *options, char letter)
+/* One option: its letter in command_rows, its names, its value and help; how it is taken: a flag, a
+ * text as it is, one that is not empty (what is wanted instead), or by a function of its own. */
+static const struct {
+    char letter;
+    const char *name, *value, *help;
+    enum { FLAG_OPTION, TEXT_OPTION, OWN_OPTION } kind;
+    size_t offset; /* in OzOptions: of a bool or a text */
+    const char *wanted;
+    OzStatus (*parse)(OzOptions *options, const char *value);
+} option_rows[] = {
+#define FLAG(member)           .kind = FLAG_OPTION, .offset = offsetof(OzOptions, member)
+#define TEXT(member)           .kind = TEXT_OPTION, .offset = offsetof(OzOptions, member)
+#define NAME(member, expected) TEXT(member), .wanted = expected
+#define OWN(function)          .kind = OWN_OPTION, .parse = function
+    {'o', "-o", "DIR",
+     "folder to write (default runs/<scene name>; of draw DIR/draw, of export DIR/export, of bench "
+     "and report their names)",
+     NAME(out, "-o with the name of a folder")},
+    {'O', "--overwrite", NULL, "replace the run that is there", FLAG(overwrite)},
+    {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2", OWN(add_setting)},
+    {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all",
+     OWN(parse_seeds)},
+    {'r', "--from", "DIR[@tap=N]",
+     "begin with the grains of a run's last state, springs included, or of a kept one (@time=T)",
+     TEXT(from)},
+    {'d', "--device", "ID|cpu|gpu", "OpenCL device (default: a GPU, else the CPU)", TEXT(device)},
+    {'t', "--threads", "N", "threads of a CPU device", OWN(parse_threads)},
+    {'p', "--precision", "float|double", "the same as --set precision=...", OWN(parse_precision)},
+    {'g', "--gl", "egl|osmesa|host", "how to draw off-screen", OWN(parse_gl)},
+    {'u', "--until", "T", "stop at time T, s", OWN(parse_until)},
+    {'w', "--watch", NULL, "take what is changed in the scene file while it runs", FLAG(watch)},
+    {'R', "--replay", NULL, "SCENE is a run's folder: that run again, with its changes",
+     FLAG(replay)},
+    {'P', "--realtime", "[F]",
+     "no faster than F simulated seconds a second (default: as the movie shows; no movie: 1)",
+     OWN(parse_pace)},
+    {'n', "--no-video", NULL, "neither movie nor pictures; `orzo draw` can make them later",
+     FLAG(no_video)},
+    {'m', "--stream", "FILE|-",
+     "pictures as they are drawn, as Matroska: into a new file, a named pipe or a pipe",
+     NAME(stream, "--stream with the name of a file, or -")},
+    {'l', "--latest", NULL, "keep latest.png, the newest picture, in the folder", FLAG(latest)},
+    {'V', "--serve", "[PORT]",
+     "show the run on a page of this machine alone, whose address is printed (default: a free "
+     "port)",
+     OWN(parse_serve)},
+    {'f', "--force", NULL, "only warn of a step at which a contact is unstable", FLAG(force)},
+    {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder", TEXT(source_dir)},
+    {'Q', "--quick", NULL, "a short ladder, in about a minute", FLAG(quick)},
+    {'F', "--features", NULL, "what each feature of an6 costs, too", FLAG(features)},
+    {'z', "--sizes", "N,N,...", "the ladder's numbers of grains", TEXT(sizes)},
+    {'b', "--budget", "S", "seconds that all timed pieces together shall take", OWN(parse_budget)},
+    {'y', "--yardstick", "PROGRAM", "the scalar yardstick (default: found beside orzo)",
+     TEXT(yardstick)},
+    {'T', "--tolerance", "X", "error to be met; prints the cheapest setting, ready to paste",
+     OWN(parse_tolerance)},
+    {'X', "--extreme", NULL, "stiff and extreme cases instead: expected, got, verdict",
+     FLAG(extreme)},
+    {'M', "--map", NULL, "stability map over steps per contact and restitution instead", FLAG(map)},
+    {'B', "--stability", NULL, "the largest stable step of each scene's settled bed instead",
+     FLAG(stability)},
+    {'E', "--ensemble", NULL, "a shaken bed at every step and integrator, for many seeds, instead",
+     FLAG(ensemble)},
+    {'H', "--hits", NULL,
+     "how often two grains hit and how they spin then, for each value, instead", FLAG(hits)},
+    {'a', "--to", "FORMAT", "vtk, xyz, h5md or csv, or several with commas between",
+     NAME(to, "--to with vtk, xyz, h5md or csv")},
+    {'j', "--against", "COLUMN", "along x: step, time or tap (default: tap where there is one)",
+     TEXT(against)},
+    {'k', "--every", "N", "only each N-th frame", OWN(parse_every)},
+    {'v', "--verbose", NULL, "kernel switches, what is left out, device memory, too",
+     FLAG(verbose)},
+    {'x', "--share", "X", "of --hits: from which share of the impulse a hit counts (default 0.05)",
+     OWN(parse_share)},
+    {'c', "--columns", NULL, "the columns of series.csv instead", FLAG(columns)},
+};
+
+enum {
+    COMMANDS = sizeof command_rows / sizeof command_rows[0],
+    OPTIONS = sizeof option_rows / sizeof option_rows[0]
+};
+
+static int find_command(const char *name)
 {
-    switch (letter) {
-    case 'S':
-        return &options->source_dir;
-    case 'r':
-        return &options->from;
-    case 'd':
-        return &options->device;
-    case 'j':
-        return &options->against;
-    case 'z':
-        return &options->sizes;
-    default:
-        return &options->yardstick;
+    for (int c = 0; c < COMMANDS; c++) {
+        if (strcmp(command_rows[c].name, name) == 0) {
+            return c;
+        }
+    }
+    return -1;
+}
+
+static int find_option(const char *name)
+{
+    for (int o = 0; o < OPTIONS; o++) {
+        if (strcmp(option_rows[o].name, name) == 0) {
+            return o;
+        }
+    }
+    return -1;
+}
+
+static void print_command(int c)
+{
+    printf("orzo %s%s%s\n    %s\n", command_rows[c].name, command_rows[c].most_paths ? " " : "",
+           command_rows[c].arguments, command_rows[c].help);
+    for (int o = 0; o < OPTIONS; o++) {
+        if (strchr(command_rows[c].takes, option_rows[o].letter)) {
+            printf("    %-13s %-12s %s\n", option_rows[o].name,
+                   option_rows[o].value ? option_rows[o].value : "", option_rows[o].help);
+        }
     }
 }
 
-static OzStatus take_option(OzOptions *options, char letter, const char *value)
+void oz_cli_help(const char *command)
 {
-    switch (letter) {
-    case 'o':
-        return take_name(&options->out, value, "-o with the name of a folder");
-    case 's':
-        return add_setting(options, value);
-    case 't':
-        return parse_threads(options, value);
-    case 'p':
-        return parse_precision(options, value);
-    case 'g':
-        return parse_gl(options, value);
-    case 'e':
-        return parse_seeds(options, value);
-    case 'P':
-        return parse_pace(options, value);
-    case 'u':
-        return parse_until(options, value);
-    case 'm':
-        return take_name(&options->stream, value, "--stream with the name of a file, or -");
-    case 'V':
-        return parse_serve(options, value);
-    case 'b':
-        return parse_budget(options, value);
-    case 'T':
-        return parse_tolerance(options, value);
-    case 'x':
-        return parse_share(options, value);
-    case 'k':
-        return parse_every(options, value);
-    case 'a':
-        return take_name(&options->to, value, "--to with vtk, xyz, h5md or csv");
-    case 'S':
-    case 'r':
-    case 'd':
-    case 'j':
-    case 'z':
-    case 'y':
-        *text_of(options, letter) = value;
-        return OZ_OK;
-    default:
-        options->quick |= letter == 'Q';
-        options->extreme |= letter == 'X';
-        options->map |= letter == 'M';
-        options->stability |= letter == 'B';
-        options->ensemble |= letter == 'E';
-        options->hits |= letter == 'H';
-        options->features |= letter == 'F';
-        options->overwrite |= letter == 'O';
-        options->no_video |= letter == 'n';
-        options->latest |= letter == 'l';
-        options->force |= letter == 'f';
-        options->columns |= letter == 'c';
-        options->verbose |= letter == 'v';
-        options->watch |= letter == 'w';
-        options->replay |= letter == 'R';
+    int only = command ? find_command(command) : -1;
+    if (only < 0) {
+        printf("orzo: granular matter computed with OpenCL, shown as a movie, with its error "
+               "stated\n\n");
+    }
+    for (int c = 0; c < COMMANDS; c++) {
+        if (only < 0 || c == only) {
+            print_command(c);
+        }
+    }
+    if (only >= 0) {
+        printf("example: %s\n", command_rows[only].example);
+    }
+    if (only < 0) {
+        printf(
+            "orzo --help | --version\n\n"
+            "exit status: 0 done; 1 something failed or a guard stopped a run; 2 a scene, key or\n"
+            "option refused, of `check` also a step that `run` would refuse; 130 interrupted\n");
+    }
+}
+
+static OzStatus take_option(OzOptions *options, int o, const char *value)
+{
+    void *member = (char *)options + option_rows[o].offset;
+    if (option_rows[o].kind == OWN_OPTION) {
+        return option_rows[o].parse(options, value);
+    }
+    if (option_rows[o].kind == FLAG_OPTION) {
+        *(bool *)member = true;
         return OZ_OK;
     }
+    *(const char **)member = value;
+    return option_rows[o].wanted && !value[0] ? wrong(value, option_rows[o].wanted) : OZ_OK;
 }
 
 /* Whether an argument is the number that an option may have, or the next option, a name or none. */
@@ -400,13 +357,13 @@ static OzStatus take_argument(OzOptions *options, int command, int argc, char **
     }
     const char *wanted = option_rows[o].value, *next = *i + 1 < argc ? argv[*i + 1] : NULL;
     if (wanted && wanted[0] == '[' && !is_number(next)) {
-        return take_option(options, option_rows[o].letter, NULL); /* its value may be left out */
+        return take_option(options, o, NULL); /* its value may be left out */
     }
     if (wanted && !next) {
-        return oz_status_fail(OZ_ERR_INPUT, "orzo: %s is missing; expected %s %s",
-                              wanted, argument, wanted);
+        return oz_status_fail(OZ_ERR_INPUT, "orzo: %s is missing; expected %s %s", wanted, argument,
+                              wanted);
     }
-    return take_option(options, option_rows[o].letter, wanted ? argv[++*i] : NULL);
+    return take_option(options, o, wanted ? argv[++*i] : NULL);
 }
 
 static OzStatus check_count(const OzOptions *options, int command)
@@ -436,8 +393,8 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
-        return wrong(argv[1],
-                     "run, resume, check, draw, export, plot, keys, bench, report or devices (see orzo --help)");
+        return wrong(argv[1], "run, resume, check, draw, export, plot, keys, bench, report or "
+                              "devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
         OZ_PASS(take_argument(options, command, argc, argv, &i));
