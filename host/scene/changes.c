@@ -2,6 +2,7 @@
 #include "scene/changes.h"
 
 #include "base/memory.h"
+#include "scene/keys.h"
 #include "scene/value.h"
 #include "scene/write.h"
 
@@ -97,18 +98,6 @@ done:
     return status;
 }
 
-/* The first row that does not lie below this one. */
-static const OzKey *below_end(const OzKey *key)
-{
-    size_t length = strlen(key->path);
-    const OzKey *end = key + 1;
-    while (end->path && strncmp(end->path, key->path, length) == 0 &&
-           (end->path[length] == '.' || end->path[length] == '[')) {
-        end++;
-    }
-    return end;
-}
-
 static bool is_missing(const OzKey *key, const void *running, const void *next)
 {
     return key->type == OZ_KEY_SECTION &&
@@ -127,8 +116,8 @@ static OzStatus compare_items(const Search *s, const OzKey *list, Told told, voi
     int count = *oz_value_count(list, s->running);
     for (int i = 0; i < count && count == *oz_value_count(list, s->next); i++) {
         size_t at = (size_t)i * list->item_size;
-        OZ_PASS(
-            compare_rows(s, list + 1, below_end(list), i, running + at, next + at, told, context));
+        OZ_PASS(compare_rows(s, list + 1, oz_keys_end(list, strlen(list->path)), i, running + at,
+                             next + at, told, context));
     }
     return OZ_OK;
 }
@@ -140,10 +129,11 @@ static OzStatus compare_rows(const Search *s, const OzKey *key, const OzKey *end
         OZ_PASS(compare_row(s, key, item, running, next, told, context));
         if (key->type == OZ_KEY_ITEMS) {
             OZ_PASS(compare_items(s, key, told, context));
-            key = below_end(key);
+            key = oz_keys_end(key, strlen(key->path));
         } else {
             bool serves = oz_keys_serves(key, (int)s->running->model);
-            key = serves && is_missing(key, running, next) ? below_end(key) : key + 1;
+            key = serves && is_missing(key, running, next) ? oz_keys_end(key, strlen(key->path))
+                                                           : key + 1;
         }
     }
     return OZ_OK;

@@ -38,6 +38,16 @@ const OzKey *oz_keys_of(const char *path, int model)
     return NULL;
 }
 
+const OzKey *oz_keys_end(const OzKey *first, size_t length)
+{
+    const OzKey *end = first + 1;
+    while (end->path && strncmp(end->path, first->path, length) == 0 &&
+           (end->path[length] == '.' || end->path[length] == '[')) {
+        end++;
+    }
+    return end;
+}
+
 bool oz_keys_is_group(const char *path)
 {
     size_t length = strlen(path);

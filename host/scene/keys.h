@@ -18,6 +18,9 @@ const OzKey *oz_keys_of(const char *path, int model);
 /* True when the row belongs to the model. */
 bool oz_keys_serves(const OzKey *key, int model);
 
+/* The first row after this one that does not lie below the first `length` letters of its path. */
+const OzKey *oz_keys_end(const OzKey *first, size_t length);
+
 /* True when rows live below this path. */
 bool oz_keys_is_group(const char *path);
 

@@ -238,18 +238,6 @@ static void begin_line(Writer *writer, const char *name, size_t length)
     writer->dash = false;
 }
 
-/* The rows from first up to the returned one lie below the name at first's path + start. */
-static const OzKey *group_end(const OzKey *first, size_t start)
-{
-    size_t length = start + strcspn(first->path + start, ".[");
-    const OzKey *end = first + 1;
-    while (end->path && strncmp(end->path, first->path, length) == 0 &&
-           (end->path[length] == '.' || end->path[length] == '[')) {
-        end++;
-    }
-    return end;
-}
-
 static void write_rows(Writer *writer, const OzKey *key, const OzKey *end, size_t start,
                        const void *base);
 
@@ -306,7 +294,7 @@ static void write_rows(Writer *writer, const OzKey *key, const OzKey *end, size_
                        const void *base)
 {
     while (key < end) {
-        const OzKey *next = group_end(key, start);
+        const OzKey *next = oz_keys_end(key, start + strcspn(key->path + start, ".["));
         write_name(writer, key, next, start, base);
         key = next;
     }
