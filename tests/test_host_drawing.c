@@ -3,6 +3,7 @@
 #include "draw_bed.h"
 
 #include <pthread.h>
+#include <sched.h>
 
 enum { GRAINS = 400, THREADS = 3 };
 
@@ -154,6 +155,33 @@ static void threads_draw_the_same(void **state)
     bed_free(&bed);
 }
 
+/* Where there is one processor, views are drawn one after the other. */
+static void one_processor_draws_the_same(void **state)
+{
+    (void)state;
+    Bed bed;
+    OzLook look = bed_look(640, 360, true);
+    OzRenderer *own = NULL;
+    cpu_set_t all, one;
+    assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
+    CPU_ZERO(&one);
+    for (size_t i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; i++) {
+        if (CPU_ISSET(i, &all)) {
+            CPU_SET(i, &one);
+        }
+    }
+    fill_bed(&bed);
+    assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
+    assert_int_equal(oz_renderer_create(&own, OZ_GL_HOST, NULL), OZ_OK);
+    assert_int_equal(sched_setaffinity(0, sizeof all, &all), 0);
+    OzImage here = draw_with(own, &bed, &look), there = draw_with(renderer, &bed, &look);
+    assert_same(&here, &there);
+    oz_renderer_free(own);
+    oz_image_free(&here);
+    oz_image_free(&there);
+    bed_free(&bed);
+}
+
 /* Glass is kept from picture to picture, and painted anew in another one. */
 static void nothing_is_left_of_earlier_pictures(void **state)
 {
@@ -195,6 +223,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_draw_the_same),
+        cmocka_unit_test(one_processor_draws_the_same),
         cmocka_unit_test(nothing_is_left_of_earlier_pictures),
         cmocka_unit_test(host_and_gl_draw_alike),
     };

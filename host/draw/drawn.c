@@ -4,6 +4,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,21 +33,23 @@ OzStatus oz_drawn_open(OzDrawn *drawn, OzDrawnRoom *room, const OzBox *box, cons
     int stride = box->width + 2 * border, rows = box->height + 2 * border;
     size_t count = (size_t)stride * (size_t)rows;
     size_t inset = (size_t)border * (size_t)(stride + 1);
-    OZ_PASS(fit(room, count));
-    *drawn = (OzDrawn){*box, stride, room->colour + 4 * inset, room->depth + inset};
-    memset(room->colour, 0, 4 * count);
-    for (size_t i = 0; i < count; i++) {
-        room->depth[i] = 1;
-    }
-    uint8_t rgba[4] = {0};
+    uint8_t rgba[4] = {0}, none[4] = {0};
     for (int k = 0; k < 3; k++) {
         rgba[k] = (uint8_t)lroundf(255 * rgb[k]);
     }
-    for (int y = 0; y < box->height; y++) {
-        uint8_t *row = drawn->colour + 4 * (ptrdiff_t)y * stride;
-        for (int x = 0; x < box->width; x++) {
-            memcpy(row + 4 * x, rgba, 4);
-        }
+    OZ_PASS(fit(room, count));
+    *drawn = (OzDrawn){*box, stride, room->colour + 4 * inset, room->depth + inset};
+    for (int x = 0; x < stride; x++) {
+        bool inside = x >= border && x < border + box->width;
+        room->depth[x] = 1;
+        memcpy(room->colour + 4 * x, inside ? rgba : none, 4);
     }
+    for (int y = 1; y < rows; y++) {
+        size_t place = (size_t)y * (size_t)stride;
+        memcpy(room->depth + place, room->depth, sizeof *room->depth * (size_t)stride);
+        memcpy(room->colour + 4 * place, room->colour, 4 * (size_t)stride);
+    }
+    memset(room->colour, 0, 4 * inset);
+    memset(room->colour + 4 * (count - inset), 0, 4 * inset);
     return OZ_OK;
 }

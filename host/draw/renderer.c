@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/thread.h"
 #include "draw/bodies.h"
 #include "draw/camera.h"
 #include "draw/finish.h"
@@ -16,8 +17,26 @@
 
 #include <glob.h>
 #include <math.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* What a view is made in; views of one picture may be made at once. */
+typedef struct View {
+    OzHostDrawing host;
+    OzDrawnRoom room;
+    OzFinishRoom finish;
+} View;
+
+/* A view to be made in a thread of its own. */
+typedef struct ViewJob {
+    OzRenderer *renderer;
+    const OzFinish *finish;
+    OzImage *image;
+    int view;
+    OzStatus status;
+    char text[256];
+} ViewJob;
 
 struct OzRenderer {
     OzGlBackend backend;
@@ -25,10 +44,9 @@ struct OzRenderer {
     bool has_gl;
     bool is_by_gl; /* rods; flat grains always are */
     OzGlDrawing gl;
-    OzHostDrawing host;
     OzBodies bodies;
-    OzDrawnRoom room;
-    OzFinishRoom finish;
+    View views[2];
+    bool is_parallel; /* there are processors for both */
     OzFont font;
 };
 
@@ -69,6 +87,12 @@ static OzStatus choose(OzRenderer *renderer)
     return OZ_OK;
 }
 
+static bool has_processors(void)
+{
+    cpu_set_t processors;
+    return sched_getaffinity(0, sizeof processors, &processors) == 0 && CPU_COUNT(&processors) > 1;
+}
+
 OzStatus oz_renderer_create(OzRenderer **renderer, OzGlBackend backend, const char *source_dir)
 {
     OzRenderer *made = NULL;
@@ -81,6 +105,7 @@ OzStatus oz_renderer_create(OzRenderer **renderer, OzGlBackend backend, const ch
         oz_renderer_free(made);
         return status;
     }
+    made->is_parallel = !made->is_by_gl && has_processors();
     oz_font_open(&made->font);
     *renderer = made;
     return OZ_OK;
@@ -92,10 +117,12 @@ void oz_renderer_free(OzRenderer *renderer)
         return;
     }
     oz_gl_drawing_free(&renderer->gl);
-    oz_host_drawing_free(&renderer->host);
     oz_bodies_free(&renderer->bodies);
-    oz_drawn_free(&renderer->room);
-    oz_finish_free(&renderer->finish);
+    for (int i = 0; i < 2; i++) {
+        oz_host_drawing_free(&renderer->views[i].host);
+        oz_drawn_free(&renderer->views[i].room);
+        oz_finish_free(&renderer->views[i].finish);
+    }
     oz_font_close(&renderer->font);
     free(renderer);
 }
@@ -169,25 +196,57 @@ static void fill_background(OzImage *image, const OzLook *look)
     for (int k = 0; k < 3; k++) {
         rgba[k] = (uint8_t)lroundf(255 * colour[k]);
     }
-    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
-        memcpy(image->pixels + 4 * i, rgba, 4);
+    size_t row = 4 * (size_t)image->width;
+    for (size_t i = 0; i < row; i += 4) {
+        memcpy(image->pixels + i, rgba, 4);
+    }
+    for (int y = 1; y < image->height; y++) {
+        memcpy(image->pixels + (size_t)y * row, image->pixels, row);
     }
 }
 
 static OzStatus draw_view(OzRenderer *renderer, const OzFinish *finish, int view, OzImage *image)
 {
     const OzBodies *bodies = &renderer->bodies;
+    View *own = &renderer->views[view];
     OzDrawn drawn;
     OzBox box;
     if (renderer->is_by_gl) {
         box = oz_gl_drawing_box(&renderer->gl, bodies, view);
     } else {
-        OZ_PASS(oz_host_drawing_begin(&renderer->host, bodies, view, &box));
+        OZ_PASS(oz_host_drawing_begin(&own->host, bodies, view, &box));
     }
-    OZ_PASS(oz_drawn_open(&drawn, &renderer->room, &box, finish->background));
+    OZ_PASS(oz_drawn_open(&drawn, &own->room, &box, finish->background));
     OZ_PASS(renderer->is_by_gl ? oz_gl_drawing_read(&renderer->gl, &drawn, bodies->look)
-                               : oz_host_drawing_draw(&renderer->host, &drawn, bodies, view));
-    return oz_finish_pixels(finish, &renderer->finish, &drawn, image);
+                               : oz_host_drawing_draw(&own->host, &drawn, bodies, view));
+    return oz_finish_pixels(finish, &own->finish, &drawn, image);
+}
+
+static void *work_on_view(void *argument)
+{
+    ViewJob *job = argument;
+    job->status = draw_view(job->renderer, job->finish, job->view, job->image);
+    snprintf(job->text, sizeof job->text, "%s", oz_status_text());
+    return NULL;
+}
+
+/* Where processors are idle, the second view beside the first: no pixel is of both. */
+static OzStatus draw_views(OzRenderer *renderer, const OzFinish *finish, int count, OzImage *image)
+{
+    pthread_t thread;
+    ViewJob job = {renderer, finish, image, 1, OZ_OK, ""};
+    bool beside =
+        count > 1 && renderer->is_parallel && oz_thread_start(&thread, work_on_view, &job) == 0;
+    OzStatus status = draw_view(renderer, finish, 0, image);
+    if (beside) {
+        pthread_join(thread, NULL);
+        if (status == OZ_OK && job.status != OZ_OK) {
+            status = oz_status_fail(job.status, "%s", job.text);
+        }
+    } else if (status == OZ_OK && count > 1) {
+        status = draw_view(renderer, finish, 1, image);
+    }
+    return status;
 }
 
 static OzStatus draw_standing(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
@@ -199,10 +258,7 @@ static OzStatus draw_standing(OzRenderer *renderer, const OzSnapshot *snapshot, 
         OZ_PASS(oz_gl_drawing_views(&renderer->gl, &renderer->bodies));
     }
     fill_background(image, look);
-    for (int view = 0; view < look->view_count; view++) {
-        OZ_PASS(draw_view(renderer, &finish, view, image));
-    }
-    return OZ_OK;
+    return draw_views(renderer, &finish, look->view_count, image);
 }
 
 static OzStatus draw(OzRenderer *renderer, const OzSnapshot *snapshots, int count,

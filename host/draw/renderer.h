@@ -1,5 +1,6 @@
 /* Draws snapshots off-screen into images. One renderer has one GL context or none, and is used from
- * the thread that made it; several in as many threads draw the same pictures. */
+ * the thread that made it; several in as many threads draw the same pictures. Both views of a
+ * picture may be drawn at once, by a thread that ends with it. */
 #pragma once
 
 #include "base/status.h"
