@@ -133,20 +133,23 @@ static void test_verdict_comes_first(void **state)
     assert_false(contains("said", "  movie "));
 }
 
-/* The same steps on the same machine a moment later; what else runs on it may slow down either by
- * some factor, a wrong unit would be a thousand. */
+/* The same steps on the same machine a moment later; what else runs on it may slow down either, so
+ * that it is tried again; a wrong unit would be a factor of a thousand each time. */
 static void test_cost_is_what_a_run_takes(void **state)
 {
     (void)state;
-    double estimate = 0, taken = 0, spent = 0;
+    double estimate = 1, taken = 0, spent = 0;
     int steps = 0;
-    expect(0, "verdict", "check bed.yaml");
-    assert_int_equal(sscanf(said_line("  cost "), "  cost %d steps at %lf us:", &steps, &estimate),
-                     2);
-    expect(0, "30 grains", "run bed.yaml -o timed --set checkpoint.every=0"); /* which costs once */
-    assert_int_equal(
-        sscanf(said_line("2000 steps in "), "2000 steps in %lf s; %lf us", &spent, &taken), 2);
-    print_message("%.3g us a step estimated, %.3g taken\n", estimate, taken);
+    for (int tries = 0; tries < 5 && !(estimate < 10 * taken && taken < 10 * estimate); tries++) {
+        expect(0, "verdict", "check bed.yaml");
+        assert_int_equal(
+            sscanf(said_line("  cost "), "  cost %d steps at %lf us:", &steps, &estimate), 2);
+        expect(0, "30 grains", /* a state costs once */
+               "run bed.yaml -o timed --overwrite --no-video --set checkpoint.every=0");
+        assert_int_equal(
+            sscanf(said_line("2000 steps in "), "2000 steps in %lf s; %lf us", &spent, &taken), 2);
+        print_message("%.3g us a step estimated, %.3g taken\n", estimate, taken);
+    }
     assert_int_equal(steps, 2000);
     assert_true(estimate < 10 * taken && taken < 10 * estimate);
 }

@@ -22,7 +22,8 @@ static void test_walls_feel_their_contacts(void **state)
     (void)state;
     Bed bed;
     char *text = NULL;
-    static const char end[] = ",deep_count,wall0_fx,wall0_fy,wall0_fz,wall1_fx,wall1_fy,wall1_fz\n";
+    static const char end[] = ",deep_count,wall0_fx,wall0_fy,wall0_fz,wall1_fx,wall1_fy,wall1_fz,"
+                              "wall0_tx,wall0_ty,wall0_tz,wall1_tx,wall1_ty,wall1_tz\n";
     bed_create(&bed, 2, 1e-3, 3e-3);
     bed.scene.observe.walls = true;
     assert_near(value_of(&bed, "wall1_fz"), -1e99, 0); /* without contacts nothing is known */
@@ -37,6 +38,11 @@ static void test_walls_feel_their_contacts(void **state)
     assert_near(value_of(&bed, "wall0_fz"), -7, 0);
     assert_near(value_of(&bed, "wall1_fy"), 2, 0);
     assert_near(value_of(&bed, "wall1_fz"), 0, 0);
+    memcpy(bed.scene.walls[0].point, (const double[3]){2, 0, 0}, sizeof(double[3]));
+    bed.snapshot.wall_offset[0] = 1;
+    assert_near(value_of(&bed, "wall0_tx"), 0, 0);
+    assert_near(value_of(&bed, "wall0_ty"), -14 - 0.5, 0);
+    assert_near(value_of(&bed, "wall1_tz"), 0, 0);
     assert_int_equal(oz_file_read(&text, NULL, in_folder("one.csv")), OZ_OK);
     char *line = strchr(text, '\n');
     line[1] = '\0';
@@ -51,6 +57,9 @@ static void test_walls_feel_their_contacts(void **state)
     assert_int_equal(oz_observables_cells(last, &bed.scene), 4);
     oz_observables_name(last, &bed.scene, 3, name);
     assert_string_equal(name, "wall1_fy");
+    assert_int_equal(oz_observables_cells(last + 1, &bed.scene), 2);
+    oz_observables_name(last + 1, &bed.scene, 1, name);
+    assert_string_equal(name, "wall1_tz");
     bed_free(&bed);
 }
 

@@ -167,6 +167,12 @@ static void test_a_sphere_at_rest_is_carried(void **state)
     double force[2][3];
     oz_contact_list_push_walls(&rig.now.contacts, force, 2);
     assert_true(force[0][2] == 0 && force[1][2] == -e->push);
+    static const double about[2][3] = {{0}, {4e-3, 0, 0}};
+    double torque[2][3];
+    oz_contact_list_turn_walls(&rig.now.contacts, about, torque, 2);
+    assert_true(torque[0][0] == 0 && torque[1][2] == 0);
+    assert_true(fabs(torque[1][0] / (-2e-3 * e->push) - 1) < 1e-15);
+    assert_true(fabs(torque[1][1] / (-3e-3 * e->push) - 1) < 1e-15); /* a rounding or two */
     rig_close(&rig);
 }
 

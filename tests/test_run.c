@@ -15,7 +15,7 @@ static const char header[] =
     BEFORE_LAYERS "angle_layer1,angle_layer2,angle_layer3,angle_layer4,"
                   "count_layer1,count_layer2,count_layer3,count_layer4" AFTER_LAYERS;
 static const char listed[] =
-    BEFORE_LAYERS "angle_layer<i>,count_layer<i>" AFTER_LAYERS ",wall<i>_f<x>";
+    BEFORE_LAYERS "angle_layer<i>,count_layer<i>" AFTER_LAYERS ",wall<i>_f<x>,wall<i>_t<x>";
 static const char ledger_header[] =
     ",energy_potential,energy_elastic,energy_dissipated,energy_friction,work_walls,energy_residual";
 static const char final_header[] =

@@ -66,13 +66,41 @@ OzContactSums oz_contact_list_sum(const OzContactList *list)
     return sums;
 }
 
+/* The force on b, N. */
+static void force_of(const OzContactEntry *e, double force[3])
+{
+    for (int k = 0; k < 3; k++) {
+        force[k] = e->push * e->normal[k] + e->tangential[k];
+    }
+}
+
 void oz_contact_list_push_walls(const OzContactList *list, double (*force)[3], int count)
 {
     memset(force, 0, (size_t)count * sizeof *force);
     for (int64_t i = 0; i < list->count; i++) {
         const OzContactEntry *e = &list->entry[i];
+        double own[3];
+        force_of(e, own);
         for (int k = 0; e->b < 0 && k < 3; k++) {
-            force[-1 - e->b][k] += e->push * e->normal[k] + e->tangential[k];
+            force[-1 - e->b][k] += own[k];
+        }
+    }
+}
+
+void oz_contact_list_turn_walls(const OzContactList *list, const double (*about)[3],
+                                double (*torque)[3], int count)
+{
+    memset(torque, 0, (size_t)count * sizeof *torque);
+    for (int64_t i = 0; i < list->count; i++) {
+        const OzContactEntry *e = &list->entry[i];
+        double arm[3], force[3];
+        force_of(e, force);
+        for (int k = 0; e->b < 0 && k < 3; k++) {
+            arm[k] = e->point[k] - about[-1 - e->b][k];
+        }
+        for (int k = 0; e->b < 0 && k < 3; k++) {
+            int l = (k + 1) % 3, m = (k + 2) % 3;
+            torque[-1 - e->b][k] += arm[l] * force[m] - arm[m] * force[l];
         }
     }
 }

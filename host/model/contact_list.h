@@ -24,8 +24,9 @@ typedef enum OzContactKind {
 /* One contact. Forces are of the state in which it was looked at: what the next step starts with.
  */
 typedef struct OzContactEntry {
-    int32_t a, b;           /* grains, a < b; b = -1 - i at wall i of the scene                  */
-    int32_t part_a, part_b; /* trigrains: the elements; rods: 0, at walls part_a tells side and end      */
+    int32_t a, b; /* grains, a < b; b = -1 - i at wall i of the scene                  */
+    int32_t part_a,
+        part_b; /* trigrains: the elements; rods: 0, at walls part_a tells side and end      */
     OzContactKind kind;
     bool slips;           /* the tangential force is all that friction lets it be              */
     double point[3];      /* m, where the force acts; triangles: near the overlap's centroid   */
@@ -67,3 +68,7 @@ OzContactSums oz_contact_list_sum(const OzContactList *list);
 
 /* The force of all grains on each of the first `count` walls, N. */
 void oz_contact_list_push_walls(const OzContactList *list, double (*force)[3], int count);
+
+/* The torque of these forces on each of them about a point of its own (m), N m. */
+void oz_contact_list_turn_walls(const OzContactList *list, const double (*about)[3],
+                                double (*torque)[3], int count);

@@ -28,7 +28,8 @@ typedef struct OzObservation {
     const OzFlow *flow; /* of flat grains, the snapshot seen */
     int index;          /* of the column asked for, and of its repetition */
     OzContactSums contacts;
-    double (*wall_force)[3]; /* N, of all grains on each wall of the scene; NULL: nobody asked */
+    double (*wall_force)[3];  /* N, of all grains on each wall of the scene; NULL: nobody asked */
+    double (*wall_torque)[3]; /* N m, of these about the wall's point, with it                  */
     OzLayer layers[OZ_MEASURE_LAYERS];
     bool has_mean[OZ_TAP_MEANS];
     double mean[OZ_TAP_MEANS]; /* tap means, by the series                  */
@@ -43,7 +44,8 @@ typedef enum OzColumnNeed {
     OZ_COLUMN_ALWAYS,
     OZ_COLUMN_LEDGER,
     OZ_COLUMN_LAYERS,
-    OZ_COLUMN_WALLS
+    OZ_COLUMN_WALLS,
+    OZ_COLUMN_WALL_TURNS
 } OzColumnNeed;
 
 enum { OZ_COLUMN_NAME = 64 };

@@ -118,16 +118,29 @@ static bool overlap_mean(const OzObservation *o, double *value)
     return o->snapshot->has_contacts;
 }
 
-/* Rods in space, trigrains in a plane. */
-static int axes_of(const OzScene *scene)
+/* The axes that a column of walls has a cell for: rods are in space, trigrains in a plane, in which
+ * they turn about z. */
+static const char *axes_of(OzColumnNeed need, const OzScene *scene)
 {
-    return scene->model == OZ_MODEL_RODS ? 3 : 2;
+    return scene->model == OZ_MODEL_RODS ? "xyz" : need == OZ_COLUMN_WALL_TURNS ? "z" : "xy";
+}
+
+static double of_wall(const OzObservation *o, OzColumnNeed need, double (*values)[3])
+{
+    const char *axes = axes_of(need, o->snapshot->scene);
+    int count = (int)strlen(axes);
+    return values[o->index / count][axes[o->index % count] - 'x'];
 }
 
 static bool wall_force(const OzObservation *o, double *value)
 {
-    int axes = axes_of(o->snapshot->scene);
-    *value = o->wall_force[o->index / axes][o->index % axes];
+    *value = of_wall(o, OZ_COLUMN_WALLS, o->wall_force);
+    return o->snapshot->has_contacts;
+}
+
+static bool wall_torque(const OzObservation *o, double *value)
+{
+    *value = of_wall(o, OZ_COLUMN_WALL_TURNS, o->wall_torque);
     return o->snapshot->has_contacts;
 }
 
@@ -266,6 +279,7 @@ static bool residual(const OzObservation *o, double *value)
 #define LEDGER OZ_COLUMN_LEDGER
 #define LAYERS OZ_COLUMN_LAYERS
 #define WALLS  OZ_COLUMN_WALLS
+#define WALL_TURNS OZ_COLUMN_WALL_TURNS
 #define RODS   OZ_COLUMN_RODS
 #define FLAT   OZ_COLUMN_TRIGRAINS
 #define ALL    OZ_COLUMN_ALL
@@ -367,6 +381,8 @@ static const OzColumn list[] = {
      ALL, ALWAYS, true, deep_count, 0},
     {"wall<i>_f<x>", "N", "force of all grains on walls.<i> along an axis, x, y or z, with observe.walls "
      "(trigrains: x and y, a metre deep)", ALL, WALLS, false, wall_force, 0},
+    {"wall<i>_t<x>", "N m", "torque of these forces about the wall's point, which moves with it "
+     "(trigrains: z)", ALL, WALL_TURNS, false, wall_torque, 0},
     {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},
     {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, elastic, 0},
 #define RODS_ROW(NAME, member, column, meaning)                                                    \
@@ -395,21 +411,24 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
     const int cells[] = {[ALWAYS] = 1,
                          [LEDGER] = 1,
                          [LAYERS] = OZ_MEASURE_LAYERS,
-                         [WALLS] = scene->wall_count * axes_of(scene)};
+                         [WALLS] = scene->wall_count * (int)strlen(axes_of(WALLS, scene)),
+                         [WALL_TURNS] = scene->wall_count * (int)strlen(axes_of(WALL_TURNS, scene))};
     return (column->models & 1 << scene->model) != 0 ? cells[column->need] : 0;
 }
 
 int oz_observables_cells(const OzColumn *column, const OzScene *scene)
 {
+    bool of_walls = column->need == WALLS || column->need == WALL_TURNS;
     bool is_there = (column->need != LEDGER || scene->observe.ledger) &&
-                    (column->need != WALLS || scene->observe.walls);
+                    (!of_walls || scene->observe.walls);
     return is_there ? oz_observables_width(column, scene) : 0;
 }
 
 void oz_observables_name(const OzColumn *column, const OzScene *scene, int cell,
                          char name[OZ_COLUMN_NAME])
 {
-    int axes = axes_of(scene), thing = column->need == LAYERS ? cell + 1 : cell / axes;
+    const char *axes = axes_of(column->need, scene);
+    int count = (int)strlen(axes), thing = column->need == LAYERS ? cell + 1 : cell / count;
     const char *at = column->name, *number = strstr(at, "<i>"), *letter = strstr(at, "<x>");
     if (!number) {
         snprintf(name, OZ_COLUMN_NAME, "%s", at);
@@ -417,6 +436,6 @@ void oz_observables_name(const OzColumn *column, const OzScene *scene, int cell,
         snprintf(name, OZ_COLUMN_NAME, "%.*s%d%s", (int)(number - at), at, thing, number + 3);
     } else {
         snprintf(name, OZ_COLUMN_NAME, "%.*s%d%.*s%c", (int)(number - at), at, thing,
-                 (int)(letter - number - 3), number + 3, "xyz"[cell % axes]);
+                 (int)(letter - number - 3), number + 3, axes[cell % count]);
     }
 }
