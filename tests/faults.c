@@ -2,10 +2,10 @@
  * before others by LD_PRELOAD (tests/faults.sh). What libraries call among themselves is left
  * alone: they are not ours to mend.
  *
- * ORZO_FAULT=KIND:N, N from 1, says which; KIND is memory, write, open, sync, rename, opencl, libav
- * or gl. The file $ORZO_FAULT_COUNT then receives "failed" when the call came. With N = 0 it
- * receives, at the end, how many such calls there were. The file $ORZO_FAULT_HELD receives at the
- * end what the program had not given back (leaks.h). */
+ * ORZO_FAULT=KIND:N, N from 1, says which; KIND is memory, write, open, sync, rename, opencl,
+ * libav, gl or hdf5. The file $ORZO_FAULT_COUNT then receives "failed" when the call came. With N =
+ * 0 it receives, at the end, how many such calls there were. The file $ORZO_FAULT_HELD receives at
+ * the end what the program had not given back (leaks.h). */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -308,37 +308,7 @@ RELEASE(clReleaseProgram, cl_program)
 RELEASE(clReleaseCommandQueue, cl_command_queue)
 RELEASE(clReleaseContext, cl_context)
 
-/* libav and EGL come by dlsym: of the functions below another one is handed out. All that they are
- * given fits registers. */
-#define BY_DLSYM(X)                                                                                \
-    X(avcodec_open2)                                                                               \
-    X(avcodec_send_frame)                                                                          \
-    X(avcodec_receive_packet)                                                                      \
-    X(avformat_write_header)                                                                       \
-    X(av_interleaved_write_frame)                                                                  \
-    X(av_write_frame) X(av_write_trailer) X(avio_open) X(avio_open2) X(av_frame_get_buffer)        \
-        X(avformat_alloc_output_context2) X(av_packet_rescale_ts)
-
-/* Of EGL and OSMesa; a GL function comes by the two last ones, and is then missing. */
-#define GL_BY_DLSYM(X)                                                                             \
-    X(eglGetPlatformDisplay)                                                                       \
-    X(eglGetPlatformDisplayEXT)                                                                    \
-    X(eglInitialize)                                                                               \
-    X(eglBindAPI) X(eglChooseConfig) X(eglCreateContext) X(eglMakeCurrent)                         \
-        X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent) X(eglGetProcAddress)                    \
-            X(OSMesaGetProcAddress)
-
-typedef long Any(long, long, long, long, long, long);
-#define STAND_IN_FOR(name, kind, failure)                                                          \
-    static Any *real_##name;                                                                       \
-    static long fault_##name(long a, long b, long c, long d, long e, long f)                       \
-    {                                                                                              \
-        return fails(kind, __builtin_return_address(0)) ? failure : real_##name(a, b, c, d, e, f); \
-    }
-#define STAND_IN(name)    STAND_IN_FOR(name, "libav", -ENOSPC)
-#define GL_STAND_IN(name) STAND_IN_FOR(name, "gl", 0)
-BY_DLSYM(STAND_IN)
-GL_BY_DLSYM(GL_STAND_IN)
+#include "by_name.h"
 
 void *dlsym(void *library, const char *name)
 {
@@ -347,16 +317,5 @@ void *dlsym(void *library, const char *name)
         *(void **)&real = dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.34");
     }
     void *found = real(library, name);
-    void *caller = __builtin_return_address(0);
-    if ((uintptr_t)caller < text_begin || (uintptr_t)caller >= text_end || !found) {
-        return found;
-    }
-#define HAND_OUT(known)                                                                            \
-    if (strcmp(name, #known) == 0) {                                                               \
-        *(void **)&real_##known = found;                                                           \
-        return (void *)fault_##known;                                                              \
-    }
-    BY_DLSYM(HAND_OUT)
-    GL_BY_DLSYM(HAND_OUT)
-    return found;
+    return found && is_ours(__builtin_return_address(0)) ? stand_in(name, found) : found;
 }

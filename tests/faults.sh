@@ -1,14 +1,15 @@
 #!/bin/sh
 # Makes the n-th call of each kind fail (tests/faults.c) in a small run with a movie, for n = 1, 1 + STRIDE, ...: memory,
-# write, open, sync, rename, OpenCL, libav, GL. However it ends: by no signal, in time, with no success claimed that is none,
-# with all memory, files and OpenCL objects given back (tests/leaks.h), and in a folder from which `orzo resume` gives the
-# bytes of the run without a fault, or that can be run again.
+# write, open, sync, rename, HDF5, libav, GL, OpenCL. However it ends: by no signal, in time, with no success claimed that
+# is none, with all memory, files and objects of OpenCL, GL and libav given back (tests/leaks.h), and in a folder from which
+# `orzo resume` gives the bytes of the run without a fault, or, before its first step, that can be run again. The run's last
+# words name what goes on.
 #   tests/faults.sh [STRIDE] [PROGRAM] [KIND]...
 set -u
 root=$(cd "$(dirname "$0")/.." && pwd)
 stride=${1:-1}
 orzo=${2:-$root/build/orzo}
-[ $# -gt 2 ] && shift 2 && kinds=$* || kinds='open sync rename write libav gl memory opencl'
+[ $# -gt 2 ] && shift 2 && kinds=$* || kinds='open sync rename write hdf5 libav gl memory opencl'
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -75,8 +76,10 @@ try() {
     esac
     grep -q . log || complain "$1 $2: status $status and not a word"
     if [ -f cut/state.h5 ] || [ -f cut/state.h5.previous ]; then
+        grep -q 'orzo resume cut' log || complain "$1 $2: no word of how to go on"
         "$orzo" resume cut >log 2>&1 || { complain "$1 $2: cannot be resumed"; return 0; }
     else
+        grep -q 'first step' log && ! grep -q 'the state is not kept' log && complain "$1 $2: leaves no state"
         "$orzo" run scene.yaml -o cut --overwrite >log 2>&1 || { complain "$1 $2: cannot be run again"; return 0; }
     fi
     same || complain "$1 $2: afterwards the numbers are others"

@@ -117,6 +117,18 @@ static void test_a_later_end(void **state)
     expect(2, "beyond the end asked for", "resume shorter --until 0.01");
 }
 
+/* Stopped in its first minute, it goes on from its settled bed with a guard that lets it. */
+static void test_stopped_by_a_guard(void **state)
+{
+    (void)state;
+    expect(1,
+           "(step 0, 0 s), changed, for unchanged it comes to the same stop: orzo resume stopped",
+           "run bed.yaml -o stopped --until 0.06 --no-video --set guards.overlap.stop=0.05");
+    expect(1, "guards.overlap.stop", "resume stopped");
+    expect(0, "guards.overlap.stop 0.05 -> 2", "resume stopped --set guards.overlap.stop=2");
+    assert_same_run("stopped", "bed", true);
+}
+
 /* Other keys change where it goes on, as they would have in a run that was not left. */
 static void test_changed_on_the_way(void **state)
 {
@@ -132,8 +144,12 @@ static void test_changed_on_the_way(void **state)
     expect(0, "", "run dice.yaml -o pair --seeds 1..2 --until 0.0052");
     expect(0, "gravity", "resume pair --set 'gravity=[0, -5]'");
     assert_true(contains("pair/seed_00002/reloads.csv", "2600,0.0052,gravity"));
-    expect(2, "expected a member's folder", "run pair --replay -o pair_again");
-    assert_false(is_there("pair_again"));
+    expect(0, "", "run pair --replay -o pair_again");
+    assert_same_run("pair/seed_00001", "pair_again/seed_00001", false);
+    assert_same_run("pair/seed_00002", "pair_again/seed_00002", false);
+    assert_int_equal(system("mkdir -p none && cp -r pair none && rm none/pair/state_*"), 0);
+    expect(2, "expected --seeds", "run none/pair --replay -o none_again");
+    assert_false(is_there("none_again"));
     expect(0, "", "run pair/seed_00002 --replay -o second");
     assert_same_run("pair/seed_00002", "second", false);
 }
@@ -212,7 +228,7 @@ static void test_one_owner(void **state)
     expect(2, used, "run bed.yaml -o owned --overwrite");
     kill(first, SIGINT);
     assert_int_equal(wait_for(first, 10), 130);
-    assert_true(contains("owned/log.txt", "to go on from the last state: orzo resume owned\n"));
+    assert_true(contains("owned/log.txt", "orzo resume owned\n"));
     expect(0, "goes on", "resume owned");
 }
 
@@ -224,6 +240,7 @@ int main(void)
         cmocka_unit_test(test_trigrains),
         cmocka_unit_test(test_left_while_settling),
         cmocka_unit_test(test_a_later_end),
+        cmocka_unit_test(test_stopped_by_a_guard),
         cmocka_unit_test(test_changed_on_the_way),
         cmocka_unit_test(test_an_ensemble),
         cmocka_unit_test(test_what_is_refused),

@@ -86,20 +86,28 @@ static void assert_reloads(const char *name, const char *expected)
     free(all);
 }
 
-static void run_again(const char *folder)
+/* series.csv and final.csv of the same member ("": a plain run) in two folders. */
+static void assert_repeated(const char *folder, const char *again, const char *member)
 {
-    char command[300], one[100], other[100];
-    const char *slash = strrchr(folder, '/'), *own = slash ? slash + 1 : folder;
-    snprintf(command, sizeof command, "run %s --replay -o again_%s --no-video", folder, own);
-    assert_int_equal(end_of(start(command)), 0);
     static const char *const names[] = {"series.csv", "final.csv"};
+    char one[200], other[200];
     for (int i = 0; i < 2; i++) {
-        snprintf(one, sizeof one, "%s/%s", folder, names[i]);
-        snprintf(other, sizeof other, "again_%s/%s", own, names[i]);
+        snprintf(one, sizeof one, "%s/%s/%s", folder, member, names[i]);
+        snprintf(other, sizeof other, "%s/%s/%s", again, member, names[i]);
         if (!same_files(one, other)) {
             fail_msg("%s and %s differ", one, other);
         }
     }
+}
+
+static void run_again(const char *folder)
+{
+    char command[300], again[100];
+    const char *slash = strrchr(folder, '/');
+    snprintf(again, sizeof again, "again_%s", slash ? slash + 1 : folder);
+    snprintf(command, sizeof command, "run %s --replay -o %s --no-video", folder, again);
+    assert_int_equal(end_of(start(command)), 0);
+    assert_repeated(folder, again, "");
 }
 
 /* The bed, endless for a test, with a friction and a step of its own. */
@@ -351,6 +359,41 @@ static void test_replay_of_others(void **state)
     run_again("flat");
 }
 
+/* Those that are side by side take a change at steps of their own. */
+static void test_replay_of_members(void **state)
+{
+    (void)state;
+    write_bed("bed.yaml", "0.1", "2e-5");
+    pid_t child = start("run bed.yaml --watch -o several --set time.taps=1000000 --no-video "
+                        "--seeds 1..2 --set sweep={\"contact.restitution\":[0.4,0.6]}");
+    await("said", "first step");
+    write_bed("bed.yaml", "0.4", "2e-5");
+    await("said", "contact.friction 0.1 -> 0.4");
+    write_bed("bed.yaml", "0", "1e-5");
+    await("said", "time.step 2e-05 -> 1e-05");
+    rest(200);
+    kill(child, SIGTERM);
+    assert_int_equal(end_of(child), 130);
+    assert_int_equal(end_of(start("run several --replay -o again_several --no-video")), 0);
+    static const char *const members[] = {
+        "restitution_0.4_seed_00001", "restitution_0.4_seed_00002", "restitution_0.6_seed_00001",
+        "restitution_0.6_seed_00002"};
+    for (int m = 0; m < 4; m++) {
+        assert_repeated("several", "again_several", members[m]);
+        char reloads[100];
+        snprintf(reloads, sizeof reloads, "again_several/%s/reloads.csv", members[m]);
+        assert_reloads(reloads, "key,old,new\n"
+                                "contact.friction,0.1,0.4\n"
+                                "time.step,2e-05,1e-05\n"
+                                "contact.friction,0.4,0\n"
+                                "end,,done\n");
+    }
+    assert_int_equal(system("rm several/state_*"), 0);
+    assert_int_equal(
+        end_of(start("run several/restitution_0.6_seed_00002 --replay -o one --no-video")), 0);
+    assert_true(same_files("one/final.csv", "several/restitution_0.6_seed_00002/final.csv"));
+}
+
 /* Interrupted after a change of taps and of kernels, and gone on with from its last state: the run
  * that makes the same changes without a stop has the same bytes. */
 static void test_resumed(void **state)
@@ -425,6 +468,7 @@ int main(void)
         cmocka_unit_test(test_large),
         cmocka_unit_test(test_signal),
         cmocka_unit_test(test_replay_of_others),
+        cmocka_unit_test(test_replay_of_members),
         cmocka_unit_test(test_members),
         cmocka_unit_test(test_resumed),
     };

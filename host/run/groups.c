@@ -45,7 +45,30 @@ static OzStatus load_member(OzGroups *groups, OzOutputs *member)
 {
     OZ_PASS(oz_members_name(&groups->plan, member->number, &member->name));
     OZ_PASS(oz_members_load(&groups->plan, member->number, &member->scene, &member->grains));
-    return oz_from_check(&groups->plan.from, member->name, &member->scene, &member->grains);
+    OZ_PASS(oz_from_check(&groups->plan.from, member->name, &member->scene, &member->grains));
+    oz_replay_free(&groups->loaded_replay);
+    return groups->options->replay ? oz_replay_read(&groups->loaded_replay,
+                                                    groups->options->replay_folder, member->name)
+                                   : OZ_OK;
+}
+
+/* Whether there is nothing to do of a member: a state has it, or the run that is repeated never
+ * had. */
+static OzStatus is_left_out(const OzGroups *groups, int64_t number, bool *left_out)
+{
+    OzStatus status = OZ_OK;
+    char *name = NULL;
+    *left_out = has_begun(groups, number);
+    if (groups->options->replay && !*left_out) {
+        OZ_TRY(oz_members_name(&groups->plan, number, &name));
+        *left_out = !oz_replay_has(groups->options->replay_folder, name);
+        if (*left_out) {
+            oz_log_line("%s had not begun in %s", name, groups->options->replay_folder);
+        }
+    }
+done:
+    free(name);
+    return status;
 }
 
 /* The plan's next member that can be loaded into *loaded; NULL when there is none left. A plain
@@ -54,9 +77,11 @@ static OzStatus load_next(OzGroups *groups, OzOutputs **loaded)
 {
     OzStatus status = OZ_OK;
     OzOutputs *member = NULL;
+    bool left_out = false;
     *loaded = NULL;
     while (!*loaded && groups->loaded_count < groups->plan.count && !oz_interrupt_asked()) {
-        if (has_begun(groups, groups->loaded_count)) {
+        OZ_TRY(is_left_out(groups, groups->loaded_count, &left_out));
+        if (left_out) {
             groups->loaded_count++;
             continue;
         }
@@ -113,6 +138,7 @@ static bool joins(const OzGroups *groups, const OzOutputs *member)
     OzMember a = {&first->scene, &first->grains}, b = {&member->scene, &member->grains};
     OzSchedule events = oz_schedule_create(&member->scene, groups->options->until);
     return oz_schedule_agrees(&groups->schedule, &events) &&
+           oz_replay_agrees(&groups->replay, &groups->loaded_replay) &&
            oz_batch_fit_agrees(groups->device, &a, &b);
 }
 
@@ -123,6 +149,9 @@ static OzStatus gather_new(OzGroups *groups)
     groups->members[0] = groups->loaded;
     groups->member_count = 1;
     groups->loaded = NULL;
+    oz_replay_free(&groups->replay);
+    groups->replay = groups->loaded_replay;
+    groups->loaded_replay = (OzReplay){0};
     groups->schedule = oz_schedule_create(&groups->members[0]->scene, groups->options->until);
     OZ_PASS(load_next(groups, &groups->loaded));
     while (groups->loaded && groups->member_count < groups->most && joins(groups, groups->loaded)) {
@@ -188,6 +217,8 @@ void oz_groups_free(OzGroups *groups)
 {
     oz_outputs_free(groups->loaded);
     oz_members_free(&groups->plan);
+    oz_replay_free(&groups->replay);
+    oz_replay_free(&groups->loaded_replay);
     free(groups->members);
     free(groups->outcomes);
     *groups = (OzGroups){0};

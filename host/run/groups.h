@@ -6,6 +6,7 @@
 #include "observe/schedule.h"
 #include "run/members.h"
 #include "run/outputs.h"
+#include "run/replay.h"
 #include "run/resume.h"
 
 /* Zeroed is valid. */
@@ -16,8 +17,10 @@ typedef struct OzGroups {
     OzMembers plan;
     OzOutputs **members; /* of the group in hand; whoever ends it frees them */
     int64_t member_count;
-    OzSchedule schedule;  /* of the group                                        */
-    OzOutputs *loaded;    /* the next group's first, NULL at the end             */
+    OzSchedule schedule; /* of the group                                        */
+    OzOutputs *loaded;   /* the next group's first, NULL at the end             */
+    OzReplay replay,
+        loaded_replay;    /* of a run that is repeated: the group's changes, the next one's */
     int64_t loaded_count; /* members of the plan that were loaded or could not be */
     int64_t most;         /* that there is room for at a time; 0: not known yet  */
     OzOutcome *outcomes;  /* of each member of the plan                          */

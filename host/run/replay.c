@@ -4,7 +4,6 @@
 #include "base/file.h"
 #include "base/memory.h"
 
-#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,41 +103,67 @@ OzStatus oz_replay_parse(OzReplay *replay, const char *path, char *text)
     return OZ_OK;
 }
 
-/* Members of an ensemble keep their changes in their own folders. */
+/* Members are of seeds, which the folder's scene does not tell. */
 static OzStatus refuse_members(const char *folder)
 {
     OzStatus status = OZ_OK;
-    glob_t found = {0};
-    char *pattern = NULL;
-    OZ_TRY(oz_file_join(&pattern, folder, "*/reloads.csv"));
-    if (glob(pattern, 0, NULL, &found) == 0) {
+    char *members = NULL;
+    OZ_TRY(oz_file_join(&members, folder, "members.csv"));
+    if (oz_file_exists(members)) {
         status = oz_status_fail(OZ_ERR_INPUT,
-                                "%s: members of this run were changed while they ran (%s), which "
-                                "is repeated of one at a time; expected a member's folder",
-                                folder, found.gl_pathv[0]);
+                                "%s: members of seeds that no state there tells; expected --seeds "
+                                "as that run was given them, or a member's folder",
+                                folder);
     }
 done:
-    globfree(&found);
-    free(pattern);
+    free(members);
     return status;
 }
 
-OzStatus oz_replay_read(OzReplay *replay, const char *folder)
+OzStatus oz_replay_read(OzReplay *replay, const char *folder, const char *member)
 {
     OzStatus status = OZ_OK;
-    char *path = NULL, *text = NULL;
+    char *own = NULL, *path = NULL, *text = NULL;
     *replay = (OzReplay){0};
-    OZ_TRY(oz_file_join(&path, folder, "reloads.csv"));
+    OZ_TRY(oz_file_join(&own, folder, member));
+    OZ_TRY(oz_file_join(&path, own, "reloads.csv"));
     if (oz_file_exists(path)) {
         OZ_TRY(oz_file_read(&text, NULL, path));
         OZ_TRY(oz_replay_parse(replay, path, text));
-    } else {
+    } else if (!member[0]) {
         OZ_TRY(refuse_members(folder));
     }
 done:
+    free(own);
     free(path);
     free(text);
     return status;
+}
+
+bool oz_replay_has(const char *folder, const char *member)
+{
+    char *own = NULL;
+    bool has = !member[0] || (oz_file_join(&own, folder, member) == OZ_OK && oz_file_exists(own));
+    free(own);
+    return has;
+}
+
+static bool change_agrees(const OzReplayChange *a, const OzReplayChange *b)
+{
+    bool agrees = a->step == b->step && a->count == b->count;
+    for (int k = 0; agrees && k < a->count; k++) {
+        agrees = strcmp(a->settings[k], b->settings[k]) == 0;
+    }
+    return agrees;
+}
+
+bool oz_replay_agrees(const OzReplay *a, const OzReplay *b)
+{
+    bool agrees = a->count == b->count && a->is_cut == b->is_cut && a->end == b->end;
+    for (int i = 0; agrees && i < a->count; i++) {
+        agrees = change_agrees(&a->changes[i], &b->changes[i]);
+    }
+    return agrees;
 }
 
 void oz_replay_free(OzReplay *replay)

@@ -21,10 +21,17 @@ typedef struct OzReplay {
     bool is_cut; /* it was                                   */
 } OzReplay;
 
-/* Of the run in this folder; without a reloads.csv nothing was changed. Refuses with OZ_ERR_INPUT,
- * at file and line, what no run has written, and an ensemble whose members were changed. The caller
- * frees, also on failure. */
-OzStatus oz_replay_read(OzReplay *replay, const char *folder);
+/* Of the run in this folder, or of its member of that name ("": a plain run); without a reloads.csv
+ * nothing was changed. Refuses with OZ_ERR_INPUT, at file and line, what no run has written, and
+ * the folder of several members where a plain run is asked for. The caller frees, also on failure.
+ */
+OzStatus oz_replay_read(OzReplay *replay, const char *folder, const char *member);
+
+/* Whether the member of that name had begun; a plain run had. */
+bool oz_replay_has(const char *folder, const char *member);
+
+/* Whether both make the same changes at the same steps, and end alike. */
+bool oz_replay_agrees(const OzReplay *a, const OzReplay *b);
 
 /* The same of a text in memory, which is cut up; path serves for messages. */
 OzStatus oz_replay_parse(OzReplay *replay, const char *path, char *text);

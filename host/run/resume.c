@@ -81,7 +81,7 @@ done:
     return status;
 }
 
-bool oz_resume_has_state(const char *folder)
+static bool has_state(const char *folder)
 {
     glob_t found = {0};
     bool has = list_paths(&found, folder) == OZ_OK;
@@ -129,11 +129,29 @@ done:
     return status;
 }
 
+void oz_resume_say(const char *folder, OzStatus ended)
+{
+    OzResume resume = {0};
+    if (!has_state(folder)) {
+        oz_log_line("no state was left to go on from; expected that it is run again (--overwrite)");
+    } else if (read_states(&resume, folder) != OZ_OK) {
+        oz_log_line("%s", oz_status_text());
+    } else {
+        const OzCheckpointHead *head = &resume.heads[0];
+        bool guard = ended == OZ_ERR_BLOWUP;
+        oz_log_line("to go on from the last state (step %lld, %.9g s%s)%s: orzo resume %s%s",
+                    (long long)head->step, head->time, head->settles ? " of settling" : "",
+                    guard ? ", changed, for unchanged it comes to the same stop" : "", folder,
+                    guard ? " --set KEY=VALUE" : "");
+    }
+    oz_resume_free(&resume);
+}
+
 OzStatus oz_resume_take_seeds(OzOptions *options, const char *folder)
 {
     OzStatus status = OZ_OK;
     OzResume resume = {0};
-    if (options->has_seeds || !oz_resume_has_state(folder)) {
+    if (options->has_seeds || !has_state(folder)) {
         return OZ_OK;
     }
     OZ_TRY(read_states(&resume, folder));

@@ -31,8 +31,9 @@ void oz_resume_free(OzResume *resume);
  * fine. */
 OzStatus oz_resume_change(OzResume *resume, OzReload *reload);
 
-/* Whether there is a state to go on from in a run's folder. */
-bool oz_resume_has_state(const char *folder);
+/* Says in the log how to go on with the run in the folder, which ended so: from the last state, of
+ * which step and time are said, or, without one, by running it again. */
+void oz_resume_say(const char *folder, OzStatus ended);
 
 /* Takes the seeds of the run in a folder, where its states tell any and options has none. */
 OzStatus oz_resume_take_seeds(OzOptions *options, const char *folder);

@@ -12,7 +12,6 @@
 #include "run/from_keep.h"
 #include "run/groups.h"
 #include "run/pace.h"
-#include "run/replay.h"
 #include "run/swap.h"
 #include "run/watch.h"
 #include "run/worker_state.h"
@@ -37,7 +36,6 @@ typedef struct Run {
     int worker_count;
     OzReload *reload; /* what asks for changes           */
     OzWatch *watch;   /* of the scene's files            */
-    OzReplay replay;  /* of the run that is repeated     */
     atomic_bool ended;
     double started; /* wall clock */
 } Run;
@@ -145,9 +143,6 @@ static OzStatus open_run(Run *run)
         return oz_status_fail(run->groups.loss, "%s: no member can be run",
                               run->groups.plan.scene.path);
     }
-    if (options->replay) {
-        OZ_PASS(oz_replay_read(&run->replay, options->replay_folder));
-    }
     OZ_PASS(open_live(run));
     OZ_PASS(open_folder(run));
     OZ_PASS(begin_log(run));
@@ -214,7 +209,7 @@ static OzStatus open_workers(Run *run)
                              .serve = k == 0 ? run->serve : NULL,
                              .started = run->started,
                              .reload = run->reload,
-                             .replay = run->options->replay ? &run->replay : NULL,
+                             .replay = run->options->replay ? &run->groups.replay : NULL,
                              .first = first,
                              .pace = oz_pace_of(run->options, &run->groups.members[0]->scene),
                              .ended = &run->ended};
@@ -346,7 +341,6 @@ done:
 static void close_run(Run *run)
 {
     oz_reload_free(run->reload);
-    oz_replay_free(&run->replay);
     oz_render_queue_free(run->render_queue);
     oz_device_close(&run->device);
     oz_groups_free(&run->groups);
@@ -391,8 +385,8 @@ done:
     if (status != OZ_OK) {
         oz_log_line("%s", oz_status_text());
     }
-    if (status != OZ_OK && run.owned.path && oz_resume_has_state(run.owned.path)) {
-        oz_log_line("to go on from the last state: orzo resume %s", run.owned.path);
+    if (status != OZ_OK && status != OZ_ERR_INPUT && run.owned.path) {
+        oz_resume_say(run.owned.path, status);
     }
     oz_watch_end(run.watch); /* which tells the page */
     oz_serve_close(run.serve, status);

@@ -264,18 +264,29 @@ bool oz_swap_is_at_end(const OzWorker *worker)
            oz_sim_step(worker->sim) >= replay->end;
 }
 
+/* One member's next scene in a run that is repeated, and what it asks of the simulation. */
+static OzStatus prepare(const OzWorker *worker, int64_t m, const OzReplayChange *change,
+                        OzScene *next, OzTakeOver *how)
+{
+    const OzOutputs *member = worker->members[m];
+    OZ_PASS(oz_scene_change(next, &member->scene, change->settings, change->count));
+    return oz_take_over_compare(how, worker->device, &member->grains, &member->scene, next);
+}
+
 /* As the run that is repeated did it, built while it waits. */
 static OzStatus repeat(OzWorker *worker, const OzReplayChange *change)
 {
     OzStatus status = OZ_OK;
     OzScene *next = NULL;
     OzSwap *swap = NULL;
-    OzTakeOver how = OZ_TAKE_OVER_APPLY;
-    const OzOutputs *member = worker->members[0];
-    OZ_TRY(OZ_NEW(&next, 1));
-    OZ_TRY(oz_scene_change(next, &member->scene, change->settings, change->count));
-    OZ_TRY(oz_take_over_compare(&how, worker->device, &member->grains, &member->scene, next));
-    if (how == OZ_TAKE_OVER_REBUILD) {
+    bool rebuilds = false;
+    OZ_TRY(OZ_NEW(&next, worker->member_count));
+    for (int64_t m = 0; m < worker->member_count; m++) {
+        OzTakeOver how = OZ_TAKE_OVER_APPLY;
+        OZ_TRY(prepare(worker, m, change, &next[m], &how));
+        rebuilds = rebuilds || how == OZ_TAKE_OVER_REBUILD;
+    }
+    if (rebuilds) {
         OZ_TRY(make_swap(&swap, worker, next));
         build(swap);
         OZ_TRY(swap->status);
@@ -283,8 +294,8 @@ static OzStatus repeat(OzWorker *worker, const OzReplayChange *change)
     OZ_TRY(carry_out(worker, next, swap));
 done:
     free_swap(swap);
-    if (next) {
-        oz_scene_free(next);
+    for (int64_t m = 0; next && m < worker->member_count; m++) {
+        oz_scene_free(&next[m]);
     }
     free(next);
     return status;

@@ -121,7 +121,7 @@ static OzStatus settle(OzWorker *worker)
     }
     OZ_AFTER(status, drop_stopped(worker));
     if (status == OZ_ERR_INTERRUPTED) {
-        OZ_AFTER(status, oz_worker_state_save_at_end(worker));
+        OZ_AFTER(status, oz_worker_state_save_if_wanted(worker));
     }
     if (status == OZ_OK && seconds > 0) {
         const char *first = worker->members[0]->name;
@@ -237,7 +237,7 @@ static OzStatus look_at_event(OzWorker *worker, int64_t *open)
         OZ_PASS(oz_worker_state_save(worker, true));
     }
     if (worker->schedule.over) {
-        OZ_PASS(oz_worker_state_save_at_end(worker));
+        OZ_PASS(oz_worker_state_save_if_wanted(worker));
     }
     OZ_PASS(look(worker, worker->event_due, open));
     worker->is_due = false;
@@ -263,7 +263,7 @@ static OzStatus walk(OzWorker *worker)
     }
 done:
     if (status == OZ_ERR_INTERRUPTED) {
-        OZ_AFTER(status, oz_worker_state_save_at_end(worker));
+        OZ_AFTER(status, oz_worker_state_save_if_wanted(worker));
     }
     worker->spent = oz_clock_now() - worker->first_step;
     oz_log_progress(" ");
@@ -314,11 +314,20 @@ static void end_all(OzWorker *worker, OzStatus *status)
     }
 }
 
+/* Up to the first step. A state of it is there for whatever stops the run before the next one. */
+static OzStatus begin(OzWorker *worker)
+{
+    bool settles = !oz_settle_is_over(worker->sim);
+    if (settles) {
+        OZ_PASS(settle(worker));
+        OZ_PASS(tell_contacts(worker));
+    }
+    return settles || !worker->members[0]->goes_on ? oz_worker_state_save_if_wanted(worker) : OZ_OK;
+}
+
 static void run_one(OzWorker *worker)
 {
-    bool begins = !oz_settle_is_over(worker->sim);
-    OzStatus status = begins ? settle(worker) : OZ_OK;
-    status = status == OZ_OK && begins ? tell_contacts(worker) : status;
+    OzStatus status = begin(worker);
     status = status == OZ_OK ? walk(worker) : status;
     end_all(worker, &status);
     /* All its members were stopped: others may do better. */

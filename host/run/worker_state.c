@@ -96,7 +96,7 @@ OzStatus oz_worker_state_save_if_due(OzWorker *worker)
     return due ? oz_worker_state_save(worker, false) : OZ_OK;
 }
 
-OzStatus oz_worker_state_save_at_end(OzWorker *worker)
+OzStatus oz_worker_state_save_if_wanted(OzWorker *worker)
 {
     bool wanted = worker->checkpoint && worker->checkpoint->every > 0;
     return wanted ? oz_worker_state_save(worker, false) : OZ_OK;

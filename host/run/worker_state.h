@@ -16,6 +16,6 @@ OzStatus oz_worker_state_take(OzWorker *worker, OzState *state, const char *devi
  * file cannot be written the run goes on, unless the scene has asked for it. */
 OzStatus oz_worker_state_save(OzWorker *worker, bool kept);
 
-/* When the time for one has come; at an ending, if states are wanted at all. */
+/* When the time for one has come; at a beginning or an ending, if states are wanted at all. */
 OzStatus oz_worker_state_save_if_due(OzWorker *worker);
-OzStatus oz_worker_state_save_at_end(OzWorker *worker);
+OzStatus oz_worker_state_save_if_wanted(OzWorker *worker);
