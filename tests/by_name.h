@@ -42,7 +42,6 @@ typedef long Any(WORDS);
     X(eglInitialize, "gl", 0)                                                                      \
     X(eglBindAPI, "gl", 0)                                                                         \
     X(eglChooseConfig, "gl", 0)                                                                    \
-    X(eglMakeCurrent, "gl", 0)                                                                     \
     X(OSMesaMakeCurrent, "gl", 0)                                                                  \
     X(glGetError, "gl", OUT_OF_GL)                                                                 \
     X(glCheckFramebufferStatus, "gl", 0)                                                           \
@@ -77,7 +76,6 @@ typedef long Any(WORDS);
 #define TAKING(X)                                                                                  \
     X(avformat_free_context, a)                                                                    \
     X(sws_freeContext, a)                                                                          \
-    X(eglDestroyContext, b)                                                                        \
     X(OSMesaDestroyContext, a)
 #define TAKING_AT(X)                                                                               \
     X(av_frame_free)                                                                               \
@@ -183,6 +181,28 @@ GL_BUILT(GL_BUILD)
 /* A function of the real library by name, or ours before it. */
 static void *stand_in(const char *name, void *found);
 
+/* A context that cannot be made current takes its objects with it when it goes. */
+static atomic_int is_lost;
+static Any *real_eglMakeCurrent, *real_eglDestroyContext;
+
+static long other_eglMakeCurrent(WORDS)
+{
+    int failing = fails("gl", __builtin_return_address(0));
+    if (failing) {
+        atomic_store(&is_lost, 1);
+    }
+    return failing ? 0 : real_eglMakeCurrent(PASSED);
+}
+
+static long other_eglDestroyContext(WORDS)
+{
+    let_go((void *)b);
+    if (atomic_load(&is_lost)) {
+        let_go_numbered();
+    }
+    return real_eglDestroyContext(PASSED);
+}
+
 /* Of EGL and OSMesa: a function that it does not find is missing. */
 static Any *real_eglGetProcAddress, *real_OSMesaGetProcAddress;
 
@@ -222,6 +242,8 @@ static void *stand_in(const char *name, void *found)
     TAKING_AT(ROW)
     GL_NUMBERED(ROW_NUMBERED)
     GL_BUILT(ROW_BUILT)
+    ROW(eglMakeCurrent)
+    ROW(eglDestroyContext)
     ROW(eglGetProcAddress)
     ROW(OSMesaGetProcAddress)
     return found;

@@ -1,5 +1,6 @@
-/* What the program holds: memory, files and OpenCL objects that it was given and has not given
- * back, with the place in it that asked. For tests/faults.c, which says of each call what it gives.
+/* What the program holds: memory, files and objects of libraries that it was given and has not
+ * given back, with the place in it that asked. For tests/faults.c, which says of each call what it
+ * gives.
  */
 #pragma once
 
@@ -56,6 +57,18 @@ static inline void let_go(const void *what)
     }
     if (what && held[i].what == what) {
         held[i].what = gone;
+    }
+    unlock_held();
+}
+
+/* All whose upper sixteen bits are above 0, which memory's are not. */
+static inline void let_go_numbered(void)
+{
+    lock_held();
+    for (size_t i = 0; i < HELD_MOST; i++) {
+        if ((uintptr_t)held[i].what >> 48) {
+            held[i].what = gone;
+        }
     }
     unlock_held();
 }

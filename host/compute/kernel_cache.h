@@ -1,5 +1,6 @@
-/* The folder in which PoCL keeps the kernels that it has built. Where PoCL cannot write it, PoCL finds
- * no device at all or ends the process. */
+/* What drivers are told of building kernels, by their environment: where PoCL keeps those that it
+ * has built (where it cannot write, it finds no device at all or ends the process), and that
+ * Intel's for CPUs does not vectorize them, unless CL_CONFIG_CPU_VECTORIZER_MODE says otherwise. */
 #pragma once
 
 /* To be called before the first OpenCL call; later calls do nothing. Where PoCL's own choice

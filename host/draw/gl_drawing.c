@@ -18,10 +18,12 @@ void oz_gl_drawing_free(OzGlDrawing *drawing)
         oz_targets_free(&drawing->targets);
         oz_capsules_free(&drawing->capsules);
         oz_mesh_gl_free(&drawing->mesh_gl);
-        oz_polygons_free(&drawing->polygons);
         gl->DeleteProgram(drawing->compose);
         gl->DeleteVertexArrays(1, &drawing->no_vertices);
+    } else {
+        drawing->polygons.gl = NULL; /* OpenGL's own goes with its context */
     }
+    oz_polygons_free(&drawing->polygons);
     oz_container_free(&drawing->container);
     oz_context_free(&drawing->context);
     memset(drawing, 0, sizeof *drawing);
