@@ -1,130 +1,6 @@
 /* A running scene is changed as people do it: files are edited in every way that editors have, and
  * what the run says, notes and computes of it is looked at. ORZO_NEEDS_DEVICE. */
-#include "program.h"
-#include "run_bed.h"
-
-#include <fcntl.h>
-#include <sys/prctl.h>
-
-/* Trigrains of test_state, in a drum-like vessel that is shaken. */
-static const char flat[] =
-    "model: trigrains\n"
-    "time: {step: 4e-6, duration: 100}\n"
-    "gravity: [20, -200]\n"
-    "integrator: gear4\n"
-    "grains: [{kind: random, count: 12, shape: polygon, corners: [3, 5], radius: [1e-3, 2e-3]}]\n"
-    "walls:\n"
-    "  - {kind: vessel, width: 15e-3, height: 3e-2, motion: {frequency: 500, "
-    "acceleration_ratio: 1}}\n"
-    "observe: {ledger: true, interval: 1e-3}\n";
-
-static pid_t start(const char *arguments)
-{
-    char *words[32] = {(char *)(uintptr_t)ORZO_PROGRAM}, copy[512], *rest = copy;
-    int count = 1;
-    snprintf(copy, sizeof copy, "%s", arguments);
-    for (char *word = strsep(&rest, " "); word && count < 31; word = strsep(&rest, " ")) {
-        words[count++] = word;
-    }
-    remove("said");
-    pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves no run behind */
-        int said = open("said", O_CREAT | O_WRONLY | O_TRUNC, 0644);
-        dup2(said, 1);
-        dup2(said, 2);
-        execv(ORZO_PROGRAM, words);
-        _exit(99);
-    }
-    return child;
-}
-
-static int end_of(pid_t child)
-{
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void rest(int milliseconds)
-{
-    usleep((useconds_t)milliseconds * 1000);
-}
-
-/* Waits until a file holds the text; a run that is slow to start has three minutes. */
-static void await(const char *name, const char *text)
-{
-    for (int i = 0; i < 9000; i++) {
-        if (is_there(name) && contains(name, text)) {
-            return;
-        }
-        rest(20);
-    }
-    char *all = is_there(name) ? read_file(name, NULL) : NULL;
-    fail_msg("%s never held \"%s\":\n%s", name, text, all ? all : "(no file)");
-}
-
-/* The columns key, old and new of reloads.csv, which do not depend on how fast the machine is. */
-static void assert_reloads(const char *name, const char *expected)
-{
-    char *all = read_file(name, NULL), *rest_of = all, told[4096] = "";
-    for (char *line = strsep(&rest_of, "\n"); line && *line; line = strsep(&rest_of, "\n")) {
-        char *key = strchr(strchr(line, ',') + 1, ',') + 1, *last = strrchr(line, ',');
-        *last = '\0';
-        size_t used = strlen(told);
-        snprintf(told + used, sizeof told - used, "%s\n", key);
-    }
-    assert_string_equal(told, expected);
-    free(all);
-}
-
-/* series.csv and final.csv of the same member ("": a plain run) in two folders. */
-static void assert_repeated(const char *folder, const char *again, const char *member)
-{
-    static const char *const names[] = {"series.csv", "final.csv"};
-    char one[200], other[200];
-    for (int i = 0; i < 2; i++) {
-        snprintf(one, sizeof one, "%s/%s/%s", folder, member, names[i]);
-        snprintf(other, sizeof other, "%s/%s/%s", again, member, names[i]);
-        if (!same_files(one, other)) {
-            fail_msg("%s and %s differ", one, other);
-        }
-    }
-}
-
-static void run_again(const char *folder)
-{
-    char command[300], again[100];
-    const char *slash = strrchr(folder, '/');
-    snprintf(again, sizeof again, "again_%s", slash ? slash + 1 : folder);
-    snprintf(command, sizeof command, "run %s --replay -o %s --no-video", folder, again);
-    assert_int_equal(end_of(start(command)), 0);
-    assert_repeated(folder, again, "");
-}
-
-/* The bed, endless for a test, with a friction and a step of its own. */
-static void write_bed(const char *name, const char *friction, const char *step)
-{
-    char text[sizeof bed + 100];
-    snprintf(text, sizeof text, "%s", bed);
-    char *taps = strstr(text, "taps: 2}"), *at = strstr(text, "2e-5");
-    memcpy(taps, "taps: 9}", 8);
-    memcpy(at, step, 4);
-    char *contact = strstr(text, "restitution: 0.5}");
-    char tail[sizeof text];
-    snprintf(tail, sizeof tail, "restitution: 0.5, friction: %s}%s", friction,
-             contact + strlen("restitution: 0.5}"));
-    *contact = '\0';
-    write_file(name, "%s%s", text, tail);
-}
+#include "edited_run.h"
 
 static int count_said(const char *text)
 {
@@ -331,69 +207,6 @@ static void test_signal(void **state)
     run_again("told");
 }
 
-/* In double, and of trigrains, whose state is counted in steps. */
-static void test_replay_of_others(void **state)
-{
-    (void)state;
-    write_bed("bed.yaml", "0.1", "2e-5");
-    pid_t child = start("run bed.yaml --watch -o double --set time.taps=1000000 --no-video "
-                        "--precision double");
-    await("said", "first step");
-    write_bed("bed.yaml", "0.4", "1e-5");
-    await("said", "time.step 2e-05 -> 1e-05");
-    kill(child, SIGTERM);
-    assert_int_equal(end_of(child), 130);
-    run_again("double");
-    write_file("flat.yaml", "%s", flat);
-    child = start("run flat.yaml --watch -o flat --no-video");
-    await("said", "first step");
-    char *text = read_file("flat.yaml", NULL);
-    memcpy(strstr(text, "-200"), "-150", 4);
-    memcpy(strstr(text, "4e-6"), "3e-6", 4);
-    write_file("flat.yaml", "%s", text);
-    await("said", "gravity [20, -200] -> [20, -150]");
-    free(text);
-    rest(200);
-    kill(child, SIGTERM);
-    assert_int_equal(end_of(child), 130);
-    run_again("flat");
-}
-
-/* Those that are side by side take a change at steps of their own. */
-static void test_replay_of_members(void **state)
-{
-    (void)state;
-    write_bed("bed.yaml", "0.1", "2e-5");
-    pid_t child = start("run bed.yaml --watch -o several --set time.taps=1000000 --no-video "
-                        "--seeds 1..2 --set sweep={\"contact.restitution\":[0.4,0.6]}");
-    await("said", "first step");
-    write_bed("bed.yaml", "0.4", "2e-5");
-    await("said", "contact.friction 0.1 -> 0.4");
-    write_bed("bed.yaml", "0", "1e-5");
-    await("said", "time.step 2e-05 -> 1e-05");
-    rest(200);
-    kill(child, SIGTERM);
-    assert_int_equal(end_of(child), 130);
-    assert_int_equal(end_of(start("run several --replay -o again_several --no-video")), 0);
-    static const char *const members[] = {
-        "restitution_0.4_seed_00001", "restitution_0.4_seed_00002", "restitution_0.6_seed_00001",
-        "restitution_0.6_seed_00002"};
-    for (int m = 0; m < 4; m++) {
-        assert_repeated("several", "again_several", members[m]);
-        char reloads[100];
-        snprintf(reloads, sizeof reloads, "again_several/%s/reloads.csv", members[m]);
-        assert_reloads(reloads, "key,old,new\n"
-                                "contact.friction,0.1,0.4\n"
-                                "time.step,2e-05,1e-05\n"
-                                "contact.friction,0.4,0\n"
-                                "end,,done\n");
-    }
-    assert_int_equal(system("rm several/state_*"), 0);
-    assert_int_equal(
-        end_of(start("run several/restitution_0.6_seed_00002 --replay -o one --no-video")), 0);
-    assert_true(same_files("one/final.csv", "several/restitution_0.6_seed_00002/final.csv"));
-}
-
 /* Interrupted after a change of taps and of kernels, and gone on with from its last state: the run
  * that makes the same changes without a stop has the same bytes. */
 static void test_resumed(void **state)
@@ -461,16 +274,10 @@ static void test_members(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),
-        cmocka_unit_test(test_base_and_motion),
-        cmocka_unit_test(test_endless),
-        cmocka_unit_test(test_ledger),
-        cmocka_unit_test(test_large),
-        cmocka_unit_test(test_signal),
-        cmocka_unit_test(test_replay_of_others),
-        cmocka_unit_test(test_replay_of_members),
-        cmocka_unit_test(test_members),
-        cmocka_unit_test(test_resumed),
+        cmocka_unit_test(test_edits),   cmocka_unit_test(test_base_and_motion),
+        cmocka_unit_test(test_endless), cmocka_unit_test(test_ledger),
+        cmocka_unit_test(test_large),   cmocka_unit_test(test_signal),
+        cmocka_unit_test(test_members), cmocka_unit_test(test_resumed),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
 }
