@@ -40,6 +40,7 @@ typedef struct OzOptions {
     double share;                                 /* --share of report --hits; 0: not given */
     bool extreme, map, stability, ensemble, hits; /* report                   */
     const char *sizes;                            /* --sizes, as written              */
+    const char *compare;                          /* --compare: a bench.json, or NULL */
     bool watch, replay;                   /* of run                           */
     const char *replay_folder;            /* of the run that is repeated, set by run */
     bool has_pace;                        /* --realtime                       */

@@ -26,6 +26,13 @@ static void run(const char *format, const char *folder, int expected)
     assert_int_equal(status, expected);
 }
 
+static void run_arguments(const char *arguments)
+{
+    char command[4096];
+    snprintf(command, sizeof command, "'%s' %s", ORZO_PROGRAM, arguments);
+    assert_int_equal(system(command), 0);
+}
+
 static long long file_size(const char *folder, const char *name)
 {
     char path[1024];
@@ -105,6 +112,30 @@ static void check_pictures(const char *folder)
     assert_int_equal(rows, 12);
 }
 
+static void expect_said(const char *folder, const char *text)
+{
+    char command[2048];
+    snprintf(command, sizeof command, "grep -q -- \"%s\" '%s/said'", text, folder);
+    assert_int_equal(system(command), 0);
+}
+
+/* bench.json beside itself: every row is found again, as it is; another file is refused at once. */
+static void check_record(const char *folder)
+{
+    char command[2048];
+    assert_true(file_size(folder, "bench.json") > 1000);
+    expect_said(folder, "first step after [0-9.]* s where kernels are built");
+    snprintf(command, sizeof command,
+             "bench --quick --device cpu --threads 1 --budget 1 --set grains.0.count=100 --set "
+             "settle.rest_time=0.01 --set settle.threshold=0.1 --sizes 100 --compare "
+             "'%s/bench.json' -o '%s/again' >'%s/said' 2>&1",
+             folder, folder, folder);
+    run_arguments(command);
+    expect_said(folder, "^box, float, 1 thread, 100 grains *[0-9.]* *[0-9.]* *[0-9.]*");
+    expect_said(folder, "^first step, kernels kept, s *[0-9.]* *[0-9.]* *[0-9.]*");
+    run("'%s' bench --quick --compare '%s/shares.csv' -o '%s/no' >/dev/null 2>&1", folder, 2 << 8);
+}
+
 /* A ladder of a bed that settles by itself and of one that is paved. */
 static void test_tiny_ladder(void **state)
 {
@@ -118,6 +149,7 @@ static void test_tiny_ladder(void **state)
         folder, 0);
     assert_true(check_table(folder) >= 6); /* an6 and two sizes, in float and double */
     assert_true(file_size(folder, "shares.csv") > 0);
+    check_record(folder);
     check_pictures(folder);
     if (system("command -v gnuplot >/dev/null") == 0) {
         assert_true(file_size(folder, "bench.png") > 1000);

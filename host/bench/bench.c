@@ -7,10 +7,12 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "bench/bench_features.h"
+#include "bench/bench_json.h"
 #include "bench/bench_limits.h"
 #include "bench/bench_pictures.h"
 #include "bench/bench_plot.h"
 #include "bench/bench_shares.h"
+#include "bench/bench_start.h"
 #include "bench/bench_table.h"
 #include "bench/bench_yardstick.h"
 
@@ -49,8 +51,9 @@ typedef struct Bench {
     char *folder;
     OzFolder owned; /* the folder, in use */
     FILE *csv;
-    OzBenchBed first; /* an6, or the first scene given, settled */
-    OzBenchTile tile; /* made when the first large bed needs it */
+    OzBenchRecord before; /* --compare                              */
+    OzBenchBed first;     /* an6, or the first scene given, settled */
+    OzBenchTile tile;     /* made when the first large bed needs it */
     OzBenchRow rows[ROWS_MAX];
     int row_count;
 } Bench;
@@ -136,6 +139,9 @@ static OzStatus open_bench(Bench *bench)
 {
     const OzFolderUse use = {.keep = true};
     OZ_PASS(read_sizes(bench));
+    if (bench->options->compare) {
+        OZ_PASS(oz_bench_json_read(&bench->before, bench->options->compare));
+    }
     OZ_PASS(
         oz_file_join(&bench->folder, NULL, bench->options->out ? bench->options->out : "bench"));
     OZ_PASS(oz_folder_open(&bench->owned, bench->folder, &use));
@@ -147,23 +153,6 @@ static OzStatus open_bench(Bench *bench)
     share_budget(bench);
     oz_bench_table_begin(stdout, bench->csv);
     return OZ_OK;
-}
-
-/* Bytes that are free on the host now; INFINITY when that is not told. */
-static double free_memory(void)
-{
-    char line[256];
-    double kilobytes = INFINITY;
-    FILE *file = fopen("/proc/meminfo", "r");
-    while (file && fgets(line, sizeof line, file)) {
-        if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) {
-            break;
-        }
-    }
-    if (file) {
-        fclose(file);
-    }
-    return 1024 * kilobytes;
 }
 
 /* The last measured row of a setting, NULL before there is one. */
@@ -189,7 +178,7 @@ static bool affordable(const Bench *bench, Setting setting, double grains, doubl
     }
     double need = grains * last->value[OZ_BENCH_BYTES], room = (double)bench->device.memory;
     double host = grains * host_bytes + (bench->device.is_cpu ? need : 0);
-    if (need > room || host > 0.9 * free_memory()) {
+    if (need > room || host > 0.9 * oz_bench_limits_free_memory()) {
         printf("%.0f grains, %s, left out: they need %.1f GB\n", grains,
                setting.is_double ? "double" : "float", 1e-9 * (need > room ? need : host));
         return false;
@@ -385,6 +374,18 @@ static OzStatus draw_plot(const Bench *bench)
     return oz_bench_plot_draw(bench->folder, bench->device.name, bench->rows, bench->row_count);
 }
 
+/* bench.json, and what was before beside it. */
+static OzStatus record(Bench *bench)
+{
+    OzBenchRecord now = {.device = bench->device.name,
+                         .version = (char *)(uintptr_t)ORZO_VERSION,
+                         .rows = bench->rows,
+                         .row_count = bench->row_count};
+    OZ_PASS(oz_bench_start_print(&now.start_cold, &now.start_warm, &bench->first, bench->options,
+                                 stdout));
+    return oz_bench_json_leave(&now, &bench->before, bench->folder, stdout);
+}
+
 static OzStatus run_all(Bench *bench)
 {
     const OzOptions *options = bench->options;
@@ -401,6 +402,7 @@ static OzStatus run_all(Bench *bench)
         return OZ_OK; /* no rods */
     }
     oz_bench_table_explain(stdout);
+    OZ_PASS(record(bench));
     OZ_PASS(take_apart(bench));
     return draw_plot(bench);
 }
@@ -410,6 +412,7 @@ static OzStatus close_bench(Bench *bench, OzStatus status)
     if (bench->csv && fclose(bench->csv) != 0 && status == OZ_OK) {
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s/bench.csv", bench->folder);
     }
+    oz_bench_json_free(&bench->before);
     oz_bench_bed_free_tile(&bench->tile);
     oz_bench_bed_free(&bench->first);
     oz_folder_close(&bench->owned);

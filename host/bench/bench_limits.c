@@ -4,6 +4,7 @@
 #include "base/subprocess.h"
 #include "compute/limits.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Large enough to be in no cache, or in few. */
@@ -83,4 +84,20 @@ OzStatus oz_bench_limits_print(const OzBenchDevice *device, const OzOptions *opt
         OZ_PASS(print_rates(file, options, 1));
     }
     return print_rates(file, options, device->threads);
+}
+
+double oz_bench_limits_free_memory(void)
+{
+    char line[256];
+    double kilobytes = INFINITY;
+    FILE *file = fopen("/proc/meminfo", "r");
+    while (file && fgets(line, sizeof line, file)) {
+        if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) {
+            break;
+        }
+    }
+    if (file) {
+        fclose(file);
+    }
+    return 1024 * kilobytes;
 }

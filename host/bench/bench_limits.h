@@ -18,3 +18,6 @@ OzStatus oz_bench_limits_device(OzBenchDevice *device, const OzOptions *options)
 
 /* Prints the device, and its copy and multiply-add rates on one and on all threads. */
 OzStatus oz_bench_limits_print(const OzBenchDevice *device, const OzOptions *options, FILE *file);
+
+/* Bytes that are free on the host now; INFINITY when that is not told. */
+double oz_bench_limits_free_memory(void);

@@ -1,0 +1,64 @@
+/* A row twice, with nothing kept before the first. */
+#include "bench/bench_start.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *at)
+{
+    (void)info;
+    (void)kind;
+    (void)at;
+    return remove(path);
+}
+
+static OzStatus measure_both(double *cold, double *warm, const OzBenchJob *job)
+{
+    OzBenchRow row;
+    OZ_PASS(oz_bench_row_measure(&row, job));
+    *cold = row.value[OZ_BENCH_START];
+    OZ_PASS(oz_bench_row_measure(&row, job));
+    *warm = row.value[OZ_BENCH_START];
+    return OZ_OK;
+}
+
+static OzStatus measure(double *cold, double *warm, const OzBenchJob *job)
+{
+    OzStatus status = OZ_OK;
+    char folder[] = "/tmp/orzo_bench_kernels_XXXXXX", *before = NULL;
+    const char *own = getenv("POCL_CACHE_DIR");
+    if (own) {
+        OZ_PASS(oz_memory_text(&before, own));
+    }
+    if (!mkdtemp(folder)) {
+        free(before);
+        return oz_status_fail(OZ_ERR_FILE, "cannot make %s: %s", folder, strerror(errno));
+    }
+    setenv("POCL_CACHE_DIR", folder, 1);
+    status = measure_both(cold, warm, job);
+    if (before) {
+        setenv("POCL_CACHE_DIR", before, 1);
+    } else {
+        unsetenv("POCL_CACHE_DIR");
+    }
+    nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+    free(before);
+    return status;
+}
+
+OzStatus oz_bench_start_print(double *cold, double *warm, OzBenchBed *bed, const OzOptions *options,
+                              FILE *text)
+{
+    const OzBenchJob job = {
+        .options = options, .bed = bed, .name = "start", .members = 1, .seconds = 0.01};
+    OZ_PASS(measure(cold, warm, &job));
+    fprintf(text,
+            "first step after %.2f s where kernels are built, %.2f s where the driver has kept "
+            "them\n",
+            *cold, *warm);
+    return OZ_OK;
+}
