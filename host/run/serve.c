@@ -25,6 +25,7 @@ struct OzServe {
     _Atomic double pictured; /* wall clock at which the last picture was copied */
     int column_count;        /* that the page knows */
     OzPageStatus status;
+    atomic_bool settles; /* time has not begun, and no change takes effect before */
     int64_t rate_step; /* where counting began, and when */
     double rate_start;
 };
@@ -60,6 +61,10 @@ static bool set_key(void *context, const char *key, const char *value, char *mes
     free(setting);
     if (applied && !message[0]) {
         snprintf(message, size, "%s is %s already", key, value);
+    }
+    if (applied && atomic_load(&serve->settles)) {
+        size_t used = strlen(message);
+        snprintf(message + used, size - used, ", once grains have settled");
     }
     if (applied) {
         oz_log_line("page: %s", message);
@@ -148,6 +153,7 @@ void oz_serve_show(OzServe *serve, const OzScene *scene, int64_t step, double ti
     s->step = step;
     s->time = time;
     s->settling = 0;
+    atomic_store(&serve->settles, false);
     s->tap = scene->period > 0 ? oz_motion_tap(scene, time) : NAN;
     bool ends = last_step > 0 && last_step < INT64_MAX;
     s->progress = ends ? (double)step / (double)last_step : NAN;
@@ -163,6 +169,7 @@ void oz_serve_settle(OzServe *serve, double time)
 {
     if (serve) {
         serve->status.settling = time;
+        atomic_store(&serve->settles, true);
         oz_page_show(serve->page, &serve->status);
     }
 }
