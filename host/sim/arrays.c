@@ -13,7 +13,8 @@
 static size_t all_bytes(const OzArrays *arrays, int field, const void *sizes)
 {
     const OzSizesHead *head = sizes;
-    return arrays->model->field_bytes(field, arrays->switches, sizes) * (size_t)head->members;
+    return oz_model_field_bytes(arrays->model, field, arrays->switches, sizes) *
+           (size_t)head->members;
 }
 
 const OzSwitchesHead *oz_arrays_switches(const OzArrays *arrays)
@@ -28,7 +29,7 @@ const OzSizesHead *oz_arrays_sizes(const OzArrays *arrays)
 
 size_t oz_arrays_bytes(const OzArrays *arrays, int field)
 {
-    return arrays->model->field_bytes(field, arrays->switches, arrays->sizes);
+    return oz_model_field_bytes(arrays->model, field, arrays->switches, arrays->sizes);
 }
 
 OzStatus oz_arrays_create(OzArrays *arrays, const OzDevice *device, const OzModel *model,
@@ -175,7 +176,7 @@ void oz_arrays_print(const OzModel *model, const void *switches, const void *siz
     size_t sum = 0;
     int64_t bodies = model->body_count(grains);
     for (int f = 0; f < model->field_count; f++) {
-        size_t bytes = model->field_bytes(f, switches, sizes);
+        size_t bytes = oz_model_field_bytes(model, f, switches, sizes);
         sum += bytes;
         fprintf(file, bytes ? "  %-18s %12zu bytes\n" : "  %-18s            - not needed\n",
                 model->fields[f].name, bytes);

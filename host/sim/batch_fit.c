@@ -34,7 +34,7 @@ OzStatus oz_batch_fit_most(const OzDevice *device, const OzMember *member, int64
     double largest = 1, sum = 0;
     OZ_TRY(oz_model_layout(&layout, model, member, device, NULL));
     for (int f = 0; f < model->field_count; f++) {
-        double field = 1.5 * (double)model->field_bytes(f, layout.switches, layout.sizes);
+        double field = 1.5 * (double)oz_model_field_bytes(model, f, layout.switches, layout.sizes);
         largest = fmax(largest, field);
         sum += field;
     }

@@ -159,9 +159,8 @@ static OzStatus take_field(OzSim *sim, int field, int member, const OzBranchSour
 {
     const OzField *row = &sim->model->fields[field];
     size_t bytes = oz_arrays_bytes(&sim->arrays, field);
-    bool wide = oz_arrays_switches(&sim->arrays)->is_double && row->widens;
     bool springs = row->class == OZ_FIELD_SPRING;
-    OzStateKind kind = wide ? OZ_STATE_DOUBLE : row->kind;
+    OzStateKind kind = oz_model_field_kind(row, oz_arrays_switches(&sim->arrays)->is_double);
     if (bytes == 0 || (row->class != OZ_FIELD_STATE && !springs) ||
         strcmp(row->name, "ledger") == 0) {
         return OZ_OK;

@@ -1,8 +1,6 @@
 /* Trigrains' fields. */
 #include "sim/element_fields.h"
 
-#include "sim/scalars.h"
-
 /* The list's switches, on the host. */
 #undef OZ_LANES
 #undef OZ_MOVING
@@ -16,22 +14,14 @@
 #define OZ_SUBSTEPS (s->substeps)
 #define OZ_LEDGER   (s->ledger)
 
-#define BYTES_parameters                                                                           \
-    (sizeof(OzElementParameters) / sizeof(double) * oz_scalars_bytes(s->is_double))
-#define BYTES_control sizeof(OzElementControl)
-#define BYTES_scalar  oz_scalars_bytes(s->is_double)
-#define BYTES_real    (oz_scalars_bytes(s->is_double) * (size_t)s->lanes)
-#define BYTES_integer sizeof(int)
-#define BYTES_ledger  sizeof(double)
-
-size_t oz_element_fields_bytes(int field, const void *switches, const void *sizes)
+size_t oz_element_fields_items(int field, const void *switches, const void *sizes)
 {
     const OzElementSwitches *s = switches;
     const OzElementSizes z = *(const OzElementSizes *)sizes;
     switch (field) {
 #define CASE(kind, name, count, class)                                                             \
     case OZ_ELEMENT_FIELD_##name:                                                                  \
-        return (size_t)(count) * (BYTES_##kind);
+        return (size_t)(count);
         OZ_ELEMENT_FIELDS(CASE)
 #undef CASE
     default:

@@ -14,9 +14,9 @@ typedef enum OzElementFieldId {
         OZ_ELEMENT_FIELD_COUNT
 } OzElementFieldId;
 
-/* For the model's row (sim/model.h): rows, bytes of a member's stretch. */
+/* For the model's row (sim/model.h): rows, elements of a member's stretch. */
 extern const OzField oz_element_fields_rows[];
-size_t oz_element_fields_bytes(int field, const void *switches, const void *sizes);
+size_t oz_element_fields_items(int field, const void *switches, const void *sizes);
 
 /* The slot of an element. */
 int oz_element_fields_slot(const OzElementSizes *sizes, const OzElements *elements,

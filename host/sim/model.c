@@ -5,6 +5,24 @@
 
 #include <stdlib.h>
 
+OzStateKind oz_model_field_kind(const OzField *field, bool is_double)
+{
+    return is_double && field->widens ? OZ_STATE_DOUBLE : field->kind;
+}
+
+size_t oz_model_field_bytes(const OzModel *model, int field, const void *switches,
+                            const void *sizes)
+{
+    const OzSwitchesHead *head = switches;
+    const OzField *row = &model->fields[field];
+    const size_t words[] = {[OZ_WIDTH_ONE] = 1,
+                            [OZ_WIDTH_LANES] = (size_t)head->lanes,
+                            [OZ_WIDTH_PARAMETERS] = model->parameters_bytes / sizeof(double),
+                            [OZ_WIDTH_CONTROL] = model->control_bytes / sizeof(int)};
+    return model->field_items(field, switches, sizes) * words[row->width] *
+           oz_state_kind_bytes(oz_model_field_kind(row, head->is_double));
+}
+
 /* The value of a row: switches are numbers, in the order of the rows, after the first one. */
 static int value_of(const void *switches, int row)
 {

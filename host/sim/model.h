@@ -42,22 +42,31 @@ typedef enum OzFieldClass {
     OZ_FIELD_SCRATCH
 } OzFieldClass;
 
+/* Words of one of a field's elements. */
+typedef enum OzFieldWidth {
+    OZ_WIDTH_ONE,
+    OZ_WIDTH_LANES,
+    OZ_WIDTH_PARAMETERS, /* all of a member's */
+    OZ_WIDTH_CONTROL
+} OzFieldWidth;
+
 /* kind: of its words in single precision; widens: they are doubles in double precision. */
 typedef struct OzField {
     const char *name;
     OzFieldClass class;
     OzStateKind kind;
     bool widens;
+    OzFieldWidth width;
 } OzField;
 
-/* Kind and widening of each kind of element. */
-#define OZ_FIELD_KIND_parameters     OZ_STATE_FLOAT, true
-#define OZ_FIELD_KIND_control        OZ_STATE_INT32, false
-#define OZ_FIELD_KIND_scalar         OZ_STATE_FLOAT, true
-#define OZ_FIELD_KIND_real           OZ_STATE_FLOAT, true
-#define OZ_FIELD_KIND_fixed_position OZ_STATE_INT32, true
-#define OZ_FIELD_KIND_integer        OZ_STATE_INT32, false
-#define OZ_FIELD_KIND_ledger         OZ_STATE_DOUBLE, false
+/* Each kind of element of the kernels' list. */
+#define OZ_FIELD_KIND_parameters     OZ_STATE_FLOAT, true, OZ_WIDTH_PARAMETERS
+#define OZ_FIELD_KIND_control        OZ_STATE_INT32, false, OZ_WIDTH_CONTROL
+#define OZ_FIELD_KIND_scalar         OZ_STATE_FLOAT, true, OZ_WIDTH_ONE
+#define OZ_FIELD_KIND_real           OZ_STATE_FLOAT, true, OZ_WIDTH_LANES
+#define OZ_FIELD_KIND_fixed_position OZ_STATE_INT32, true, OZ_WIDTH_ONE
+#define OZ_FIELD_KIND_integer        OZ_STATE_INT32, false, OZ_WIDTH_ONE
+#define OZ_FIELD_KIND_ledger         OZ_STATE_DOUBLE, false, OZ_WIDTH_ONE
 
 /* A guard's bit and what it says. */
 typedef struct OzStop {
@@ -83,11 +92,11 @@ enum { OZ_TIMED_NONE = -1, OZ_TIMED_MOST = 8 };
 typedef struct OzModel {
     const char *name;
 
-    /* The device's arrays in the order of the kernels' arguments; bytes of one member's stretch, 0
-     * where the scene does not need it. */
+    /* The device's arrays in the order of the kernels' arguments; elements of one member's stretch,
+     * 0 where the scene does not need it. */
     int field_count, control_field;
     const OzField *fields;
-    size_t (*field_bytes)(int field, const void *switches, const void *sizes);
+    size_t (*field_items)(int field, const void *switches, const void *sizes);
 
     /* What memory is told for each of (`orzo check`): "grain", and how many there are. */
     const char *body;
@@ -175,6 +184,11 @@ typedef struct OzModel {
     int (*grain_of)(const OzGrains *grains, int index);
     void (*advise)(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now);
 } OzModel;
+
+/* What a field's words are in this precision; bytes of one member's stretch. */
+OzStateKind oz_model_field_kind(const OzField *field, bool is_double);
+size_t oz_model_field_bytes(const OzModel *model, int field, const void *switches,
+                            const void *sizes);
 
 /* "-DOZ_LANES=16 -DOZ_GROUP=1 ..." */
 void oz_model_options(const OzModel *model, const void *switches, char *text, size_t size);

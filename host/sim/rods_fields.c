@@ -1,8 +1,6 @@
 /* Rods' fields. */
 #include "sim/rods_fields.h"
 
-#include "sim/scalars.h"
-
 /* The list's switches, on the host. */
 #define OZ_LANES      (s->lanes)
 #define OZ_ROUND      (s->round)
@@ -15,22 +13,14 @@
 #define OZ_RESORT     (s->resort)
 #define OZ_GROUP      (s->group)
 
-#define BYTES_parameters     (sizeof(OzParameters) / sizeof(double) * oz_scalars_bytes(s->is_double))
-#define BYTES_control        sizeof(OzControl)
-#define BYTES_scalar         oz_scalars_bytes(s->is_double)
-#define BYTES_real           (oz_scalars_bytes(s->is_double) * (size_t)s->lanes)
-#define BYTES_fixed_position oz_scalars_bytes(s->is_double)
-#define BYTES_integer        sizeof(int)
-#define BYTES_ledger         sizeof(double)
-
-size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes)
+size_t oz_rods_fields_items(int field, const void *switches, const void *sizes)
 {
     const OzSwitches *s = switches;
     const OzSizes z = *(const OzSizes *)sizes;
     switch (field) {
 #define CASE(kind, name, count, class)                                                             \
     case OZ_FIELD_##name:                                                                          \
-        return (size_t)(count) * (BYTES_##kind);
+        return (size_t)(count);
         OZ_FIELDS(CASE)
 #undef CASE
     default:

@@ -12,9 +12,9 @@ typedef enum OzFieldId {
         OZ_FIELD_COUNT
 } OzFieldId;
 
-/* For the model's row (sim/model.h): rows, bytes of a member's stretch. */
+/* For the model's row (sim/model.h): rows, elements of a member's stretch. */
 extern const OzField oz_rods_fields_rows[];
-size_t oz_rods_fields_bytes(int field, const void *switches, const void *sizes);
+size_t oz_rods_fields_items(int field, const void *switches, const void *sizes);
 
 /* The arrays' switches and sizes as what they are. */
 static inline const OzSwitches *oz_rods_fields_switches(const OzArrays *arrays)

@@ -94,8 +94,7 @@ static OzStatus field_state(OzSim *sim, int field, int member, OzStateVisit *vis
     OzStatus status = OZ_OK;
     const OzField *row = &sim->model->fields[field];
     size_t bytes = oz_arrays_bytes(&sim->arrays, field);
-    bool wide = oz_arrays_switches(&sim->arrays)->is_double && row->widens;
-    OzStateKind kind = wide ? OZ_STATE_DOUBLE : row->kind;
+    OzStateKind kind = oz_model_field_kind(row, oz_arrays_switches(&sim->arrays)->is_double);
     void *words = NULL;
     if (bytes == 0 || (row->class != OZ_FIELD_STATE && row->class != OZ_FIELD_SPRING)) {
         return OZ_OK;

@@ -20,8 +20,8 @@ typedef struct Compared {
 static OzStatus check_state(const Compared *c, const OzModel *model, const OzScene *next)
 {
     for (int f = 0; f < model->field_count; f++) {
-        size_t needed = model->field_bytes(f, c->next.switches, c->next.sizes);
-        size_t kept = model->field_bytes(f, c->running.switches, c->running.sizes);
+        size_t needed = oz_model_field_bytes(model, f, c->next.switches, c->next.sizes);
+        size_t kept = oz_model_field_bytes(model, f, c->running.switches, c->running.sizes);
         bool begins_empty = strcmp(model->fields[f].name, "ledger") == 0;
         if (model->fields[f].class == OZ_FIELD_STATE && needed > 0 && kept == 0 && !begins_empty) {
             return oz_status_fail(OZ_ERR_INPUT,
