@@ -53,7 +53,7 @@ while [ "$i" -lt "$times" ]; do
     sleep "$(awk -v ms="$wait_ms" 'BEGIN { print ms / 1000 }')"
     if kill -9 "$pid" 2>/dev/null; then killed=$((killed + 1)); fi
     wait "$pid" 2>/dev/null || true
-    if ls cut/state.h5* >/dev/null 2>&1; then
+    if [ -f cut/state.h5 ] || [ -f cut/state.h5.previous ]; then # a .part is none yet
         "$orzo" resume cut >log 2>&1 || { cat log; fail "killed after $wait_ms ms, cannot be resumed"; }
         resumed=$((resumed + 1))
     else # before its first state: said, and run again
