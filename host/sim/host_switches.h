@@ -18,7 +18,9 @@ OzHostSwitches oz_host_switches_rods(const OzSwitches *switches);
 OzHostSwitches oz_host_switches_elements(const OzScene *scene);
 void oz_host_switches_leave(const OzHostSwitches *before);
 
-/* For the rest of the block, however it is left: OZ_USE_SWITCHES(oz_host_switches_rods(...)); */
+/* For the rest of the block, however it is left: OZ_USE_SWITCHES(oz_host_switches_rods(...)); It
+ * stands where no goto jumps over it: what was before would not be known where the block is left.
+ */
 #define OZ_USE_SWITCHES(entered)                                                                   \
     const OzHostSwitches switches_before                                                           \
         __attribute__((cleanup(oz_host_switches_leave), unused)) = (entered)

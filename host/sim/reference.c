@@ -303,27 +303,29 @@ static OzStatus create_arrays(OzReference *r)
     return OZ_NEW(&r->wall_history, ends);
 }
 
-OzStatus oz_reference_create(OzReference **reference, const OzScene *scene, const OzGrains *grains)
+static OzStatus fill(OzReference *r, const OzScene *scene, const OzGrains *grains)
 {
-    OzStatus status = OZ_OK;
-    OzReference *r = NULL;
-    OZ_TRY(OZ_NEW(&r, 1));
-    OZ_TRY(oz_physics_derive(&r->physics, scene, grains));
+    OZ_PASS(oz_physics_derive(&r->physics, scene, grains));
     OZ_USE_SWITCHES(oz_host_switches_rods(&r->physics.switches));
     r->scene = scene;
     r->grains = grains;
     r->clock = oz_step_clock_begin(scene->step);
     r->count = (int)grains->count;
     r->wall_ends = r->physics.wall_count * r->physics.ends;
-    OZ_TRY(create_arrays(r));
+    OZ_PASS(create_arrays(r));
     place_bodies(r);
-    OZ_TRY(renew_list(r));
-done:
+    return renew_list(r);
+}
+
+OzStatus oz_reference_create(OzReference **reference, const OzScene *scene, const OzGrains *grains)
+{
+    *reference = NULL;
+    OZ_PASS(OZ_NEW(reference, 1));
+    OzStatus status = fill(*reference, scene, grains);
     if (status != OZ_OK) {
-        oz_reference_free(r);
-        r = NULL;
+        oz_reference_free(*reference);
+        *reference = NULL;
     }
-    *reference = r;
     return status;
 }
 
