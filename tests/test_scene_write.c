@@ -239,6 +239,9 @@ static void writes_settings_and_odd_values(void **state)
     assert_true(scene.seed == 9007199254740993u);
     assert_int_equal(scene.snapshots.count, 3);
     assert_written_back(&scene);
+    oz_scene_free(&scene);    scene = parse(SMALL, SETTINGS("time.step=1e-3", "time.duration=1e-2"));
+    assert_true(scene.observe.interval == scene.step); /* not a hundredth */
+    assert_written_back(&scene);
     oz_scene_free(&scene);
 }
 

@@ -113,14 +113,13 @@ static bool check_taps(Checker *checker, const char *path)
     return false;
 }
 
-/* s between rows where nothing says it. Without a duration there is no second row. */
+/* s between rows where nothing says it, a step at least. Without a duration there is no second row.
+ */
 static double own_interval(const OzScene *scene)
 {
-    if (isinf(scene->duration)) {
-        double shown = scene->movie.speed > 0 ? scene->movie.speed : 1;
-        return fmax(0.1 * shown, scene->step);
-    }
-    return scene->duration > 0 ? scene->duration / 100 : 1;
+    double shown = scene->movie.speed > 0 ? scene->movie.speed : 1;
+    double interval = isinf(scene->duration) ? 0.1 * shown : scene->duration / 100;
+    return scene->duration > 0 ? fmax(interval, scene->step) : 1;
 }
 
 static void derive_times(Checker *checker)
