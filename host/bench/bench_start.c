@@ -1,6 +1,7 @@
 /* A row twice, with nothing kept before the first. */
 #include "bench/bench_start.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 
 #include <errno.h>
@@ -29,14 +30,14 @@ static OzStatus measure_both(double *cold, double *warm, const OzBenchJob *job)
 static OzStatus measure(double *cold, double *warm, const OzBenchJob *job)
 {
     OzStatus status = OZ_OK;
-    char folder[] = "/tmp/orzo_bench_kernels_XXXXXX", *before = NULL;
-    const char *own = getenv("POCL_CACHE_DIR");
-    if (own) {
-        OZ_PASS(oz_memory_text(&before, own));
-    }
+    char *folder = NULL, *before = NULL;
+    const char *own = getenv("POCL_CACHE_DIR"), *temporary = getenv("TMPDIR");
+    OZ_TRY(oz_file_join(&folder, temporary && *temporary ? temporary : "/tmp",
+                        "orzo_bench_kernels_XXXXXX"));
+    OZ_TRY(own ? oz_memory_text(&before, own) : OZ_OK);
     if (!mkdtemp(folder)) {
-        free(before);
-        return oz_status_fail(OZ_ERR_FILE, "cannot make %s: %s", folder, strerror(errno));
+        status = oz_status_fail(OZ_ERR_FILE, "cannot make %s: %s", folder, strerror(errno));
+        goto done;
     }
     setenv("POCL_CACHE_DIR", folder, 1);
     status = measure_both(cold, warm, job);
@@ -46,6 +47,8 @@ static OzStatus measure(double *cold, double *warm, const OzBenchJob *job)
         unsetenv("POCL_CACHE_DIR");
     }
     nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+done:
+    free(folder);
     free(before);
     return status;
 }
