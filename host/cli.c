@@ -31,6 +31,9 @@ static const struct {
     {"plot", "DIR [COLUMN]...", "oj",
      "columns of series.csv as plot.png and plot.svg; of an ensemble mean, interval and members", 1,
      OZ_CLI_PATHS_MAX, "orzo plot runs/an6 density_tap_mean angle --against tap"},
+    {"figures", "STUDY", "oNQdtgS",
+     "a paper's figures from its runs: runs what a study has not yet, then draws it", 1, 1,
+     "orzo figures scenes/pournin2005/study.yaml --quick"},
     {"keys", "[PART]", "c",
      "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1,
      "orzo keys contact."},
@@ -191,8 +194,8 @@ static const struct {
 #define NAME(member, expected) TEXT(member), .wanted = expected
 #define OWN(function)          .kind = OWN_OPTION, .parse = function
     {'o', "-o", "DIR",
-     "folder to write (default runs/<scene name>; of draw DIR/draw, of export DIR/export, of bench "
-     "and report their names)",
+     "folder to write (default runs/<scene name>; of figures runs/<study name>, of draw DIR/draw, of "
+     "export DIR/export, of bench and report their names)",
      NAME(out, "-o with the name of a folder")},
     {'O', "--overwrite", NULL, "replace the run that is there", FLAG(overwrite)},
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2", OWN(add_setting)},
@@ -224,7 +227,8 @@ static const struct {
      OWN(parse_serve)},
     {'f', "--force", NULL, "only warn of a step at which a contact is unstable", FLAG(force)},
     {'S', "--source-dir", "DIR", "read kernels and shaders from a source folder", TEXT(source_dir)},
-    {'Q', "--quick", NULL, "a short ladder, in about a minute", FLAG(quick)},
+    {'Q', "--quick", NULL, "in minutes: a short ladder; of figures few taps and seeds", FLAG(quick)},
+    {'N', "--only", "FIGURE", "of figures: this one alone", NAME(only, "--only with a figure's name")},
     {'F', "--features", NULL, "what each feature of an6 costs, too", FLAG(features)},
     {'z', "--sizes", "N,N,...", "the ladder's numbers of grains", TEXT(sizes)},
     {'C', "--compare", "OLD.json", "another run's bench.json: rows of both side by side", TEXT(compare)},
@@ -389,13 +393,13 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     if (argc < 2) {
         return oz_status_fail(OZ_ERR_INPUT,
                               "orzo: no command; expected one of run, resume, check, draw, "
-                              "export, plot, keys, bench, report, devices (see orzo --help)");
+                              "export, plot, figures, keys, bench, report, devices (see orzo --help)");
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
-        return wrong(argv[1], "run, resume, check, draw, export, plot, keys, bench, report or "
-                              "devices (see orzo --help)");
+        return wrong(argv[1], "run, resume, check, draw, export, plot, figures, keys, bench, report "
+                              "or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {
         OZ_PASS(take_argument(options, command, argc, argv, &i));

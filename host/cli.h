@@ -23,6 +23,7 @@ typedef struct OzOptions {
     bool has_seeds;     /* --seeds                          */
     uint64_t seed_first, seed_last;
     const char *against; /* --against of plot; NULL: not given */
+    const char *only; /* --only of figures; NULL: all */
     const char *to;   /* --to of export, as written; NULL: not given */
     int64_t every;    /* --every; 0: not given           */
     const char *from; /* --from: "DIR", "DIR@tap=N", "DIR@time=T"; NULL: not given */
@@ -34,7 +35,7 @@ typedef struct OzOptions {
     int serve_port;                       /* of it; 0: a free one             */
     bool overwrite, no_video, force, columns, help, verbose;
     const char *source_dir;                       /* --source-dir                     */
-    bool features, quick;                         /* bench                            */
+    bool features, quick;                         /* bench; quick of figures too      */
     double budget;                                /* --budget, s; 0: not given        */
     double tolerance;                             /* --tolerance of report; 0: not given */
     double share;                                 /* --share of report --hits; 0: not given */

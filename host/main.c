@@ -11,6 +11,7 @@
 #include "compute/device.h"
 #include "draw/movie.h"
 #include "draw/renderer.h"
+#include "figures/figures.h"
 #include "observe/series.h"
 #include "report/report.h"
 #include "run/run.h"
@@ -50,6 +51,12 @@ static OzStatus export_command(const OzOptions *options)
 static OzStatus plot_command(const OzOptions *options)
 {
     return oz_plot_folder_run(options);
+}
+
+static OzStatus figures_command(const OzOptions *options)
+{
+    oz_interrupt_watch();
+    return oz_figures_run(options);
 }
 
 static OzStatus list_keys(const char *part)
@@ -109,7 +116,7 @@ static const struct {
     {"run", run_command},         {"resume", resume_command}, {"check", check_command},
     {"draw", draw_command},       {"export", export_command}, {"keys", keys_command},
     {"plot", plot_command},       {"bench", bench_command},   {"report", report_command},
-    {"devices", devices_command},
+    {"figures", figures_command}, {"devices", devices_command},
 };
 
 static OzStatus help_or_run(const OzOptions *options)
