@@ -144,6 +144,103 @@ static void a_signal_says_how_to_go_on(void **state)
     assert_false(is_there("long/one.png"));
 }
 
+/* Pixels across and down of a PNG, from its first block. */
+static void size_of(const char *name, int size[2])
+{
+    unsigned char *bytes = (unsigned char *)read_file(name, NULL);
+    for (int i = 0; i < 2; i++) {
+        const unsigned char *at = bytes + 16 + 4 * i;
+        size[i] = at[0] << 24 | at[1] << 16 | at[2] << 8 | at[3];
+    }
+    free(bytes);
+}
+
+/* A row for each run and view, a column for each moment that the run came to. */
+static void pictures_stand_in_a_sheet(void **state)
+{
+    (void)state;
+    int one[2], two[2];
+    write_file(
+        "pictures.yaml", "%s",
+        "name: seen\n"
+        "runs: [{name: a, scene: scene.yaml, set: ['snapshots={times: [0, 0.06, 0.1]}']}]\n"
+        "figures:\n"
+        "  - {name: sheet, kind: pictures, runs: [a], at: [0, 0.06, 7], size: [200, 160],\n"
+        "     views: [lateral, cut]}\n"
+        "  - {name: fast, kind: pictures, runs: [a], at_greatest: time, size: [200, 160]}\n");
+    expect(0, "runs/seen/sheet.png", "figures pictures.yaml");
+    assert_true(
+        contains("runs/seen/sheet.csv",
+                 "a,seed_00001,cut,0.06 s,pictures/sheet_a_cut/snapshots/time_0.060000.png\n"));
+    assert_int_equal(count_lines("runs/seen/sheet.csv"), 1 + 2 * 2);
+    assert_true(
+        contains("runs/seen/fast.csv", "a,seed_00001,,0.1 s,")); /* time is greatest at its end */
+    size_of("runs/seen/fast.png", one);
+    size_of("runs/seen/sheet.png", two);
+    assert_int_equal(two[0] - one[0], 200);
+    assert_true(two[1] - one[1] >= 160);
+    size_of("runs/seen/pictures/sheet_a_lateral/snapshots/time_0.000000.png", one);
+    assert_true(one[0] == 200 && one[1] == 160);
+}
+
+/* A sphere that falls freely for t has the energy m (g t)^2 / 2, whatever the integrator makes of
+ * its place: no force depends on that. Over g, that is a square with nothing added. */
+static void a_sweep_is_fitted(void **state)
+{
+    (void)state;
+    const double mass = 2500 * M_PI / 6 * 1e-9, factor = mass * 0.1 * 0.1 / 2;
+    write_file("fall.yaml", "%s",
+               "model: rods\n"
+               "time: {step: 1e-4, duration: 0.1}\n"
+               "contact: {contact_time: 5e-3, restitution: 0.5}\n"
+               "grains: [{kind: single, position: [0, 0, 0], diameter: 1e-3, density: 2500}]\n"
+               "sweep: {gravity.2: [-1, -2, -4, -8]}\n"
+               "observe: {interval: 0.02}\n");
+    write_file("sweep.yaml", "%s",
+               "name: fall\n"
+               "runs: [{name: g, scene: fall.yaml, seeds: [1, 2]}]\n"
+               "figures: [{name: square, kind: sweep, runs: [g], columns: [kinetic], power: 2}]\n");
+    expect(0, "runs/fall/square.pdf", "figures sweep.yaml");
+    const char *points = "runs/fall/square.csv", *fit = "runs/fall/square_fit.csv";
+    assert_int_equal(count_lines(points), 1 + 4);
+    assert_true(cell(points, 2, "members") == 2);
+    /* Velocities are floats: 1000 roundings of 6e-8. */
+    assert_true(fabs(cell(points, 2, "kinetic") - factor * 16) < 1e-4 * factor * 16);
+    assert_true(fabs(cell(fit, 0, "factor") - factor) < 1e-4 * factor);
+    assert_true(fabs(cell(fit, 0, "constant")) < 1e-4 * factor);
+    write_file("sweep.yaml", "%s",
+               "name: tiny\n"
+               "runs: [{name: a, scene: scene.yaml, seeds: [3, 5]}]\n"
+               "figures: [{name: square, kind: sweep, runs: [a], columns: [kinetic]}]\n");
+    expect(2, "a/members.csv is of no sweep", "figures sweep.yaml");
+}
+
+/* Parts of a step that were timed already are added up, beside the paper's numbers. */
+static void shares_stand_beside_the_papers(void **state)
+{
+    (void)state;
+    write_file(
+        "shares.yaml", "%s",
+        "name: timed\n"
+        "runs: [{name: a, scene: scene.yaml}]\n"
+        "figures: [{name: table, kind: shares, runs: [a], rows: [one, two, mean, none],\n"
+        "           paper: [10, 20, 30, 40], parts: [walk+run, walk, mean speed_max, swim]}]\n");
+    assert_int_equal(mkdir("runs/timed", 0777), 0);
+    assert_int_equal(mkdir("runs/timed/times", 0777), 0);
+    write_file("runs/timed/times/shares_scene.csv", "%s",
+               "part,us_per_call,calls_per_step,us_per_step,percent_of_step\n"
+               "walk,1,1,1,12.5\n  run,1,1,1,30.25\nidle,1,,,\n");
+    expect(0, "runs/timed/table.csv", "figures shares.yaml");
+    assert_true(contains("runs/timed/table.csv", "one,10,42.75\ntwo,20,12.50\n"));
+    double sum = 0;
+    for (int row = 0; row < 6; row++) {
+        sum += cell("runs/timed/a/seed_00001/series.csv", row, "speed_max");
+    }
+    char line[64];
+    snprintf(line, sizeof line, "mean,30,%.2f\nnone,40,\n", 100 * sum / 6);
+    assert_true(sum > 0 && contains("runs/timed/table.csv", line));
+}
+
 static void every_error_of_a_study_is_said(void **state)
 {
     (void)state;
@@ -158,7 +255,9 @@ static void every_error_of_a_study_is_said(void **state)
                "  - {name: one, kind: circles, runs: [a]}\n"
                "  - {name: two, kind: curves, runs: [z], columns: [kinetic], against: time,\n"
                "     x_log: true, x_range: [0, 1]}\n"
-               "  - {name: three, kind: curves, runs: [a], columns: [kinetic], y_range: 3}\n");
+               "  - {name: three, kind: curves, runs: [a], columns: [kinetic], y_range: 3}\n"
+               "  - {name: f, kind: curves, runs: [a], columns: [time+kinetik], against: time}\n"
+               "  - {name: g, kind: shares, runs: [a], rows: [a], paper: [1, 2], parts: [a]}\n");
     static const char *const errors[] = {
         "bad.yaml:1: name is bad/name; expected letters",
         "bad.yaml:2: colour is no key of a study; expected one of",
@@ -172,10 +271,21 @@ static void every_error_of_a_study_is_said(void **state)
         "bad.yaml:10: x_range is empty; expected [low, high], above 0 on a logarithmic axis",
         "bad.yaml:11: a figure has no against; expected it",
         "bad.yaml:11: y_range is 3; expected a list of 2 numbers",
+        "bad.yaml:12: columns holds time+kinetik; expected a column that `orzo keys --columns`",
+        "bad.yaml:13: there are 1 rows, 2 numbers of the paper and 1 parts",
     };
     for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
         expect(2, errors[i], "figures bad.yaml -o never");
     }
+    assert_false(is_there("never"));
+    write_file("bad.yaml", "%s",
+               "name: bad\n"
+               "runs:\n"
+               "  - {name: a, scene: scene.yaml, set: [contact.frction=1]}\n"
+               "  - {name: b, scene: scene.yaml, set: [friction]}\n"
+               "figures: [{name: f, kind: pictures, runs: [a]}]\n");
+    expect(2, "bad.yaml:3: run a: --set contact.frction=1", "figures bad.yaml -o never");
+    expect(2, "bad.yaml:4: run b: ", "figures bad.yaml -o never");
     assert_false(is_there("never"));
     write_file("bad.yaml", "- a list\n");
     expect(2, "bad.yaml:1: this is no study", "figures bad.yaml -o never");
@@ -191,6 +301,9 @@ int main(void)
         cmocka_unit_test(quick_is_shorter_and_of_fewer_seeds),
         cmocka_unit_test(another_run_is_refused),
         cmocka_unit_test(a_signal_says_how_to_go_on),
+        cmocka_unit_test(pictures_stand_in_a_sheet),
+        cmocka_unit_test(a_sweep_is_fitted),
+        cmocka_unit_test(shares_stand_beside_the_papers),
         cmocka_unit_test(every_error_of_a_study_is_said),
     };
     return cmocka_run_group_tests(tests, begin, leave_work);

@@ -68,16 +68,28 @@ static void write_number(const Writer *writer, double value)
     }
 }
 
+/* A sum of columns in one row; of several the mean, the last of them being `row`. */
+static double mean_of(const Writer *writer, int64_t row, const int *columns, int count)
+{
+    const OzStudyFigure *figure = writer->work->figure;
+    int64_t span = figure->smooth.count ? (int64_t)figure->smooth.items[0] : 1;
+    int64_t first = row + 1 > span ? row + 1 - span : 0;
+    double sum = 0;
+    for (int64_t i = first; i <= row; i++) {
+        for (int k = 0; k < count; k++) {
+            sum += oz_cells_number(&writer->table, i, columns[k]);
+        }
+    }
+    return sum / (double)(row + 1 - first);
+}
+
 static void write_value(Writer *writer, int64_t row, const Source *source)
 {
-    double sum = 0;
-    for (int i = 0; i < source->count; i++) {
-        sum += oz_cells_number(&writer->table, row, source->means[i]);
-    }
-    write_number(writer, writer->work->figure->absolute ? fabs(sum) : sum);
+    double mean = mean_of(writer, row, source->means, source->count);
+    write_number(writer, writer->work->figure->absolute ? fabs(mean) : mean);
     const int others[] = {source->spread, source->interval};
     for (int k = 0; k < 2; k++) {
-        double value = others[k] < 0 ? NAN : oz_cells_number(&writer->table, row, others[k]);
+        double value = others[k] < 0 ? NAN : mean_of(writer, row, &others[k], 1);
         writer->has_spread |= value > 0;
         write_number(writer, value);
     }

@@ -3,7 +3,8 @@
  *     run,step,AGAINST,members,COLUMN,COLUMN_spread,COLUMN_ci95,...
  *
  * COLUMN is the mean over a run's seeds, spread their standard deviation, ci95 half the 95 %
- * interval of the mean; both are empty of sums of columns and of one seed. */
+ * interval of the mean; both are empty of sums of columns and of one seed.
+ * Where the figure is smoothed, all are means over its number of rows. */
 #pragma once
 
 #include "figures/figure_work.h"

@@ -73,7 +73,8 @@ void oz_figure_work_text(FILE *gnuplot, const char *text)
 {
     fputc('\'', gnuplot);
     for (; *text; text++) {
-        fputs(*text == '\'' ? "''" : (char[2]){*text}, gnuplot);
+        bool is_control = (unsigned char)*text < ' '; /* a new line would end its command */
+        fputs(*text == '\'' ? "''" : (char[2]){is_control ? ' ' : *text}, gnuplot);
     }
     fputc('\'', gnuplot);
 }
@@ -133,4 +134,27 @@ OzStatus oz_figure_work_close(const OzFigureWork *work, const char *ending, FILE
     free(name);
     free(path);
     return status;
+}
+
+void oz_figure_work_range(FILE *gnuplot, const char *axis, const OzNumbers *range)
+{
+    if (range->count == 2) {
+        fprintf(gnuplot, "set %srange [%.9g:%.9g]\n", axis, range->items[0], range->items[1]);
+    }
+}
+
+void oz_figure_work_key(FILE *gnuplot, const char *place)
+{
+    const char *words = place ? place : "top-left";
+    size_t first = strcspn(words, "-");
+    fprintf(gnuplot, "set key %.*s %s samplen 2\n", (int)first, words, words + first + 1);
+}
+
+void oz_figure_work_send_caption(const OzFigureWork *work, FILE *gnuplot, const char *more)
+{
+    char text[OZ_FIGURE_CAPTION + 128];
+    snprintf(text, sizeof text, "%s%s", work->caption, more);
+    fputs("set label 999 ", gnuplot);
+    oz_figure_work_text(gnuplot, text);
+    fputs(" at screen 0.5,0.015 center font ',8' tc rgb '#555555'\n", gnuplot);
 }

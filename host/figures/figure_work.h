@@ -30,3 +30,12 @@ OzStatus oz_figure_work_close(const OzFigureWork *work, const char *ending, FILE
 
 /* A text between quotes of gnuplot's. */
 void oz_figure_work_text(FILE *gnuplot, const char *text);
+
+/* "set xrange [a:b]" of a range that is given. */
+void oz_figure_work_range(FILE *gnuplot, const char *axis, const OzNumbers *range);
+
+/* Where the names of curves stand, "top-left" and so on, in gnuplot's words; NULL: top-left. */
+void oz_figure_work_key(FILE *gnuplot, const char *place);
+
+/* The caption and what follows it, small below the figure. */
+void oz_figure_work_send_caption(const OzFigureWork *work, FILE *gnuplot, const char *more);

@@ -8,15 +8,20 @@
 #include "figures/curves.h"
 #include "figures/figure_kinds.h"
 #include "figures/figure_work.h"
+#include "figures/shares.h"
+#include "figures/sheet.h"
+#include "figures/study_read.h"
+#include "figures/swept.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static const struct {
     const char *name;
+    OzStatus (*measure)(const OzFigureWork *work); /* NULL: nothing to */
     OzStatus (*draw)(const OzFigureWork *work);
 } kinds[] = {
-#define KIND_ROW(name, draw) {#name, draw},
+#define KIND_ROW(name, measure, draw) {#name, measure, draw},
     OZ_FIGURE_KINDS(KIND_ROW)
 #undef KIND_ROW
 };
@@ -61,6 +66,21 @@ static OzStatus make_runs(const OzFigureWork *work, const OzTexts *names)
     return OZ_OK;
 }
 
+static size_t kind_of(const OzStudyFigure *figure)
+{
+    size_t k = 0;
+    while (strcmp(kinds[k].name, figure->kind) != 0) {
+        k++; /* the study's reader knows no others */
+    }
+    return k;
+}
+
+static OzStatus measure_figure(OzFigureWork *work)
+{
+    size_t k = kind_of(work->figure);
+    return kinds[k].measure ? kinds[k].measure(work) : OZ_OK;
+}
+
 static OzStatus draw_figure(OzFigureWork *work)
 {
     char caption[OZ_FIGURE_CAPTION];
@@ -69,12 +89,7 @@ static OzStatus draw_figure(OzFigureWork *work)
     OZ_PASS(oz_figure_work_caption(work, caption));
     work->caption = caption;
     oz_log_line("%s: %s", work->figure->name, caption);
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-        if (strcmp(kinds[k].name, work->figure->kind) == 0) {
-            return kinds[k].draw(work);
-        }
-    }
-    return OZ_OK;
+    return kinds[kind_of(work->figure)].draw(work);
 }
 
 static void say_how_to_go_on(const OzStudy *study, const char *folder, const OzOptions *options)
@@ -84,8 +99,10 @@ static void say_how_to_go_on(const OzStudy *study, const char *folder, const OzO
                 options->only ? options->only : "");
 }
 
-/* The first failure is the command's; every one is said. */
-static OzStatus draw_all(const OzStudy *study, const char *folder, const OzOptions *options)
+/* Does one thing for each figure asked for. The first failure is the command's; every one is said.
+ */
+static OzStatus do_all(const OzStudy *study, const char *folder, const OzOptions *options,
+                       OzStatus (*work_on)(OzFigureWork *work))
 {
     OzStatus first = OZ_OK;
     for (int i = 0; i < study->figure_count && first != OZ_ERR_INTERRUPTED; i++) {
@@ -95,23 +112,34 @@ static OzStatus draw_all(const OzStudy *study, const char *folder, const OzOptio
         }
         OzFigureWork work = {
             .study = study, .figure = figure, .folder = folder, .options = options};
-        OzStatus status = draw_figure(&work);
+        OzStatus status = work_on(&work);
         if (status != OZ_OK && status != OZ_ERR_INTERRUPTED) {
             oz_log_line("%s: %s", figure->name, oz_status_text());
         }
         first = first == OZ_OK || status == OZ_ERR_INTERRUPTED ? status : first;
     }
-    if (first == OZ_ERR_INTERRUPTED) {
+    return first;
+}
+
+/* What is timed comes first: runs leave a device open, and timing wants a process without. */
+static OzStatus draw_all(const OzStudy *study, const char *folder, const OzOptions *options)
+{
+    OzStatus measured = do_all(study, folder, options, measure_figure), drawn = measured;
+    if (measured != OZ_ERR_INTERRUPTED) {
+        drawn = do_all(study, folder, options, draw_figure);
+    }
+    if (drawn == OZ_ERR_INTERRUPTED) {
         say_how_to_go_on(study, folder, options);
     }
-    return first;
+    return measured == OZ_OK || drawn == OZ_ERR_INTERRUPTED ? drawn : measured;
 }
 
 static OzStatus load(OzStudy *study, char **folder, OzFolder *owned, const OzOptions *options)
 {
     OzFolderUse use = {.keep = true};
-    OZ_PASS(oz_study_load(study, options->paths[0]));
+    OZ_PASS(oz_study_read_file(study, options->paths[0]));
     OZ_PASS(check_only(study, options->only));
+    OZ_PASS(oz_study_runs_check(study, options));
     OZ_PASS(choose_folder(folder, study, options));
     return oz_folder_open(owned, *folder, &use);
 }
@@ -128,7 +156,7 @@ OzStatus oz_figures_run(const OzOptions *options)
         oz_log_line("%s", oz_status_text());
     }
     oz_folder_close(&owned);
-    oz_study_free(&study);
+    oz_study_read_free(&study);
     free(folder);
     return status;
 }

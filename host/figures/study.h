@@ -22,6 +22,7 @@ typedef struct OzStudyRun {
     char *label;        /* in legends; NULL: the name                    */
     OzNumbers seeds;    /* first and last; none: 1 alone                 */
     OzTexts set;        /* settings                                      */
+    int line;           /* in the study's file */
     OzTexts quick;      /* with --quick besides; none: the study's       */
 } OzStudyRun;
 
@@ -29,20 +30,31 @@ typedef struct OzStudyRun {
 typedef struct OzStudyFigure {
     char *name, *kind, *title;
     OzTexts runs;
-    OzTexts columns; /* a column of series.csv, or a sum of some with + between */
-    OzTexts labels;  /* of columns in legends                                   */
-    char *against;   /* the column along x                                      */
-    char *panels;    /* "runs", "columns": one each; NULL: all curves in one    */
-    char *x_label, *y_label, *key;
+    OzTexts columns;  /* a column of series.csv, or a sum of some with + between */
+    OzTexts labels;   /* of columns in legends                                   */
+    char *against;    /* the column along x                                      */
+    char *panels;     /* "runs", "columns": one each; NULL: all curves in one    */
+    OzNumbers smooth; /* curves are means over so many rows, the last of them at x */
+    bool dashes;      /* columns after the first are dashed */
+    char *x_label, *y_label;
+    char *key; /* where the names of curves stand */
     OzNumbers x_range, y_range;
     bool x_log;
     bool absolute;                    /* values without their sign */
     OzTexts inset_run, inset_columns; /* a small plot within the first panel */
     OzNumbers inset_range;
-    OzNumbers at;    /* taps or times of pictures, as the scene counts */
-    OzTexts views;   /* a row of pictures for each                     */
-    OzTexts picture; /* settings of `orzo draw`                        */
-    OzNumbers size;  /* pixels of one picture                          */
+    char *at_greatest; /* pictures where this column is greatest, from time `from`, s, on,
+                        * and `before`, s, that */
+    OzNumbers before, from;
+    char *of_most; /* pictures of the member with most of this column at its end; NULL: the first */
+    OzNumbers at;  /* taps or times of pictures, as the scene counts */
+    char *bars;    /* of a sweep: the column that bars show */
+    OzNumbers power;     /* of a sweep: the paper's exponent */
+    OzTexts rows, parts; /* of shares: the paper's rows, and what they are of here */
+    OzNumbers paper;     /* of shares: its numbers, %                          */
+    OzTexts views;       /* a row of pictures for each                     */
+    OzTexts picture;     /* settings of `orzo draw`                        */
+    OzNumbers size;      /* pixels of one picture                          */
 } OzStudyFigure;
 
 /* What --quick changes. */
@@ -60,11 +72,6 @@ typedef struct OzStudy {
     OzStudyFigure *figures;
     int figure_count;
 } OzStudy;
-
-/* Reads it. Fails with OZ_ERR_INPUT and every error as `file:line: what is wrong; what was
- * expected`. The caller frees with oz_study_free, also on failure. */
-OzStatus oz_study_load(OzStudy *study, const char *path);
-void oz_study_free(OzStudy *study);
 
 /* The number of a run or figure of that name, or -1. */
 int oz_study_find_run(const OzStudy *study, const char *name);

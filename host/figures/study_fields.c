@@ -187,7 +187,8 @@ OzStatus oz_study_fields_read(const OzField *fields, const char *kind, const OzN
         }
     }
     for (; fields->name; fields++) {
-        if (fields->needed && is_known(fields, kind) && !oz_tree_child(map, fields->name)) {
+        if (fields->needed && (kind ? is_known(fields, kind) : !fields->of) &&
+            !oz_tree_child(map, fields->name)) {
             oz_faults_add(faults, map->source, map->line, "%s has no %s; expected it", what,
                           fields->name);
         }

@@ -57,6 +57,43 @@ static OzStatus make_options(OzOptions *made, const OzStudy *study, const OzStud
     return OZ_OK;
 }
 
+/* Adds what is wrong with a run, if anything is, to a text of lines. */
+static OzStatus check_run(const OzStudy *study, const OzStudyRun *run, const OzOptions *options,
+                          char **text)
+{
+    OzOptions made;
+    OzScene scene = {0};
+    char *longer = NULL;
+    OzStatus status = make_options(&made, study, run, options);
+    if (status == OZ_OK) {
+        status = oz_scene_load(&scene, made.paths[0], made.settings, made.setting_count);
+    }
+    oz_scene_free(&scene);
+    if (status != OZ_ERR_INPUT) {
+        return status;
+    }
+    if (asprintf(&longer, "%s%s%s:%d: run %s: %s", *text ? *text : "", *text ? "\n" : "",
+                 study->path, run->line, run->name, oz_status_text()) < 0) {
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a study's errors");
+    }
+    free(*text);
+    *text = longer;
+    return OZ_OK;
+}
+
+OzStatus oz_study_runs_check(const OzStudy *study, const OzOptions *options)
+{
+    OzStatus status = OZ_OK;
+    char *text = NULL;
+    for (int i = 0; i < study->run_count; i++) {
+        OZ_TRY(check_run(study, &study->runs[i], options, &text));
+    }
+    status = text ? oz_status_fail(OZ_ERR_INPUT, "%s", text) : OZ_OK;
+done:
+    free(text);
+    return status;
+}
+
 /* The first line that differs, of the second text, cut to size. */
 static void find_difference(const char *a, const char *b, char *line, size_t size)
 {
@@ -131,6 +168,7 @@ static OzStatus read_facts(OzRunFacts *facts, double end, int64_t *open, const c
         bool done = strcmp(word, "done") == 0 && oz_cells_number(&table, row, time) >= end;
         double taps = tap < 0 ? NAN : oz_cells_number(&table, row, tap);
         *open += !stopped && !done;
+        facts->in_taps |= !isnan(taps);
         take_row(facts, (int64_t)oz_cells_number(&table, row, seed),
                  isnan(oz_cells_number(&table, row, step))
                      ? 0

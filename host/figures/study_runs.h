@@ -10,8 +10,13 @@ typedef struct OzRunFacts {
     int64_t members, stopped; /* those that a guard stopped      */
     int64_t seed_first, seed_last;
     int64_t step_least, step_most; /* at which members ended */
-    double end;                    /* taps of the longest member, s without a moving wall */
+    double end;                    /* of the longest member */
+    bool in_taps;                  /* end is taps; else s, without a moving wall */
 } OzRunFacts;
+
+/* Whether every run's scene can be loaded with its settings: fails with OZ_ERR_INPUT and all that
+ * is wrong. */
+OzStatus oz_study_runs_check(const OzStudy *study, const OzOptions *options);
 
 /* Makes the run where it is missing, goes on with it where it has not ended, leaves it alone where
  * it has. The command's options are those of `orzo figures`. Fails with OZ_ERR_INPUT for a folder
