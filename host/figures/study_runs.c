@@ -280,7 +280,8 @@ OzStatus oz_study_runs_make(const OzStudy *study, const OzStudyRun *run, const c
     if (need == NEED_NOTHING) {
         goto done;
     }
-    oz_log_line("%s: %s, seeds %" PRIu64 " to %" PRIu64 "%s", path, run->path, made.seed_first,
+    oz_log_line("%s (run %d of %d): %s, seeds %" PRIu64 " to %" PRIu64 "%s", path,
+                (int)(run - study->runs) + 1, study->run_count, run->path, made.seed_first,
                 made.seed_last, need == NEED_RESUME ? ", from its last state" : "");
     used = made;
     status =
