@@ -13,11 +13,14 @@ export ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
 
 # What the fuzzers begin with: fuzz_WHAT's in WHAT/. Frames and states are binary: they are made here, of the scenes.
 make_corpus() {
-    mkdir -p "$work/frames" "$work/state"
+    mkdir -p "$work/frames" "$work/state" "$work/study"
     for what in tests/fuzz/*/; do
         cp -r "$what" "$work/"
     done
     cp scenes/*.yaml tests/bad/*.yaml "$work/scene/"
+    for paper in pournin2005 poschel1995; do
+        cp "scenes/$paper/study.yaml" "$work/study/$paper.yaml"
+    done
     for model in rods trigrains; do
         printf '%s\0time.step=2e-6\0walls.0=false\0' "$(cat tests/fuzz/scene/$model.yaml)" >"$work/scene/$model.set"
         build/orzo run tests/fuzz/scene/$model.yaml -o "$work/$model" --overwrite --no-video >"$work/log" 2>&1 ||

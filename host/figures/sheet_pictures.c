@@ -93,6 +93,7 @@ static OzStatus draw(const OzFigureWork *work, const OzSheetRow *row, const char
                          .paths = {member},
                          .path_count = 1,
                          .out = out,
+                         .gl = work->options->gl,
                          .source_dir = work->options->source_dir};
     const OzStudyFigure *figure = work->figure;
     char size[SETTING], view[SETTING], movie[] = "movie=false";

@@ -180,6 +180,9 @@ OzStatus oz_study_fields_read(const OzField *fields, const char *kind, const OzN
     }
     for (int i = 0; i < map->count; i++) {
         const OzField *field = find_field(fields, kind, map->items[i]->key);
+        if (oz_tree_child(map, map->items[i]->key) != map->items[i]) {
+            continue; /* written twice, which is refused already */
+        }
         if (!field) {
             refuse_unknown(fields, kind, map->items[i], what, faults);
         } else {

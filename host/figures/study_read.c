@@ -95,11 +95,11 @@ done:
 
 static OzStatus read_run(OzStudy *study, const OzNode *map, OzFaults *faults)
 {
-    OzStudyRun *run = &study->runs[study->run_count];
+    int number = study->run_count++;
+    OzStudyRun *run = &study->runs[number];
     OZ_PASS(oz_study_fields_read(run_fields, NULL, map, "a run", run, faults));
-    oz_study_check_name(map, run->name, run->name && oz_study_find_run(study, run->name) >= 0,
+    oz_study_check_name(map, run->name, run->name && oz_study_find_run(study, run->name) < number,
                         faults);
-    study->run_count++;
     run->line = map->line;
     OZ_PASS(run->scene ? find_scene(run, study->path) : OZ_OK);
     oz_study_check_run(map, run, faults);
@@ -108,14 +108,14 @@ static OzStatus read_run(OzStudy *study, const OzNode *map, OzFaults *faults)
 
 static OzStatus read_figure(OzStudy *study, const OzNode *map, OzFaults *faults)
 {
-    OzStudyFigure *figure = &study->figures[study->figure_count];
+    int number = study->figure_count++;
+    OzStudyFigure *figure = &study->figures[number];
     const OzNode *kind = oz_tree_child(map, "kind");
     bool known =
         kind && kind->kind == OZ_NODE_SCALAR && oz_study_fields_has(kind_words, kind->text);
     OZ_PASS(oz_study_fields_read(figure_fields, known ? kind->text : NULL, map, "a figure", figure,
                                  faults));
-    bool taken = figure->name && oz_study_find_figure(study, figure->name) >= 0;
-    study->figure_count++;
+    bool taken = figure->name && oz_study_find_figure(study, figure->name) < number;
     if (map->kind == OZ_NODE_MAP) {
         oz_study_check_name(map, figure->name, taken, faults);
         oz_study_check_figure(study, map, figure, faults);
