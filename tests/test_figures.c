@@ -16,7 +16,8 @@ static const char study[] =
     "quick: {seeds: 2, set: [time.duration=0.04]}\n"
     "runs:\n"
     "  - {name: a, scene: scene.yaml, seeds: [3, 5]}\n"
-    "  - {name: b, scene: scene.yaml, seeds: [3, 3], set: [contact.restitution=0.6], label: lively}\n"
+    "  - {name: b, scene: scene.yaml, seeds: [3, 3], set: [contact.restitution=0.6], label: "
+    "lively}\n"
     "figures:\n"
     "  - {name: energies, kind: curves, runs: [a, b], columns: [kinetic, kinetic+rotational],\n"
     "     against: time, panels: runs, labels: [kinetic, both], title: Energies}\n"
@@ -106,6 +107,22 @@ static void quick_is_shorter_and_of_fewer_seeds(void **state)
     (void)state;
     expect(0, "energies: a: seeds 3 to 4, 400 steps", "figures study.yaml --quick");
     assert_int_equal(count_lines("runs/tiny_quick/energies.csv"), 1 + 2 * 3);
+}
+
+/* No wall moves, so that there are no taps; without a cylinder there is no density. */
+static void what_has_no_points_is_said(void **state)
+{
+    (void)state;
+    write_file("empty.yaml", "%s",
+               "name: tiny\n"
+               "runs:\n"
+               "  - {name: b, scene: scene.yaml, seeds: [3, 3], set: [contact.restitution=0.6]}\n"
+               "figures:\n"
+               "  - {name: taps, kind: curves, runs: [b], columns: [kinetic], against: tap}\n"
+               "  - {name: none, kind: curves, runs: [b], columns: [density], against: time}\n");
+    expect(2, "runs/tiny/b has no tap", "figures empty.yaml --only taps");
+    expect(2, "column density is empty", "figures empty.yaml --only none");
+    assert_false(is_there("runs/tiny/none.png"));
 }
 
 static void another_run_is_refused(void **state)
@@ -229,6 +246,12 @@ static void a_sweep_is_fitted(void **state)
                "runs: [{name: a, scene: scene.yaml, seeds: [3, 5]}]\n"
                "figures: [{name: square, kind: sweep, runs: [a], columns: [kinetic]}]\n");
     expect(2, "a/members.csv is of no sweep", "figures sweep.yaml");
+    write_file(
+        "sweep.yaml", "%s",
+        "name: fall\n"
+        "runs: [{name: g, scene: fall.yaml, seeds: [1, 2]}]\n"
+        "figures: [{name: c, kind: curves, runs: [g], columns: [kinetic], against: time}]\n");
+    expect(2, "g/ensemble.csv is of a sweep", "figures sweep.yaml");
 }
 
 /* Parts of a step that were timed already are added up, beside the paper's numbers. */
@@ -272,7 +295,8 @@ static void every_error_of_a_study_is_said(void **state)
                "  - {name: two, kind: curves, runs: [z], columns: [kinetic], against: time,\n"
                "     x_log: true, x_range: [0, 1]}\n"
                "  - {name: three, kind: curves, runs: [a], columns: [kinetic], y_range: 3}\n"
-               "  - {name: f, kind: curves, runs: [a], columns: [time+kinetik], against: time}\n"
+               "  - {name: f, kind: curves, runs: [a], columns: [time+kinetik], against: time,\n"
+               "     smooth: 0}\n"
                "  - {name: g, kind: shares, runs: [a], rows: [a], paper: [1, 2], parts: [a]}\n");
     static const char *const errors[] = {
         "bad.yaml:1: name is bad/name; expected letters",
@@ -288,7 +312,8 @@ static void every_error_of_a_study_is_said(void **state)
         "bad.yaml:11: a figure has no against; expected it",
         "bad.yaml:11: y_range is 3; expected a list of 2 numbers",
         "bad.yaml:12: columns holds time+kinetik; expected a column that `orzo keys --columns`",
-        "bad.yaml:13: there are 1 rows, 2 numbers of the paper and 1 parts",
+        "bad.yaml:13: smooth is 0; expected a whole number",
+        "bad.yaml:14: there are 1 rows, 2 numbers of the paper and 1 parts",
     };
     for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
         expect(2, errors[i], "figures bad.yaml -o never");
@@ -315,6 +340,7 @@ int main(void)
         cmocka_unit_test(what_has_ended_is_not_run_again),
         cmocka_unit_test(what_was_stopped_goes_on),
         cmocka_unit_test(quick_is_shorter_and_of_fewer_seeds),
+        cmocka_unit_test(what_has_no_points_is_said),
         cmocka_unit_test(another_run_is_refused),
         cmocka_unit_test(a_signal_says_how_to_go_on),
         cmocka_unit_test(pictures_stand_in_a_sheet),

@@ -24,6 +24,7 @@ typedef struct Writer {
     Source *sources;
     FILE *file;
     bool has_spread;
+    bool *has_value; /* of columns, in any row of any run */
 } Writer;
 
 static int find(const Writer *writer, const char *part, const char *ending)
@@ -83,9 +84,12 @@ static double mean_of(const Writer *writer, int64_t row, const int *columns, int
     return sum / (double)(row + 1 - first);
 }
 
-static void write_value(Writer *writer, int64_t row, const Source *source)
+/* Column i in one row. */
+static void write_value(Writer *writer, int64_t row, int i)
 {
+    const Source *source = &writer->sources[i];
     double mean = mean_of(writer, row, source->means, source->count);
+    writer->has_value[i] |= !isnan(mean);
     write_number(writer, writer->work->figure->absolute ? fabs(mean) : mean);
     const int others[] = {source->spread, source->interval};
     for (int k = 0; k < 2; k++) {
@@ -100,9 +104,14 @@ static OzStatus write_rows(Writer *writer, const OzStudyRun *run)
     const char *against = writer->work->figure->against;
     int x = oz_cells_find(&writer->table, against), step = oz_cells_find(&writer->table, "step");
     int members = oz_cells_find(&writer->table, "members");
-    if (x < 0 || step < 0 || members < 0) {
+    if (x < 0 || step != 0 || members < 0) {
         return oz_status_fail(OZ_ERR_INPUT,
-                              "%s/%s/ensemble.csv has no column %s; expected step, time or tap",
+                              "%s/%s/ensemble.csv is of a sweep; expected a run without one for "
+                              "curves",
+                              writer->work->folder, run->name);
+    }
+    if (writer->table.row_count > 0 && isnan(oz_cells_number(&writer->table, 0, x))) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s/%s has no %s: no wall moves; expected step or time",
                               writer->work->folder, run->name, against);
     }
     for (int i = 0; i < writer->columns->count; i++) {
@@ -112,7 +121,7 @@ static OzStatus write_rows(Writer *writer, const OzStudyRun *run)
         fprintf(writer->file, "%s,%s,%s,%s", run->name, oz_cells_text(&writer->table, row, step),
                 oz_cells_text(&writer->table, row, x), oz_cells_text(&writer->table, row, members));
         for (int i = 0; i < writer->columns->count; i++) {
-            write_value(writer, row, &writer->sources[i]);
+            write_value(writer, row, i);
         }
         fputc('\n', writer->file);
     }
@@ -142,6 +151,19 @@ static void write_names(const Writer *writer)
     fputc('\n', writer->file);
 }
 
+/* A curve without a point anywhere is a mistake; one run may well lack what another has. */
+static OzStatus check_values(const Writer *writer)
+{
+    for (int i = 0; i < writer->columns->count; i++) {
+        if (!writer->has_value[i]) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "column %s is empty in every run; `orzo check` says why",
+                                  writer->columns->items[i]);
+        }
+    }
+    return OZ_OK;
+}
+
 OzStatus oz_curves_data_write(const OzFigureWork *work, const char *name, const OzTexts *runs,
                               const OzTexts *columns, bool *has_spread)
 {
@@ -149,13 +171,16 @@ OzStatus oz_curves_data_write(const OzFigureWork *work, const char *name, const 
     Writer writer = {.work = work, .columns = columns};
     OZ_TRY(oz_folder_create_file(&writer.file, work->folder, name));
     OZ_TRY(OZ_NEW(&writer.sources, columns->count));
+    OZ_TRY(OZ_NEW(&writer.has_value, columns->count));
     write_names(&writer);
     for (int i = 0; i < runs->count; i++) {
         OZ_TRY(write_run(&writer, oz_figure_work_run(work, runs->items[i])));
     }
+    OZ_TRY(check_values(&writer));
     *has_spread = writer.has_spread;
 done:
     OZ_AFTER(status, oz_folder_finish_file(writer.file, name));
     free(writer.sources);
+    free(writer.has_value);
     return status;
 }

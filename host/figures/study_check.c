@@ -120,7 +120,6 @@ static void check_columns(const OzNode *map, const OzStudyFigure *figure, OzFaul
     for (int i = 0; i < figure->inset_columns.count; i++) {
         check_column(map, "inset_columns", figure->inset_columns.items[i], faults);
     }
-    check_column(map, "against", figure->against, faults);
     check_column(map, "bars", figure->bars, faults);
     check_column(map, "at_greatest", figure->at_greatest, faults);
     check_column(map, "of_most", figure->of_most, faults);
@@ -136,6 +135,16 @@ static void check_size(const OzNode *map, const OzNumbers *size, OzFaults *fault
             oz_faults_add(faults, node->source, node->line,
                           "size is %g; expected whole pixels from 64 to 2048", side);
         }
+    }
+}
+
+static void check_smooth(const OzNode *map, const OzNumbers *smooth, OzFaults *faults)
+{
+    double rows = smooth->count ? smooth->items[0] : 1;
+    const OzNode *node = oz_tree_child(map, "smooth");
+    if (rows < 1 || rows > 1e4 || rows != (int)rows) {
+        oz_faults_add(faults, node->source, node->line,
+                      "smooth is %g; expected a whole number of rows from 1 to 10000", rows);
     }
 }
 
@@ -161,5 +170,6 @@ void oz_study_check_figure(const OzStudy *study, const OzNode *map, const OzStud
     check_range(map, "y_range", &figure->y_range, false, faults);
     check_columns(map, figure, faults);
     check_size(map, &figure->size, faults);
+    check_smooth(map, &figure->smooth, faults);
     check_rows(map, figure, faults);
 }
