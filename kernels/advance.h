@@ -9,7 +9,8 @@
  * oz_step_finish(w, step, last): motion by these; 1 when bodies are moved for the next step too,
  * which is not `last`;
  * OZ_STEP_AFTER, oz_step_after(w, step): what is left to do when all have moved;
- * OZ_STEP_SORTS: large scenes put bodies in the order of cells (resort.h). OpenCL C only. */
+ * with OZ_TILES, oz_step_tiles(w, step): forces and motion, tile by tile; bodies are put in the
+ * order of cells (resort.h). OpenCL C only. */
 #pragma once
 
 #include "kernels/lists.h"
@@ -28,7 +29,17 @@
     kernel void oz_##name(OZ_WORK_ARGUMENTS, int number)                                           \
     {                                                                                              \
         OZ_WORK_OPEN(0)                                                                            \
+        OZ_WORK_AT(&w, w.control->step)                                                            \
         (void)number;                                                                              \
+        __VA_ARGS__;                                                                               \
+    }
+
+/* A phase of a step. */
+#define OZ_STEP_PHASE(name, at, ...)                                                               \
+    kernel void oz_##name(OZ_WORK_ARGUMENTS, int number)                                           \
+    {                                                                                              \
+        OZ_WORK_OPEN(0)                                                                            \
+        OZ_WORK_AT(&w, at)                                                                         \
         __VA_ARGS__;                                                                               \
     }
 
@@ -52,9 +63,9 @@ OZ_INLINE int due_forces(const OzWork *w, int step)
     return due(w, step) && marked(&w->control->stale_positions) > step;
 }
 
+/* The step is made. */
 OZ_INLINE void end_step(OzWork *w, int step)
 {
-    oz_step_finish(w, step, step);
     if (w->item == 0) {
         w->control->step = step + 1;
         w->control->moved = 0;
@@ -75,19 +86,31 @@ OZ_INLINE void mark(OzWork *w, int truth)
 }
 
 #if OZ_STEP_BEFORE
-OZ_PHASE(before, if (due(&w, number) && marked(&w.control->stale_positions) >= number) {
-    oz_step_before(&w, number, w.control->moved);
-})
+OZ_STEP_PHASE(
+    before, number, if (due(&w, number) && marked(&w.control->stale_positions) >= number) {
+        oz_step_before(&w, number, w.control->moved);
+    })
 #endif
-OZ_PHASE(pairs, if (due_forces(&w, number)) oz_step_forces(&w, number))
-OZ_PHASE(grains, if (due_forces(&w, number)) end_step(&w, number))
+#if OZ_TILES
+OZ_STEP_PHASE(
+    tiles, number, if (due_forces(&w, number)) {
+        oz_step_tiles(&w, number);
+        end_step(&w, number);
+    })
+#else
+OZ_STEP_PHASE(pairs, number, if (due_forces(&w, number)) oz_step_forces(&w, number))
+OZ_STEP_PHASE(
+    grains, number, if (due_forces(&w, number)) {
+        oz_step_finish(&w, number, number);
+        end_step(&w, number);
+    })
+#endif
 #if OZ_STEP_AFTER
 /* It asks whether that step was made, not whether it is still to be made. */
-OZ_PHASE(after, if (w.control->step == number + 1) oz_step_after(&w, number))
+OZ_STEP_PHASE(after, number + 1, if (w.control->step == number + 1) oz_step_after(&w, number))
 #endif
-OZ_PHASE(measure, oz_lists_measure(&w);
-         if (w.control->truth == OZ_SPRINGS_AT_INNER) OZ_EACH_REGION(&w)
-             oz_springs_harvest(&w, region))
+OZ_PHASE(measure, oz_lists_measure(&w); if (w.control->truth == OZ_SPRINGS_AT_INNER)
+             OZ_EACH_REGION(&w) oz_springs_harvest(&w, region))
 OZ_PHASE(mark, if (w.item == 0 && !w.control->full) mark(&w, number))
 OZ_PHASE(save, OZ_EACH_REGION(&w) oz_springs_save(&w, region))
 OZ_PHASE(clear, oz_lists_refer(&w); oz_cells_clear(&w))
@@ -95,17 +118,19 @@ OZ_PHASE(bin, oz_cells_bin(&w))
 OZ_PHASE(scan, if (w.item == 0) oz_cells_scan(&w))
 OZ_PHASE(fill, oz_cells_fill(&w))
 OZ_PHASE(arrange, oz_cells_arrange(&w))
-#if OZ_STEP_SORTS
+#if OZ_TILES
+OZ_PHASE(plan, if (w.item == 0) oz_resort_plan(&w))
 OZ_PHASE(move_out, OZ_EACH_REGION(&w) oz_resort_out(&w, region))
 OZ_PHASE(move_in, OZ_EACH_REGION(&w) oz_resort_in(&w, region))
 #endif
 OZ_PHASE(search, OZ_EACH_REGION(&w) oz_lists_search(&w, region))
 OZ_PHASE(restore, if (!w.control->full && w.control->truth == OZ_SPRINGS_AT_SAVED)
                       OZ_EACH_REGION(&w) oz_springs_restore(&w, region))
-OZ_PHASE(reset, if (!w.control->full) {
-    oz_lists_measure(&w);
-    oz_lists_reset(&w);
-})
+OZ_PHASE(
+    reset, if (!w.control->full) {
+        oz_lists_measure(&w);
+        oz_lists_reset(&w);
+    })
 OZ_PHASE(select, if (!w.control->full) OZ_EACH_REGION(&w) oz_lists_select(&w, region))
 OZ_PHASE(order, oz_lists_order(&w))
 OZ_PHASE(forget, if (!w.control->full) OZ_EACH_REGION(&w) oz_springs_forget(&w, region))

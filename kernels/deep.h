@@ -1,5 +1,5 @@
-/* The guard of contacts' depth. Contacts deeper than guards.overlap.warn are counted; one deeper than
- * guards.overlap.stop, or whose shafts meet, stops the run. OpenCL C only. */
+/* The guard of contacts' depth. Contacts deeper than guards.overlap.warn are counted; one deeper
+ * than guards.overlap.stop, or whose shafts meet, stops the run. OpenCL C only. */
 #pragma once
 
 #include "kernels/work.h"
@@ -38,7 +38,7 @@ OZ_INLINE void oz_deep_judge(OzWork *w, OzDeep deep, const int *slots, int step)
     OZ_LANES_STORE(deep.overlap / deep.unit, depth);
     oz_lanes_store_mask(warn, hit);
     for (int l = 0; l < OZ_LANES; l++) {
-        if (hit[l] && slots[l] < w->z.count) {
+        if (hit[l] && slots[l] < w->z.count && oz_work_is_own(w, slots[l])) {
             oz_deep_count(w, depth[l], deep.kind, step, w->id[slots[l]]);
         }
     }
@@ -46,9 +46,9 @@ OZ_INLINE void oz_deep_judge(OzWork *w, OzDeep deep, const int *slots, int step)
     oz_work_stop_lanes(w, met, OZ_STOP_MET, step, slots);
 }
 
-/* slots: of the first grain. Tells whether any contact was worth a look: those below deep_look are passed
- * over. A step moves an end by half a radius at most, so that no contact gets from there to where shafts
- * meet without being looked at. */
+/* slots: of the first grain. Tells whether any contact was worth a look: those below deep_look are
+ * passed over. A step moves an end by half a radius at most, so that no contact gets from there to
+ * where shafts meet without being looked at. */
 OZ_INLINE int oz_deep_guard(OzWork *w, OzDeep deep, const int *slots, int step)
 {
     mask look = deep.counts & oz_depth_beyond(deep.overlap, deep.unit, w->parameters->deep_look);

@@ -20,6 +20,7 @@ typedef OzElementSizes OzSizes;
 #define OZ_HISTORY        0
 #define OZ_HOST_LISTS     0
 #define OZ_ALL_PAIRS      0
+#define OZ_TILES          0 /* loads are gathered in large scenes */
 
 #define OZ_WORK_BODIES(w) ((w)->control->free_count)
 #define OZ_WORK_SLOTS(w)  ((w)->z.free_slots)

@@ -4,9 +4,9 @@
  * is the OzSizes. Kinds: parameters, control, scalar, real (one scalar per lane), spot (one
  * coordinate of a place), integer, ledger (double). Classes: STATE, what the next step depends on;
  * SPRING, the tangential memory of contacts; LIST, neighbour lists that are made again from these
- * two, ROWS those of each region's pairs, which outlive larger capacities; SCRATCH, written before it is read by the host at each launch or by each step. Springs of
- * pairs outlive the lists in the saved_ arrays alone, where oz_save_springs puts them (springs.h);
- * others are LIST. */
+ * two, ROWS those of each region's pairs, which outlive larger capacities; SCRATCH, written before
+ * it is read by the host at each launch or by each step. Springs of pairs outlive the lists in the
+ * saved_ arrays alone, where oz_save_springs puts them (springs.h); others are LIST. */
 #pragma once
 
 #include "kernels/ledger_entries.h"
@@ -28,13 +28,15 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(real, shape, OZ_EQUAL ? 0 : z.blocks *OZ_SHAPE, STATE)                                       \
     X(real, wall_history, OZ_HISTORY ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)                     \
     X(integer, wall_active, z.blocks *OZ_WALL_ENDS, SPRING)                                        \
-    X(scalar, record, (z.slots + 1) * OZ_RECORD, STATE)                                            \
+    X(scalar, record, (z.slots + 1) * OZ_RECORD * (OZ_TILES ? 2 : 1), STATE)                       \
+    X(scalar, fine, OZ_FINE ? (z.slots + 1) * OZ_FINE_RECORD *(OZ_TILES ? 2 : 1) : 0, STATE)       \
     X(real, reference_inner, z.blocks *OZ_REFERENCE, LIST)                                         \
     X(real, reference_outer, z.blocks *OZ_REFERENCE, LIST)                                         \
     X(integer, id, z.slots, STATE)                                                                 \
     X(integer, slot_of, z.slots, STATE)                                                            \
     X(integer, cell_of, z.slots, LIST)                                                             \
     X(integer, cell_first, z.cells + 2, LIST)                                                      \
+    X(integer, cell_slot, OZ_TILES ? z.cells : 0, LIST)                                            \
     X(fixed_position, sorted_x, z.slots + OZ_LANES, LIST)                                          \
     X(fixed_position, sorted_y, z.slots + OZ_LANES, LIST)                                          \
     X(fixed_position, sorted_z, z.slots + OZ_LANES, LIST)                                          \
@@ -46,25 +48,25 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(integer, outer_b, z.regions *z.outer_capacity, ROWS)                                         \
     X(scalar, outer_history, OZ_HISTORY ? z.regions *z.outer_capacity * 3 : 0, ROWS)               \
     X(integer, outer_count, z.regions, LIST)                                                       \
-    X(integer, outer_first, OZ_HISTORY ? z.slots : 0, LIST)                                        \
-    X(integer, outer_number, OZ_HISTORY ? z.slots : 0, LIST)                                       \
+    X(integer, outer_first, OZ_HISTORY && !OZ_TILES ? z.slots : 0, LIST)                           \
+    X(integer, outer_number, OZ_HISTORY && !OZ_TILES ? z.slots : 0, LIST)                          \
     X(integer, pair_a, z.regions *z.inner_capacity, LIST)                                          \
     X(integer, pair_b, z.regions *z.inner_capacity, LIST)                                          \
     X(integer, pair_outer, OZ_HISTORY ? z.regions *z.inner_capacity : 0, LIST)                     \
     X(scalar, pair_history, OZ_HISTORY ? z.regions *z.inner_capacity *OZ_SPRING : 0, LIST)         \
-    X(scalar, load, z.slots *OZ_LOAD, SCRATCH)                                                     \
-    X(scalar, pair_force, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_FORCE,     \
+    X(scalar, load, (z.slots + (OZ_TILES ? 2 * z.regions : 0)) * OZ_LOAD, SCRATCH)                 \
+    X(scalar, pair_force, OZ_GATHER ? (z.regions * z.inner_capacity + 1) * OZ_PAIR_FORCE : 0,      \
       SCRATCH)                                                                                     \
-    X(scalar, pair_torque, OZ_SCATTER ? 0 : (z.regions * z.inner_capacity + 1) * OZ_PAIR_TORQUE,   \
+    X(scalar, pair_torque, OZ_GATHER ? (z.regions * z.inner_capacity + 1) * OZ_PAIR_TORQUE : 0,    \
       SCRATCH)                                                                                     \
     X(integer, pair_active, z.regions *z.inner_capacity / OZ_LANES, LIST)                          \
-    X(integer, pair_kept, OZ_SCATTER ? 0 : z.regions *z.inner_capacity / OZ_LANES, SCRATCH)        \
+    X(integer, pair_kept, OZ_GATHER ? z.regions *z.inner_capacity / OZ_LANES : 0, SCRATCH)         \
     X(integer, pair_count, z.regions, LIST)                                                        \
-    X(integer, pair_first, OZ_SCATTER ? 0 : z.slots, LIST)                                         \
-    X(integer, pair_number, OZ_SCATTER ? 0 : z.slots, LIST)                                        \
-    X(integer, back_number, OZ_SCATTER ? 0 : z.slots, LIST)                                        \
-    X(integer, back_before, OZ_SCATTER | OZ_EQUAL ? 0 : z.slots, LIST)                             \
-    X(integer, back, OZ_SCATTER ? 0 : z.slots *z.back_capacity, LIST)                              \
+    X(integer, pair_first, OZ_GATHER ? z.slots : 0, LIST)                                          \
+    X(integer, pair_number, OZ_GATHER ? z.slots : 0, LIST)                                         \
+    X(integer, back_number, OZ_GATHER ? z.slots : 0, LIST)                                         \
+    X(integer, back_before, OZ_GATHER && !OZ_EQUAL ? z.slots : 0, LIST)                            \
+    X(integer, back, OZ_GATHER ? z.slots *z.back_capacity : 0, LIST)                               \
     X(integer, saved_a, OZ_HISTORY ? z.regions *z.inner_capacity : 0, SPRING)                      \
     X(integer, saved_b, OZ_HISTORY ? z.regions *z.inner_capacity : 0, SPRING)                      \
     X(scalar, saved_history, OZ_HISTORY ? z.regions *z.inner_capacity * 3 : 0, SPRING)             \

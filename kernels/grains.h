@@ -78,9 +78,29 @@ OZ_INLINE void oz_grains_store(OzWork *w, int block, OzBody body)
 #endif
 }
 
-/* The record that pairs read. */
-OZ_INLINE void oz_grains_record(OzWork *w, int block, OzBody body, OzShape shape, OzVec3 velocity,
-                                OzVec3 spin)
+#if OZ_TILES
+#define OZ_GRAINS_HALF(w, name, next) ((next) ? (w)->name##_next : (w)->name)
+#else
+#define OZ_GRAINS_HALF(w, name, next) ((w)->name)
+#endif
+
+#if OZ_FINE
+/* What the record leaves of a block's places and turns. */
+OZ_INLINE void oz_grains_record_fine(global scalar *records, int block, OzBody body)
+{
+    real rest[4] = {body.rest.x, body.rest.y, body.rest.z, REAL(0.0)};
+    real turn[4] = {body.turn.x, body.turn.y, body.turn.z, body.turn.w};
+    real turn_rest[4] = {body.turn_rest.x, body.turn_rest.y, body.turn_rest.z, body.turn_rest.w};
+    global scalar *out = records + (size_t)block * OZ_LANES * OZ_FINE_RECORD;
+    oz_lanes_store4(out, OZ_FINE_RECORD, OZ_N_REST, rest);
+    oz_lanes_store4(out, OZ_FINE_RECORD, OZ_N_TURN, turn);
+    oz_lanes_store4(out, OZ_FINE_RECORD, OZ_N_TURN_REST, turn_rest);
+}
+#endif
+
+/* The record that pairs read; next, with tiles: in the half that the step writes. */
+OZ_INLINE void oz_grains_record(OzWork *w, int next, int block, OzBody body, OzShape shape,
+                                OzVec3 velocity, OzVec3 spin)
 {
     OzVec3 u = oz_quaternion_axis(body.turn), rate = oz_body_rate(spin, u, shape);
     OzVec3 shaft = oz_scale(u, shape.half_length);
@@ -90,11 +110,14 @@ OZ_INLINE void oz_grains_record(OzWork *w, int block, OzBody body, OzShape shape
     real skin = w->reference_inner[(size_t)block * OZ_REFERENCE + OZ_REFERENCE_SKIN];
     real c[4] = {velocity.x, velocity.y, velocity.z, skin};
     real d[4] = {rate.x, rate.y, rate.z, OZ_AT_CONTACT ? shape.inverse_inertia : REAL(0.0)};
-    global scalar *out = w->record + (size_t)block * OZ_LANES * OZ_RECORD;
+    global scalar *out = OZ_GRAINS_HALF(w, record, next) + (size_t)block * OZ_LANES * OZ_RECORD;
     oz_lanes_store4(out, OZ_RECORD, OZ_R_POSITION, a);
     oz_lanes_store4(out, OZ_RECORD, OZ_R_SHAFT, b);
     oz_lanes_store4(out, OZ_RECORD, OZ_R_VELOCITY, c);
     oz_lanes_store4(out, OZ_RECORD, OZ_R_RATE, d);
+#if OZ_FINE
+    oz_grains_record_fine(OZ_GRAINS_HALF(w, fine, next), block, body);
+#endif
 }
 
 /* Lanes that hold grains; the others pad the last block. */

@@ -7,8 +7,11 @@
 /* A step or an index that was never met. */
 enum { OZ_NEVER = 0x7fffffff };
 
-/* One work-item does a member: it adds a pair's force to both bodies at once. */
+/* One work-item does a member: it adds a pair's force to both bodies at once. So does one that does
+ * a tile of a large scene (OZ_TILES, member.h). Otherwise forces of pairs are kept, and each body
+ * gathers its own. */
 #define OZ_SCATTER ((OZ_GROUP) == 1 && !(OZ_RESORT))
+#define OZ_GATHER  (!(OZ_SCATTER) && !(OZ_TILES))
 
 /* Where a contact is deep, as bits; depths are counted in parts of one such share of their unit. */
 enum { OZ_DEEP_PAIR = 1, OZ_DEEP_WALL = 2, OZ_DEEP_SHARE = 1000000 };
@@ -24,10 +27,10 @@ enum { OZ_SPRINGS_AT_NONE, OZ_SPRINGS_AT_SAVED, OZ_SPRINGS_AT_OUTER, OZ_SPRINGS_
     scalar dt;                                                                                     \
     scalar drag;
 
-/* Of the parameters too, for the lists. outer_least, outer_most: m, bounds of one body's skin in the
- * outer list; it grows with its speed, to last for outer_time, s; skin_...: the same for the inner
- * list; inverse_cell: 1/m, cells of the hashed grid; reach_max: m, from a body's centre, of the
- * farthest that is in the grid. */
+/* Of the parameters too, for the lists. outer_least, outer_most: m, bounds of one body's skin in
+ * the outer list; it grows with its speed, to last for outer_time, s; skin_...: the same for the
+ * inner list; inverse_cell: 1/m, cells of the hashed grid; reach_max: m, from a body's centre, of
+ * the farthest that is in the grid. */
 #define OZ_PARAMETERS_LISTS                                                                        \
     scalar outer_least, outer_most, outer_time;                                                    \
     scalar skin_least, skin_most, skin_time;                                                       \
@@ -58,15 +61,16 @@ enum { OZ_SPRINGS_AT_NONE, OZ_SPRINGS_AT_SAVED, OZ_SPRINGS_AT_OUTER, OZ_SPRINGS_
  * OZ_DEEP_SHARE of its unit, deep_kinds: OZ_DEEP_... in it, 0 where the model does not tell;
  * stale_step: the step after which lists no longer hold; stale_positions: the step whose places,
  * moved before its forces, the lists do not hold, in large scenes alone: others renew them in time
- * (both OZ_NEVER: lists hold); truth: where the tangential springs are now, and so how far the lists
- * are made, OZ_SPRINGS_AT_...; outer_stale: the outer list no longer covers the inner skin. */
+ * (both OZ_NEVER: lists hold); front: with tiles, the half of the records that holds step 0
+ * (work.h); truth: where the tangential springs are now, and so how far the lists are made,
+ * OZ_SPRINGS_AT_...; outer_stale: the outer list no longer covers the inner skin. */
 #define OZ_CONTROL_HEAD                                                                            \
     int step, moved, full;                                                                         \
     int outer_needed, inner_needed, back_needed;                                                   \
     int stop_bits, stop_step, stop_index;                                                          \
     int refreshes, rebuilds, crossed;                                                              \
     int deep_count, deep_step, deep_index, deep_depth, deep_kinds;                                 \
-    int stale_step, stale_positions, truth, outer_stale;
+    int stale_step, stale_positions, front, truth, outer_stale;
 
 #ifdef OZ_HOST
 /* The driver's view of them. */

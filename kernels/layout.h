@@ -11,7 +11,7 @@ enum { OZ_WALLS_MAX = 31 }; /* the most sides of walls: OzParameters has an entr
 
 /* A wall as kernels see it. They come in the order of their kinds. */
 typedef struct OzWallParameters {
-    OzWallShape shape; /* its point in units of length_unit (double: m) */
+    OzWallShape shape;   /* its point in units of length_unit (double: m) */
     scalar direction[3]; /* unit vector: along which it moves */
     scalar axis[3];      /* unit vector: about which it turns */
     OzLawConstants law;
@@ -62,6 +62,10 @@ enum {
     OZ_R_INVERSE_MASS_TURN = 15, /* inverse inertia across the shaft; with OZ_AT_CONTACT only */
     OZ_RECORD = 16
 };
+
+/* Words of a fine record: what the record leaves of the grain's place and turn (fine.h), with
+ * OZ_FINE only, each vector with one word to spare. */
+enum { OZ_N_REST = 0, OZ_N_TURN = 4, OZ_N_TURN_REST = 8, OZ_FINE_RECORD = 12 };
 
 /* Words of a pair's result. Force and torque on b stand together, each with one word to spare; the
  * torque on a is in an array of its own. So the gather of b, which comes to these words in no order

@@ -51,14 +51,16 @@ OZ_INLINE void oz_ledger_add_couple(OzWork *w, const int *slots, int bits, int b
 OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
 {
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region];
+    oz_work_tile(w, region);
     for (int first = begin; first < end; first += OZ_LANES) {
         int a[OZ_LANES], b[OZ_LANES], bits = w->pair_active[first / OZ_LANES];
-        if (bits == 0) {
-            continue; /* the others do not touch */
-        }
         for (int l = 0; l < OZ_LANES; l++) {
             a[l] = w->pair_a[first + l];
             b[l] = w->pair_b[first + l];
+            bits &= oz_work_is_own(w, a[l]) ? -1 : ~(1 << l); /* the first one's tile gives it */
+        }
+        if (bits == 0) {
+            continue; /* the others do not touch */
         }
         global const real *words = w->pair_ledger + (size_t)(first / OZ_LANES) * OZ_CONTACT_LEDGER;
         OzGrain one = oz_work_grains(w, a), other = oz_work_grains(w, b);

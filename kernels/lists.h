@@ -5,12 +5,15 @@
  * list is made anew from the outer one as long as that covers every body's motion and skin. A list
  * too small raises control->full with the sizes needed and leaves the springs where control->truth
  * says, so that the host can enlarge it and repeat: no pair is dropped. Both lists are ordered by
- * first slot, then by the second's id: whatever the skins, touching pairs come in the same order.
- * OpenCL C only. */
+ * the first's id (without tiles by its slot: there the same, or loads are gathered), then by the
+ * second's: whatever the skins, touching pairs come in the same order. OpenCL C only. */
 #pragma once
 
 #include "kernels/cells.h"
 #include "kernels/springs.h"
+#if OZ_TILES
+#include "kernels/tiles.h"
+#endif
 
 OZ_INLINE void oz_lists_full(OzWork *w, volatile global int *needed, int count)
 {
@@ -32,9 +35,28 @@ typedef struct OzSearch {
     int out;             /* where its next pair goes in the outer list            */
     int limit;           /* end of the region's outer list                        */
     int wanted;          /* pairs found in this region, stored or not             */
-    int count;           /* candidates                                            */
+#if OZ_TILES
+    OzStrays strays;
+#endif
+    int count; /* candidates */
     int candidate[OZ_CANDIDATES + 2 * OZ_LANES];
 } OzSearch;
+
+/* Stores a pair of the body and another one. */
+OZ_INLINE void oz_lists_store(OzWork *w, OzSearch *s, int other)
+{
+    s->wanted++;
+#if OZ_TILES
+    if (oz_tiles_is_stray(w, s->slot, other)) {
+        oz_tiles_add_stray(w, &s->strays, other, s->slot);
+        return;
+    }
+#endif
+    if (s->out < s->limit) {
+        w->outer_a[s->out] = s->slot;
+        w->outer_b[s->out++] = other;
+    }
+}
 
 /* Tests the collected candidates and stores the pairs. */
 OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
@@ -51,10 +73,8 @@ OZ_INLINE void oz_lists_flush(OzWork *w, OzSearch *s)
         mask hits = oz_near_pairs(w, &s->body, &other, margin) &
                     oz_lanes_mask_of(OZ_LANES_IOTA + first < s->count);
         int count = oz_lanes_compact(active, OZ_LANES_LOAD(slots), hits);
-        s->wanted += count;
-        for (int l = 0; l < count && s->out < s->limit; l++) {
-            w->outer_a[s->out] = s->slot;
-            w->outer_b[s->out++] = active[l];
+        for (int l = 0; l < count; l++) {
+            oz_lists_store(w, s, active[l]);
         }
     }
     s->count = 0;
@@ -73,7 +93,11 @@ OZ_INLINE void oz_lists_sweep(OzWork *w, OzSearch *s, int first, int last)
         distance2 += z * z;
 #endif
         real far = OZ_LANES_LOAD(w->sorted_far + k) + REAL(s->reach);
-        mask seconds = oz_near_seconds(w, k, s->slot) & oz_lanes_mask_of(OZ_LANES_IOTA + k < last);
+        mask seconds = oz_near_seconds(w, k, s->slot);
+#if OZ_TILES
+        seconds = seconds | oz_tiles_foreign(w, k);
+#endif
+        seconds = seconds & oz_lanes_mask_of(OZ_LANES_IOTA + k < last);
         if (s->count > OZ_CANDIDATES) {
             oz_lists_flush(w, s);
         }
@@ -174,9 +198,27 @@ OZ_INLINE void oz_lists_search_one(OzWork *w, OzSearch *s, int slot)
     oz_lists_around(w, s);
     oz_lists_flush(w, s);
     oz_lists_sort(w, first, s->out);
-#if OZ_HISTORY
+#if OZ_HISTORY && !OZ_TILES
     w->outer_first[slot] = first;
     w->outer_number[slot] = s->out - first;
+#endif
+}
+
+/* Pairs of all bodies of a region, in the order of their ids. */
+OZ_INLINE void oz_lists_search_all(OzWork *w, OzSearch *s, int region)
+{
+    int begin = oz_work_region_begin(w, region), end = oz_work_region_end(w, region);
+#if OZ_TILES
+    oz_work_tile(w, region);
+    oz_tiles_begin(w, &s->strays, region);
+    for (int i = begin; i < end; i++) {
+        oz_lists_search_one(w, s, w->cell_of[i]);
+    }
+    s->out = oz_tiles_merge(w, &s->strays, s->limit - w->z.outer_capacity, s->out, s->limit);
+#else
+    for (int i = begin; i < end; i++) {
+        oz_lists_search_one(w, s, i);
+    }
 #endif
 }
 
@@ -188,9 +230,7 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
     s.out = begin;
     s.limit = begin + w->z.outer_capacity;
     s.wanted = 0;
-    for (int i = oz_work_region_begin(w, region); i < oz_work_region_end(w, region); i++) {
-        oz_lists_search_one(w, &s, i);
-    }
+    oz_lists_search_all(w, &s, region);
     w->outer_count[region] = s.out - begin;
     for (int o = s.out; o < s.limit && (o - begin) % OZ_LANES != 0; o++) {
         w->outer_a[o] = 0; /* read with the last block, never taken */
@@ -199,6 +239,11 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
     if (s.wanted > w->z.outer_capacity) {
         oz_lists_full(w, &w->control->outer_needed, s.wanted);
     }
+#if OZ_TILES
+    if (s.strays.wanted > w->z.inner_capacity) {
+        oz_lists_full(w, &w->control->inner_needed, s.strays.wanted);
+    }
+#endif
     oz_springs_forget(w, region);
 }
 
@@ -216,7 +261,8 @@ OZ_INLINE void oz_lists_refer_block(OzWork *w, int block)
     global real *reference = w->reference_outer + (size_t)block * OZ_REFERENCE;
     OzPose pose = oz_near_pose(w, block);
     oz_near_note(reference, pose);
-    reference[OZ_REFERENCE_SKIN] = oz_lists_skin(pose, p->outer_time, p->outer_least, p->outer_most);
+    reference[OZ_REFERENCE_SKIN] =
+        oz_lists_skin(pose, p->outer_time, p->outer_least, p->outer_most);
 }
 
 OZ_INLINE void oz_lists_refer(OzWork *w)
@@ -267,7 +313,7 @@ OZ_INLINE void oz_lists_watch(OzWork *w, int block, OzPose pose, global int *mar
  * with atomics waits until what was written before has arrived. */
 OZ_INLINE void oz_lists_count(OzWork *w, const int *outer, int count, int *back)
 {
-#if !OZ_SCATTER
+#if OZ_GATHER
     for (int l = 0; l < count; l++) {
         int b = w->outer_b[outer[l]];
         back[l] = OZ_NEAR_MOVES(w, b) ? OZ_WORK_COUNT(&w->back_number[b]) : w->z.back_capacity;
@@ -282,7 +328,7 @@ OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to, int back)
     int a = w->outer_a[outer], b = w->outer_b[outer];
     w->pair_a[to] = a;
     w->pair_b[to] = b;
-#if !OZ_SCATTER
+#if OZ_GATHER
     if (w->pair_number[a]++ == 0) {
         w->pair_first[a] = to;
     }
@@ -310,7 +356,7 @@ OZ_INLINE void oz_lists_pad(OzWork *w, int begin, int count)
 
 OZ_INLINE void oz_lists_reset(OzWork *w)
 {
-#if !OZ_SCATTER
+#if OZ_GATHER
     OZ_EACH(w, i, OZ_WORK_SLOTS(w))
     {
         w->pair_number[i] = 0;
@@ -363,7 +409,7 @@ OZ_INLINE void oz_lists_select(OzWork *w, int region)
 /* Sorts each body's pairs in which it is the second by the first one's id. */
 OZ_INLINE void oz_lists_order(OzWork *w)
 {
-#if !OZ_SCATTER
+#if OZ_GATHER
     OZ_EACH(w, i, OZ_WORK_BODIES(w))
     {
         int count = w->back_number[i];

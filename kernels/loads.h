@@ -4,7 +4,7 @@
 
 #include "kernels/pairs.h"
 
-#if !OZ_SCATTER
+#if OZ_GATHER
 
 typedef struct OzSum {
     scalar4 force, torque;

@@ -2,10 +2,15 @@
  * shared out, how a run is stopped. A model's own header (work.h, element_work.h) says first what
  * its OZ_FIELDS, OzParameters, OzControl and OzSizes are; OZ_WORK_BODIES(w) bodies that move, in
  * OZ_WORK_SLOTS(w) slots; whether OZ_WORK_HOLDS(w, slot) a body; its OZ_WORK_ID(w, slot), by which
- * the host is told of it and which no order of slots changes. OpenCL C only. OZ_GROUP 1: one work-item
- * does a member's whole launch and needs neither barriers nor atomics; otherwise the work-group's
- * size. OZ_RESORT 1: a large scene, phase by phase over many work-groups. Pair lists are kept by
- * region, a run of slots. */
+ * the host is told of it and which no order of slots changes. OpenCL C only. OZ_GROUP 1: one
+ * work-item does a member's whole launch and needs neither barriers nor atomics; otherwise the
+ * work-group's size. OZ_RESORT 1: a large scene, phase by phase over many work-groups. Pair lists
+ * are kept by region, a run of slots. OZ_TILES 1: a region is a tile, whose forces and motion are
+ * one work-item's in one launch. Its lists hold every pair of its bodies, also those with a body of
+ * another tile, which that tile lists and computes too, from the same words in the same order: each
+ * adds to its own body, and both copies of a tangential spring stay equal. So nothing is handed
+ * over within a step but the bodies' records, of which there are two halves: a step reads one,
+ * which holds what all bodies were before it, and writes the other. */
 #pragma once
 
 #include "kernels/head.h"
@@ -36,6 +41,12 @@ typedef struct OzWork {
     OZ_FIELDS(OZ_WORK_MEMBER)
     OzSizes z;
     int item, stride; /* this work-item, and how many share the work */
+#if OZ_TILES
+    global scalar *record_next; /* the half of the records that the step writes */
+    global scalar *fine_next;
+    int own_begin, own_end; /* slots of the tile at hand                    */
+    int stray;              /* slot of loads that nobody asks for           */
+#endif
 } OzWork;
 
 /* The arguments that every kernel begins with, and the view of one member made of them. */
@@ -49,6 +60,21 @@ typedef struct OzWork {
         w.item = OZ_WORK_ITEM;                                                                     \
         w.stride = OZ_WORK_STRIDE;                                                                 \
     }
+
+/* With tiles: the halves of the records as a step finds them. */
+#if OZ_TILES
+#define OZ_WORK_AT(w, number)                                                                      \
+    {                                                                                              \
+        size_t slots = (size_t)(w)->z.slots + 1;                                                   \
+        size_t odd = (size_t)(((w)->control->front + (number)) & 1);                               \
+        (w)->record_next = (w)->record + (1 - odd) * slots * OZ_RECORD;                            \
+        (w)->record += odd * slots * OZ_RECORD;                                                    \
+        (w)->fine_next = (w)->fine + (1 - odd) * slots * OZ_FINE_RECORD;                           \
+        (w)->fine += odd * slots * OZ_FINE_RECORD;                                                 \
+    }
+#else
+#define OZ_WORK_AT(w, number)
+#endif
 
 /* OZ_WORK_BEGIN, OZ_WORK_END, OZ_WORK_NEXT: which of `count` things a work-item looks after. Those
  * of a large scene's follow each other in memory. */
@@ -94,8 +120,8 @@ OZ_INLINE void oz_work_stop(OzWork *w, int bits, int step, int index)
     atomic_min(&w->control->stop_index, index);
 }
 
-/* A region's slots, without and with the padding of the last one; OZ_WORK_BODIES(w) bodies that move
- * are in OZ_WORK_SLOTS(w) slots. */
+/* A region's slots, without and with the padding of the last one; OZ_WORK_BODIES(w) bodies that
+ * move are in OZ_WORK_SLOTS(w) slots. */
 OZ_INLINE int oz_work_region_begin(const OzWork *w, int region)
 {
     return min(region * w->z.region_slots, OZ_WORK_SLOTS(w));
@@ -115,6 +141,25 @@ OZ_INLINE int oz_work_block_end(const OzWork *w, int region)
 {
     return oz_work_region_begin(w, region + 1) / OZ_LANES;
 }
+
+#if OZ_TILES
+/* Makes a region the tile at hand. */
+OZ_INLINE void oz_work_tile(OzWork *w, int region)
+{
+    w->own_begin = oz_work_region_begin(w, region);
+    w->own_end = oz_work_region_end(w, region);
+    w->stray = w->z.slots + 2 * region; /* tiles do not share a cache line */
+}
+
+/* Whether a slot is of the tile at hand. */
+OZ_INLINE int oz_work_is_own(const OzWork *w, int slot)
+{
+    return (slot >= w->own_begin) & (slot < w->own_end);
+}
+#else
+#define oz_work_tile(w, region) ((void)0)
+#define oz_work_is_own(w, slot) 1
+#endif
 
 /* The same for every lane of hits, whose bodies are in slots; padding is left out. */
 OZ_INLINE void oz_work_stop_lanes(OzWork *w, mask hits, int bits, int step, const int *slots)

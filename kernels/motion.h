@@ -1,5 +1,5 @@
-/* The part of a step after the forces between grains: what a region's grains feel, and where they go. OpenCL C
- * only. */
+/* The part of a step after the forces between grains: what a region's grains feel, and where they
+ * go. OpenCL C only. */
 #pragma once
 
 #include "kernels/enclosure.h"
@@ -15,7 +15,7 @@ OZ_INLINE void oz_motion_before_block(OzWork *w, int block, int step)
     OzShape shape = oz_grains_shape(w, block);
     oz_integrate_before(&body, shape, dt, w->parameters->inverse_unit);
     oz_grains_store(w, block, body);
-    oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
+    oz_grains_record(w, 0, block, body, shape, oz_integrate_seen_velocity(body, dt),
                      oz_integrate_seen_spin(body, shape, dt));
     oz_lists_watch(w, block, oz_near_pose_of(body, shape),
                    OZ_RESORT ? &w->control->stale_positions : &w->control->stale_step, step);
@@ -46,8 +46,8 @@ OZ_INLINE void oz_motion_block(OzWork *w, int block, int step)
     }
     oz_grains_guard(w, block, body, shape, step);
     oz_grains_store(w, block, body);
-#if !OZ_MOVES_BEFORE || OZ_LEDGER
-    oz_grains_record(w, block, body, shape, body.velocity, body.spin);
+#if !OZ_MOVES_BEFORE || OZ_LEDGER || OZ_TILES
+    oz_grains_record(w, 1, block, body, shape, body.velocity, body.spin);
 #endif
 #if !OZ_MOVES_BEFORE
     oz_lists_watch(w, block, oz_near_pose_of(body, shape), &w->control->stale_step, step);
@@ -56,13 +56,14 @@ OZ_INLINE void oz_motion_block(OzWork *w, int block, int step)
 
 OZ_INLINE void oz_motion_region(OzWork *w, int region, int step)
 {
-#if !OZ_SCATTER
+#if OZ_GATHER
     oz_loads_gather_region(w, region);
 #endif
 #if OZ_WALL_COUNT > 0
     oz_enclosure_region(w, region, step);
 #endif
-    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region);
+         block++) {
         oz_motion_block(w, block, step);
     }
 }
@@ -71,7 +72,8 @@ OZ_INLINE void oz_motion_region(OzWork *w, int region, int step)
 /* The part of a step before the forces. */
 OZ_INLINE void oz_motion_before_region(OzWork *w, int region, int step)
 {
-    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region); block++) {
+    for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region);
+         block++) {
         oz_motion_before_block(w, block, step);
     }
 }

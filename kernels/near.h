@@ -9,7 +9,7 @@
 #define OZ_NEAR_REAL(counts)      oz_fixed_position_to_real(counts)
 #define OZ_NEAR_SLOTS(w)          ((w)->z.count)
 #define OZ_NEAR_IS_LARGE(w, slot) 0
-#define OZ_NEAR_MOVES(w, slot)    1 /* its forces are wanted                      */
+#define OZ_NEAR_MOVES(w, slot)    1              /* its forces are wanted                      */
 #define OZ_NEAR_NONE(w)           ((w)->z.slots) /* second of a pair that never touches */
 #define OZ_NEAR_MIXED             (!OZ_EQUAL)    /* a pair's first may have the higher id */
 
@@ -66,6 +66,18 @@ OZ_INLINE mask oz_near_seconds(const OzWork *w, int k, int slot)
         later = (reach < own) | ((reach == own) & later);
     }
     return later;
+}
+
+/* Whether one grain is the first of a pair with another. */
+OZ_INLINE int oz_near_leads(const OzWork *w, int one, int other)
+{
+    if (!OZ_EQUAL) {
+        scalar reach = oz_near_reach(w, one), others = oz_near_reach(w, other);
+        if (reach != others) {
+            return reach > others;
+        }
+    }
+    return w->id[one] < w->id[other];
 }
 
 /* Pairs whose gap is below `margin`. */

@@ -1,8 +1,8 @@
 /* Forces between grains. Most listed pairs do not touch: a sieve picks those that do, or nearly so,
  * from the list, and the contact law gets full blocks of them, one pair a lane, each pair once.
- * OpenCL C only. Where one work-item does a whole member it adds a pair's force to both grains'
- * loads at once; otherwise it keeps the forces of a region's picked pairs closed up, and the grains
- * gather theirs (loads.h). */
+ * OpenCL C only. Where one work-item does a whole member or tile it adds a pair's force to both
+ * grains' loads at once; otherwise it keeps the forces of a region's picked pairs closed up, and
+ * the grains gather theirs (loads.h). */
 #pragma once
 
 #include "kernels/active.h"
@@ -136,7 +136,16 @@ OZ_INLINE void oz_pairs_note_none(OzWork *w, size_t block)
 }
 #endif
 
-#if OZ_SCATTER
+#if !OZ_GATHER
+
+/* Where a grain's load is; that of a grain of another tile goes where nobody asks for it. */
+OZ_INLINE global scalar4 *oz_pairs_load_of(const OzWork *w, int slot)
+{
+#if OZ_TILES
+    slot = oz_work_is_own(w, slot) ? slot : w->stray;
+#endif
+    return (global scalar4 *)(w->load + (size_t)slot * OZ_LOAD);
+}
 
 /* Adds the pairs' forces to the loads of both grains. */
 OZ_INLINE void oz_pairs_deliver(OzWork *w, const int *a, const int *b, const scalar4 *forces,
@@ -144,8 +153,7 @@ OZ_INLINE void oz_pairs_deliver(OzWork *w, const int *a, const int *b, const sca
 {
 #pragma unroll
     for (int l = 0; l < OZ_LANES; l++) {
-        global scalar4 *load_a = (global scalar4 *)(w->load + (size_t)a[l] * OZ_LOAD);
-        global scalar4 *load_b = (global scalar4 *)(w->load + (size_t)b[l] * OZ_LOAD);
+        global scalar4 *load_a = oz_pairs_load_of(w, a[l]), *load_b = oz_pairs_load_of(w, b[l]);
         load_a[0] -= forces[l];
         load_a[1] += torques_a[l];
         load_b[0] += forces[l];
@@ -177,7 +185,7 @@ OZ_INLINE void oz_pairs_finish(OzWork *w, const OzPairs *pairs, int at, mask cou
                                OzPairForce pair)
 {
     scalar4 forces[OZ_LANES], torques_a[OZ_LANES], torques_b[OZ_LANES];
-    if (OZ_SCATTER) {
+    if (!OZ_GATHER) {
         pair.force = oz_where(counts, pair.force);
         pair.torque_a = oz_where(counts, pair.torque_a);
         pair.torque_b = oz_where(counts, pair.torque_b);
@@ -185,7 +193,7 @@ OZ_INLINE void oz_pairs_finish(OzWork *w, const OzPairs *pairs, int at, mask cou
     oz_lanes_rows3(pair.force, forces);
     oz_lanes_rows3(pair.torque_a, torques_a);
     oz_lanes_rows3(pair.torque_b, torques_b);
-#if OZ_SCATTER
+#if !OZ_GATHER
     oz_pairs_deliver(w, pairs->a + at, pairs->b + at, forces, torques_a, torques_b);
 #else
     oz_pairs_keep(w, pairs->kept + at, forces, torques_a, torques_b);
@@ -297,7 +305,7 @@ OZ_INLINE void oz_pairs_pick(OzWork *w, OzPairs *pairs, const OzSieved *s)
     real words[15] = {s->apart.x, s->apart.y,    s->apart.z,      one.x,       one.y,
                       one.z,      other.x,       other.y,         other.z,     s->at.s,
                       s->at.t,    s->one.radius, s->other.radius, s->one.mass, s->other.mass};
-#if !OZ_SCATTER
+#if OZ_GATHER
     w->pair_kept[s->first / OZ_LANES] = pairs->kept + pairs->active.count;
 #endif
     oz_pairs_add(pairs, s->first, s->a, s->b, words, s->bits);
@@ -314,7 +322,8 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
     OzPairs pairs;
     pairs.active.count = 0;
     pairs.kept = begin;
-#if OZ_SCATTER
+    oz_work_tile(w, region);
+#if !OZ_GATHER
     oz_work_clear_loads(w, region);
 #endif
     for (int first = begin; first < end; first += OZ_ACTIVE_BLOCKS * OZ_LANES) {

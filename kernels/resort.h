@@ -1,6 +1,6 @@
-/* Putting grains into the order of the grid's cells, so that neighbours in space are neighbours in
- * memory: large scenes spend most of their time waiting for memory otherwise. Out to the spare
- * array in the new order, then back. OpenCL C only. */
+/* Putting grains into an order in which neighbours in space are neighbours in memory, so that tiles
+ * are compact: cell by cell along Morton's curve (Morton 1966), which goes through each cube of
+ * cells before the next. Out to the spare array in the new order, then back. OpenCL C only. */
 #pragma once
 
 #include "kernels/near.h"
@@ -24,12 +24,44 @@ OZ_INLINE void oz_resort_in_words(global scalar *to, global const scalar *from, 
     }
 }
 
-/* Grains for the region's new slots. */
+/* The next cell on the curve: its coordinates' bits, from the lowest on, take turns. */
+OZ_INLINE void oz_resort_next(const OzWork *w, int *at)
+{
+    for (int bit = 1;; bit *= 2) {
+        for (int k = 0; k < 3; k++) {
+            if (bit < w->z.cells_along[k]) {
+                at[k] ^= bit;
+                if (at[k] & bit) {
+                    return;
+                }
+            }
+        }
+        if (bit >= w->z.cells) {
+            return; /* the last cell: all are back at zero */
+        }
+    }
+}
+
+/* The first new slot of each cell. */
+OZ_INLINE void oz_resort_plan(OzWork *w)
+{
+    int at[3] = {0, 0, 0}, slot = 0;
+    for (int k = 0; k < w->z.cells; k++) {
+        int cell = oz_cells_index(w, at[0], at[1], at[2]);
+        w->cell_slot[cell] = slot;
+        slot += w->cell_first[cell + 1] - w->cell_first[cell];
+        oz_resort_next(w, at);
+    }
+}
+
+/* Grains out to their new slots, those of the region's places in the order of the grid's cells. */
 OZ_INLINE void oz_resort_out(OzWork *w, int region)
 {
-    for (int slot = oz_work_region_begin(w, region); slot < oz_work_region_end(w, region); slot++) {
+    for (int k = oz_work_region_begin(w, region); k < oz_work_region_end(w, region); k++) {
+        int from = w->sorted_slot[k], cell = w->cell_of[from];
+        int slot = w->cell_slot[cell] + k - w->cell_first[cell];
         global scalar *to = w->spare + (size_t)slot * OZ_SPARE;
-        int from = w->sorted_slot[slot];
+        w->sorted_slot[k] = slot;
         ((global int *)to)[0] = w->id[from];
         oz_resort_out_words(to + 1, (global const scalar *)w->state, from, OZ_STATE);
         if (!OZ_EQUAL) {
@@ -48,7 +80,7 @@ OZ_INLINE void oz_resort_records(OzWork *w, int region)
          block++) {
         OzBody body = oz_grains_load(w, block);
         OzShape shape = oz_grains_shape(w, block);
-        oz_grains_record(w, block, body, shape, oz_integrate_seen_velocity(body, dt),
+        oz_grains_record(w, 0, block, body, shape, oz_integrate_seen_velocity(body, dt),
                          oz_integrate_seen_spin(body, shape, dt));
         oz_lists_refer_block(w, block);
     }
@@ -62,7 +94,6 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
         int id = ((global const int *)from)[0];
         w->id[slot] = id;
         w->slot_of[id] = slot;
-        w->sorted_slot[slot] = slot;
         oz_resort_in_words((global scalar *)w->state, from + 1, slot, OZ_STATE);
         if (!OZ_EQUAL) {
             oz_resort_in_words((global scalar *)w->shape, from + 1 + OZ_STATE, slot, OZ_SHAPE);

@@ -7,7 +7,6 @@
 
 #define OZ_STEP_BEFORE OZ_MOVES_BEFORE
 #define OZ_STEP_AFTER  OZ_LEDGER
-#define OZ_STEP_SORTS  1
 
 #if OZ_MOVES_BEFORE
 OZ_INLINE void oz_step_before(OzWork *w, int step, int moved)
@@ -37,6 +36,17 @@ OZ_INLINE int oz_step_finish(OzWork *w, int step, int last)
     }
     return 0;
 }
+
+#if OZ_TILES
+OZ_INLINE void oz_step_tiles(OzWork *w, int step)
+{
+    OZ_EACH_REGION(w)
+    {
+        oz_pairs_region(w, region, step);
+        oz_motion_region(w, region, step);
+    }
+}
+#endif
 
 #if OZ_LEDGER
 OZ_INLINE void oz_step_after(OzWork *w, int step)

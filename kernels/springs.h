@@ -1,5 +1,5 @@
-/* Tangential springs on their way through a rebuild of the lists: inner -> outer -> saved by ids -> outer -> inner
- * (control->truth says where they are). OpenCL C only. */
+/* Tangential springs on their way through a rebuild of the lists: inner -> outer -> saved by ids ->
+ * outer -> inner (control->truth says where they are). OpenCL C only. */
 #pragma once
 
 #include "kernels/member.h"
@@ -19,8 +19,8 @@ OZ_INLINE void oz_springs_harvest(OzWork *w, int region)
 #endif
 }
 
-/* Empties the outer list's springs once the inner list has them: one whose pair has left the inner list was
- * let go, and must not be found again when the pair comes back. */
+/* Empties the outer list's springs once the inner list has them: one whose pair has left the inner
+ * list was let go, and must not be found again when the pair comes back. */
 OZ_INLINE void oz_springs_forget(OzWork *w, int region)
 {
 #if OZ_HISTORY
@@ -37,10 +37,12 @@ OZ_INLINE void oz_springs_forget(OzWork *w, int region)
 OZ_INLINE void oz_springs_save(OzWork *w, int region)
 {
 #if OZ_HISTORY
+    oz_work_tile(w, region);
     int begin = region * w->z.outer_capacity, saved = region * w->z.inner_capacity, count = 0;
     for (int o = begin; o < begin + w->outer_count[region]; o++) {
         global const scalar *h = w->outer_history + (size_t)o * 3;
-        if (h[0] != 0 || h[1] != 0 || h[2] != 0) {
+        int own = oz_work_is_own(w, w->outer_a[o]); /* else another tile saves its copy */
+        if (own && (h[0] != 0 || h[1] != 0 || h[2] != 0)) {
             int to = saved + count++;
             w->saved_a[to] = w->id[w->outer_a[o]];
             w->saved_b[to] = w->id[w->outer_b[o]];
@@ -53,22 +55,71 @@ OZ_INLINE void oz_springs_save(OzWork *w, int region)
 #endif
 }
 
-/* Saved springs to their places in the new outer list. A spring whose pair is not listed any more cannot
- * be: it touched, so its gap is below the skin. */
+/* A saved spring to a pair of the outer list. */
+OZ_INLINE void oz_springs_put(OzWork *w, int from, int to)
+{
+#if OZ_HISTORY
+    w->outer_history[3 * (size_t)to] = w->saved_history[3 * (size_t)from];
+    w->outer_history[3 * (size_t)to + 1] = w->saved_history[3 * (size_t)from + 1];
+    w->outer_history[3 * (size_t)to + 2] = w->saved_history[3 * (size_t)from + 2];
+#endif
+}
+
+#if OZ_HISTORY && OZ_TILES
+
+/* A saved spring to its pair in a tile's outer list, which is in the order of ids. */
+OZ_INLINE void oz_springs_restore_to(OzWork *w, int tile, int from)
+{
+    int a = w->saved_a[from], b = w->saved_b[from];
+    int low = tile * w->z.outer_capacity, end = low + w->outer_count[tile], high = end;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        int first = w->id[w->outer_a[middle]], second = w->id[w->outer_b[middle]];
+        if (first < a || (first == a && second < b)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    if (low < end && w->id[w->outer_a[low]] == a && w->id[w->outer_b[low]] == b) {
+        oz_springs_put(w, from, low);
+    }
+}
+
+/* To the lists of both grains' tiles. */
+OZ_INLINE void oz_springs_restore_one(OzWork *w, int from)
+{
+    int tile_a = w->slot_of[w->saved_a[from]] / w->z.region_slots;
+    int tile_b = w->slot_of[w->saved_b[from]] / w->z.region_slots;
+    oz_springs_restore_to(w, tile_a, from);
+    if (tile_b != tile_a) {
+        oz_springs_restore_to(w, tile_b, from);
+    }
+}
+
+#elif OZ_HISTORY
+
+OZ_INLINE void oz_springs_restore_one(OzWork *w, int from)
+{
+    int a = w->slot_of[w->saved_a[from]], b = w->slot_of[w->saved_b[from]];
+    int first = w->outer_first[a], last = first + w->outer_number[a];
+    for (int o = first; o < last; o++) {
+        if (w->outer_b[o] == b) {
+            oz_springs_put(w, from, o);
+        }
+    }
+}
+
+#endif
+
+/* Saved springs to their places in the new outer list. A spring whose pair is not listed any more
+ * cannot be: it touched, so its gap is below the skin. */
 OZ_INLINE void oz_springs_restore(OzWork *w, int region)
 {
 #if OZ_HISTORY
     int begin = region * w->z.inner_capacity;
     for (int from = begin; from < begin + w->saved_count[region]; from++) {
-        int a = w->slot_of[w->saved_a[from]], b = w->slot_of[w->saved_b[from]];
-        int first = w->outer_first[a], last = first + w->outer_number[a];
-        for (int o = first; o < last; o++) {
-            if (w->outer_b[o] == b) {
-                w->outer_history[3 * (size_t)o] = w->saved_history[3 * (size_t)from];
-                w->outer_history[3 * (size_t)o + 1] = w->saved_history[3 * (size_t)from + 1];
-                w->outer_history[3 * (size_t)o + 2] = w->saved_history[3 * (size_t)from + 2];
-            }
-        }
+        oz_springs_restore_one(w, from);
     }
 #endif
 }

@@ -7,6 +7,7 @@
     kernel void oz_repeat_##name(OZ_WORK_ARGUMENTS, int repeats)                                   \
     {                                                                                              \
         OZ_WORK_OPEN(0)                                                                            \
+        OZ_WORK_AT(&w, w.control->step)                                                            \
         for (int k = 0; k < repeats; k++) {                                                        \
             __VA_ARGS__;                                                                           \
             OZ_WORK_BARRIER();                                                                     \

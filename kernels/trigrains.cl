@@ -9,7 +9,6 @@
 
 #define OZ_STEP_BEFORE 1
 #define OZ_STEP_AFTER  0
-#define OZ_STEP_SORTS  0
 
 /* Elements to where the forces of a step are wanted, walls to its end. */
 OZ_INLINE void oz_step_before(OzWork *w, int step, int moved)

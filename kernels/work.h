@@ -1,6 +1,8 @@
 /* Grains in the kernels' memory. OpenCL C only. */
 #pragma once
 
+#define OZ_TILES OZ_RESORT
+
 #include "kernels/fields.h"
 #include "kernels/integrate.h"
 #include "kernels/layout.h"
@@ -38,11 +40,11 @@ OZ_INLINE OzVec3 oz_work_fetch3(global const real *blocks, const int *items, int
 }
 
 #if OZ_FINE
-OZ_INLINE OzQuaternion oz_work_fetch_turn(const OzWork *w, const int *slots, int word)
+OZ_INLINE OzQuaternion oz_work_load_turn(const OzWork *w, const int *slots, int word)
 {
-    OzVec3 first = oz_work_fetch3(w->state, slots, OZ_STATE, word);
-    OzQuaternion turn = {first.x, first.y, first.z,
-                         oz_lanes_fetch(w->state, slots, OZ_STATE, word + 3)};
+    real words[4];
+    oz_lanes_load4(w->fine, slots, OZ_FINE_RECORD, word, words);
+    OzQuaternion turn = {words[0], words[1], words[2], words[3]};
     return turn;
 }
 
@@ -50,9 +52,10 @@ OZ_INLINE OzQuaternion oz_work_fetch_turn(const OzWork *w, const int *slots, int
 OZ_INLINE OzFineGrain oz_work_fine(const OzWork *w, const int *slots)
 {
     OzFineGrain fine;
-    real counts = REAL(w->parameters->inverse_unit);
+    real counts = REAL(w->parameters->inverse_unit), rest[4];
+    oz_lanes_load4(w->fine, slots, OZ_FINE_RECORD, OZ_N_REST, rest);
     fine.position = oz_work_geometry(w, slots).position;
-    fine.rest = oz_work_fetch3(w->state, slots, OZ_STATE, OZ_S_REST);
+    fine.rest = oz_vec3(rest[0], rest[1], rest[2]);
     fine.radius = OZ_EQUAL ? REAL(w->parameters->radius_count)
                            : oz_lanes_fetch(w->shape, slots, OZ_SHAPE, OZ_B_COUNT);
     fine.half_shaft = REAL(0.0);
@@ -60,8 +63,8 @@ OZ_INLINE OzFineGrain oz_work_fine(const OzWork *w, const int *slots)
         fine.half_shaft =
             counts * (OZ_EQUAL ? REAL(w->parameters->half_length)
                                : oz_lanes_fetch(w->shape, slots, OZ_SHAPE, OZ_B_HALF_LENGTH));
-        fine.axis = oz_fine_axis(oz_work_fetch_turn(w, slots, OZ_S_TURN),
-                                 oz_work_fetch_turn(w, slots, OZ_S_TURN_REST));
+        fine.axis = oz_fine_axis(oz_work_load_turn(w, slots, OZ_N_TURN),
+                                 oz_work_load_turn(w, slots, OZ_N_TURN_REST));
     }
     return fine;
 }
@@ -109,7 +112,7 @@ OZ_INLINE void oz_work_store3(global real *words, OzVec3 v)
     words[2] = v.z;
 }
 
-#if OZ_SCATTER
+#if !OZ_GATHER
 /* No forces yet on the region's grains. */
 OZ_INLINE void oz_work_clear_loads(OzWork *w, int region)
 {

@@ -5,30 +5,24 @@
 
 #include <stdlib.h>
 
-static int count_bits(int bits)
-{
-    int count = 0;
-    for (unsigned left = (unsigned)bits; left; left &= left - 1) {
-        count++;
-    }
-    return count;
-}
-
 static OzStatus count_pairs(OzCounters *probe, const OzSim *sim, int member)
 {
     OzStatus status = OZ_OK;
     const OzSizes *z = oz_rods_sizes(sim);
-    int lanes = oz_rods_switches(sim)->lanes, *count = NULL, *active = NULL;
+    int lanes = oz_rods_switches(sim)->lanes, *a = NULL, *count = NULL, *active = NULL;
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_a, member, &a));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_count, member, &count));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_active, member, &active));
     for (int region = 0; region < z->regions; region++) {
-        int begin = region * z->inner_capacity / lanes;
-        probe->pairs += count[region];
-        for (int block = begin; block < begin + (count[region] + lanes - 1) / lanes; block++) {
-            probe->touching += count_bits(active[block]);
+        int begin = region * z->inner_capacity;
+        for (int p = begin; p < begin + count[region]; p++) {
+            bool counts = oz_rods_fields_counts(&sim->arrays, region, a[p]);
+            probe->pairs += counts;
+            probe->touching += counts && ((unsigned)active[p / lanes] >> (p % lanes) & 1);
         }
     }
 done:
+    free(a);
     free(count);
     free(active);
     return status;

@@ -8,6 +8,7 @@
 #define OZ_LANES    (s->lanes)
 #define OZ_GROUP    (s->group)
 #define OZ_RESORT   (s->resort)
+#define OZ_TILES    0
 #define OZ_ORDER    (s->order)
 #define OZ_MOVING   (s->moving)
 #define OZ_DISCS    (s->discs)

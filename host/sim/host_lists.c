@@ -1,6 +1,6 @@
-/* Outer lists from P's sort along one axis. The device's order is kept (by the first grain's slot,
- * then by the second one's id), so that forces are added up in the same order whoever made the
- * list. */
+/* Outer lists from P's sort along one axis. The device's order is kept (by the first grain's id,
+ * then by the second one's), and tiles list pairs across their borders both (kernels/member.h), so
+ * that forces are added up in the same order whoever made the list. */
 #include "sim/host_lists.h"
 
 #include "base/memory.h"
@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A pair as the device counts grains: slots; the second grain's id for the order. */
+/* A pair in a region's list, by its grains' ids. */
 typedef struct Entry {
-    int a, b, id_b;
+    int region, a, b;
 } Entry;
 
 /* A tangential spring by the slots of its pair. */
@@ -32,6 +32,7 @@ typedef struct Work {
     Spring *springs; /* of the list before, those that are not zero, by a, then b */
     int64_t spring_count;
     Entry *entries;
+    int64_t entry_count;
     int *a, *b, *count, *first, *number; /* the new list's fields */
     void *history, *reference;
 } Work;
@@ -46,10 +47,11 @@ static const OzSwitches *switches_of(const Work *w)
     return oz_rods_switches(w->sim);
 }
 
+/* Nothing where the scene does not need the field. */
 static OzStatus upload(Work *w, OzFieldId field, const void *data)
 {
-    return oz_arrays_write(&w->sim->arrays, field, w->member, data,
-                           oz_arrays_bytes(&w->sim->arrays, field));
+    size_t bytes = oz_arrays_bytes(&w->sim->arrays, field);
+    return bytes > 0 ? oz_arrays_write(&w->sim->arrays, field, w->member, data, bytes) : OZ_OK;
 }
 
 static int by_slots(const void *one, const void *other)
@@ -115,18 +117,31 @@ static double reach(const Work *w, int id)
                                      : (double)((float)radius + (float)half_length);
 }
 
-static Entry entry_of(const Work *w, OzPair pair)
+static int region_of(const Work *w, int id)
+{
+    return w->slot_of[id] / sizes_of(w)->region_slots;
+}
+
+/* An entry for the first grain's region and, with tiles, one for the second's if that is another.
+ */
+static void add_entries(Work *w, OzPair pair)
 {
     double reach_a = reach(w, pair.a), reach_b = reach(w, pair.b);
     bool swap = reach_a != reach_b ? reach_a < reach_b : pair.a > pair.b;
     int a = swap ? pair.b : pair.a, b = swap ? pair.a : pair.b;
-    return (Entry){w->slot_of[a], w->slot_of[b], b};
+    w->entries[w->entry_count++] = (Entry){region_of(w, a), a, b};
+    if (switches_of(w)->resort && region_of(w, b) != region_of(w, a)) {
+        w->entries[w->entry_count++] = (Entry){region_of(w, b), a, b};
+    }
 }
 
-static int by_slot_then_id(const void *one, const void *other)
+static int by_region_then_ids(const void *one, const void *other)
 {
     const Entry *x = one, *y = other;
-    return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->id_b > y->id_b) - (x->id_b < y->id_b);
+    if (x->region != y->region) {
+        return (x->region > y->region) - (x->region < y->region);
+    }
+    return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->b > y->b) - (x->b < y->b);
 }
 
 static OzStatus find_entries(Work *w)
@@ -134,17 +149,12 @@ static OzStatus find_entries(Work *w)
     const OzParameters *p = oz_rods_parameters(w->sim, w->member);
     OZ_PASS(oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis,
                                2 * p->outer_most));
-    OZ_PASS(OZ_NEW(&w->entries, w->pairs.count));
+    OZ_PASS(OZ_NEW(&w->entries, 2 * w->pairs.count));
     for (int64_t k = 0; k < w->pairs.count; k++) {
-        w->entries[k] = entry_of(w, w->pairs.pair[k]);
+        add_entries(w, w->pairs.pair[k]);
     }
-    qsort(w->entries, (size_t)w->pairs.count, sizeof *w->entries, by_slot_then_id);
+    qsort(w->entries, (size_t)w->entry_count, sizeof *w->entries, by_region_then_ids);
     return OZ_OK;
-}
-
-static int region_of(const Work *w, Entry entry)
-{
-    return entry.a / sizes_of(w)->region_slots;
 }
 
 /* Room in every region's list for its pairs. */
@@ -153,8 +163,8 @@ static OzStatus make_room(Work *w)
     OzSizes sizes = *sizes_of(w);
     OzControlHead needed = {0};
     int64_t begin = 0;
-    for (int64_t k = 0; k < w->pairs.count; k++) {
-        begin = region_of(w, w->entries[k]) != region_of(w, w->entries[begin]) ? k : begin;
+    for (int64_t k = 0; k < w->entry_count; k++) {
+        begin = w->entries[k].region != w->entries[begin].region ? k : begin;
         int count = (int)(k - begin + 1);
         needed.outer_needed = count > needed.outer_needed ? count : needed.outer_needed;
     }
@@ -189,16 +199,14 @@ static OzStatus write_list(Work *w)
     OZ_PASS(OZ_NEW(&w->first, z->slots));
     OZ_PASS(OZ_NEW(&w->number, z->slots));
     OZ_PASS(oz_memory_new(&w->history, 3 * (size_t)pairs, sizeof(double), "springs"));
-    for (int64_t k = 0; k < w->pairs.count; k++) {
+    for (int64_t k = 0; k < w->entry_count; k++) {
         Entry entry = w->entries[k];
-        int region = region_of(w, entry);
-        int64_t to = (int64_t)region * z->outer_capacity + w->count[region]++;
-        w->a[to] = entry.a;
-        w->b[to] = entry.b;
-        if (w->number[entry.a]++ == 0) {
-            w->first[entry.a] = (int)to;
+        int64_t to = (int64_t)entry.region * z->outer_capacity + w->count[entry.region]++;
+        int a = w->a[to] = w->slot_of[entry.a], b = w->b[to] = w->slot_of[entry.b];
+        if (w->number[a]++ == 0) {
+            w->first[a] = (int)to;
         }
-        put_history(w, to, entry.a, entry.b);
+        put_history(w, to, a, b);
     }
     OZ_PASS(upload(w, OZ_FIELD_outer_a, w->a));
     OZ_PASS(upload(w, OZ_FIELD_outer_b, w->b));

@@ -9,6 +9,7 @@
 /* THE phases: kernel and whether one work-item does it all. */
 #define PHASES(X)                                                                                  \
     X(before, false)                                                                               \
+    X(tiles, false)                                                                                \
     X(pairs, false)                                                                                \
     X(grains, false)                                                                               \
     X(after, false)                                                                                \
@@ -20,6 +21,7 @@
     X(scan, true)                                                                                  \
     X(fill, false)                                                                                 \
     X(arrange, false)                                                                              \
+    X(plan, true)                                                                                  \
     X(move_out, false)                                                                             \
     X(move_in, false)                                                                              \
     X(search, false)                                                                               \
@@ -57,8 +59,9 @@ static const bool single[] = {
 /* Phases that not every program has. */
 static bool may_be_absent(Phase phase)
 {
-    return phase == PHASE_before || phase == PHASE_after || phase == PHASE_move_out ||
-           phase == PHASE_move_in;
+    return phase == PHASE_before || phase == PHASE_tiles || phase == PHASE_pairs ||
+           phase == PHASE_grains || phase == PHASE_after || phase == PHASE_plan ||
+           phase == PHASE_move_out || phase == PHASE_move_in;
 }
 
 OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *device)
@@ -128,9 +131,9 @@ static OzStatus queue_save(OzLarge *large, OzArrays *arrays, const OzControlHead
 /* The outer lists anew, with the grains put in the order of cells on the way. */
 static OzStatus queue_rebuild(OzLarge *large, OzArrays *arrays, const OzControlHead *control)
 {
-    static const Phase sort[] = {PHASE_clear,   PHASE_bin,     PHASE_scan,
-                                 PHASE_fill,    PHASE_arrange, PHASE_move_out,
-                                 PHASE_move_in, PHASE_search,  PHASE_restore};
+    static const Phase sort[] = {PHASE_clear,   PHASE_bin,    PHASE_scan,     PHASE_fill,
+                                 PHASE_arrange, PHASE_plan,   PHASE_move_out, PHASE_move_in,
+                                 PHASE_search,  PHASE_restore};
     OZ_PASS(queue_save(large, arrays, control));
     OZ_PASS(queue_phases(large, arrays, sort, sizeof sort / sizeof sort[0]));
     return queue_phase(large, arrays, PHASE_mark, OZ_SPRINGS_AT_OUTER);
@@ -198,7 +201,8 @@ static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControlHead *control, 
 
 static OzStatus queue_step(OzLarge *large, OzArrays *arrays, int step)
 {
-    static const Phase phases[] = {PHASE_before, PHASE_pairs, PHASE_grains, PHASE_after};
+    static const Phase phases[] = {PHASE_before, PHASE_tiles, PHASE_pairs, PHASE_grains,
+                                   PHASE_after};
     for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++) {
         OZ_PASS(queue_phase(large, arrays, phases[i], step));
     }

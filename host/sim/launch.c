@@ -149,7 +149,10 @@ static OzStatus begin_launch(OzSim *sim, int steps)
         OzControlHead *control = oz_sim_control(sim, m);
         control->deep_count = control->deep_depth = control->deep_kinds = 0;
         control->deep_step = control->deep_index = OZ_NEVER;
-        control->step = oz_batch_goes_on(&sim->batch, m) ? 0 : steps;
+        int step = oz_batch_goes_on(&sim->batch, m) ? 0 : steps;
+        control->front =
+            (control->front + control->step + step) % 2; /* the records stay where they are */
+        control->step = step;
         if (oz_batch_goes_on(&sim->batch, m)) {
             OZ_PASS(sim->model->prepare(sim, m, steps));
         }

@@ -125,6 +125,35 @@ static void put_far_record(void *record, const OzSwitches *s, int64_t slot)
     put(record, base + OZ_R_MASS, 1, s->is_double);
 }
 
+/* What a record leaves of a slot's place and turn, from its state. */
+static void put_fine(void *fine, const OzSwitches *s, const void *state, int64_t slot)
+{
+    size_t base = (size_t)slot * OZ_FINE_RECORD;
+    for (int c = 0; c < 4; c++) {
+        const int words[3] = {OZ_S_REST + c, OZ_S_TURN + c, OZ_S_TURN_REST + c};
+        const size_t to[3] = {OZ_N_REST, OZ_N_TURN, OZ_N_TURN_REST};
+        for (int k = c < 3 ? 0 : 1; k < 3; k++) {
+            size_t from = oz_pack_lane(s, slot, OZ_STATE, words[k]);
+            put(fine, base + to[k] + (size_t)c, oz_scalars_get(state, from, s->is_double),
+                s->is_double);
+        }
+    }
+}
+
+/* Records to both halves, where there are two. */
+static OzStatus write_records(OzArrays *arrays, OzFieldId field, int member, void *records,
+                              size_t words)
+{
+    const OzSwitches *s = oz_rods_fields_switches(arrays);
+    size_t half =
+        ((size_t)oz_rods_fields_sizes(arrays)->slots + 1) * words * oz_scalars_bytes(s->is_double);
+    size_t bytes = oz_arrays_bytes(arrays, field);
+    if (bytes > half) {
+        memcpy((char *)records + half, records, half);
+    }
+    return bytes > 0 ? oz_arrays_write(arrays, field, member, records, bytes) : OZ_OK;
+}
+
 OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *parameters,
                        const OzGrains *grains)
 {
@@ -134,17 +163,22 @@ OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *paramet
     size_t state_bytes = oz_arrays_bytes(arrays, OZ_FIELD_state);
     size_t shape_bytes = oz_arrays_bytes(arrays, OZ_FIELD_shape);
     size_t record_bytes = oz_arrays_bytes(arrays, OZ_FIELD_record);
-    void *state = NULL, *shape = NULL, *record = NULL;
+    size_t fine_bytes = oz_arrays_bytes(arrays, OZ_FIELD_fine);
+    void *state = NULL, *shape = NULL, *record = NULL, *fine = NULL;
     int *id = NULL;
     OZ_TRY(oz_memory_new(&state, state_bytes, 1, "grain state"));
     OZ_TRY(oz_memory_new(&shape, shape_bytes, 1, "grain shapes"));
     OZ_TRY(oz_memory_new(&record, record_bytes, 1, "grain records"));
+    OZ_TRY(oz_memory_new(&fine, fine_bytes, 1, "fine records of grains"));
     OZ_TRY(OZ_NEW(&id, z->slots));
     for (int slot = 0; slot < z->slots; slot++) {
         int64_t i = slot < z->count ? slot : 0;
         id[slot] = slot;
         put_state(state, s, parameters, grains, slot, i);
         put_record(record, s, parameters, grains, slot, i);
+        if (fine_bytes > 0) {
+            put_fine(fine, s, state, slot);
+        }
         if (shape_bytes > 0) {
             put_shape(shape, s, parameters, grains, slot, i);
         }
@@ -152,13 +186,15 @@ OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *paramet
     put_far_record(record, s, z->slots);
     OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_state, member, state, state_bytes));
     OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_shape, member, shape, shape_bytes));
-    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_record, member, record, record_bytes));
+    OZ_TRY(write_records(arrays, OZ_FIELD_record, member, record, OZ_RECORD));
+    OZ_TRY(write_records(arrays, OZ_FIELD_fine, member, fine, OZ_FINE_RECORD));
     OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_id, member, id, sizeof(int) * (size_t)z->slots));
     OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_slot_of, member, id, sizeof(int) * (size_t)z->slots));
 done:
     free(state);
     free(shape);
     free(record);
+    free(fine);
     free(id);
     return status;
 }

@@ -11,6 +11,8 @@
 #define OZ_LEDGER     (s->ledger)
 #define OZ_LINE       (s->line)
 #define OZ_RESORT     (s->resort)
+#define OZ_FINE       (s->fine)
+#define OZ_TILES      (s->resort)
 #define OZ_GROUP      (s->group)
 
 size_t oz_rods_fields_items(int field, const void *switches, const void *sizes)

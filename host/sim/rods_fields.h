@@ -26,3 +26,10 @@ static inline const OzSizes *oz_rods_fields_sizes(const OzArrays *arrays)
 {
     return arrays->sizes;
 }
+
+/* The region whose list has a pair whatever the regions are: that of its first grain's slot. A pair
+ * across a border is in the other tile's list too (kernels/member.h). */
+static inline bool oz_rods_fields_counts(const OzArrays *arrays, int region, int slot_a)
+{
+    return slot_a / oz_rods_fields_sizes(arrays)->region_slots == region;
+}

@@ -34,6 +34,9 @@ static OzStatus find_pairs(OzSim *sim, int member, OzContacts *contacts)
     for (int r = 0; r < z->regions; r++) {
         int64_t begin = (int64_t)r * z->inner_capacity;
         for (int64_t p = begin; p < begin + count[r]; p++) {
+            if (!oz_rods_fields_counts(&sim->arrays, r, a[p])) {
+                continue;
+            }
             for (int c = 0; c < 3; c++) {
                 spring[c] = spring_word(sim, member, springs, (size_t)(p * OZ_SPRING + c));
             }

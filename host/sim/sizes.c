@@ -19,8 +19,10 @@ enum {
     INNER_PAIRS = 4,
     BACK_PAIRS = 16,
     MOTION_STEPS = 8192, /* of one launch */
-    LARGE_REGION = 256,  /* slots: enough for any number of threads, each long enough to pay */
-    LARGE_REGIONS = 16   /* at least, should a large scene have less than 4096 bodies */
+    LARGE_REGION = 2048, /* slots, whose records, loads and lists a core's second cache holds;
+                            1024 to 8192 are as fast */
+    NARROW_REGION = 256, /* of devices with many small cores */
+    LARGE_REGIONS = 16   /* at least, each then smaller */
 };
 
 int oz_sizes_up(double count, int to)
@@ -39,7 +41,8 @@ static int power_of_two(double least)
 
 void oz_sizes_regions(OzSizesHead *z, const OzSwitchesHead *s, int slots)
 {
-    double share_slots = s->resort ? fmin(LARGE_REGION, (double)slots / LARGE_REGIONS)
+    int large = s->group > 1 ? NARROW_REGION : LARGE_REGION;
+    double share_slots = s->resort ? fmin(large, (double)slots / LARGE_REGIONS)
                                    : ceil((double)slots / s->group);
     z->members = 1;
     z->region_slots = oz_sizes_up(fmax(1, share_slots), s->lanes);
@@ -134,8 +137,8 @@ void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const 
     oz_sizes_regions((OzSizesHead *)(void *)z, switches, z->slots);
     double size[3];
     extents(size, grains);
-    oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size, 3,
-                   grains->count);
+    oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size,
+                   3, grains->count);
 }
 
 void oz_sizes_join(void *sizes, const void *other)
