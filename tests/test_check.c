@@ -303,8 +303,8 @@ static void test_empty_columns(void **state)
 static void test_help_ends_with_an_example(void **state)
 {
     (void)state;
-    static const char *const commands[] = {"run",   "check",  "draw",   "keys",
-                                           "bench", "report", "devices"};
+    static const char *const commands[] = {"run",   "check",  "draw",    "keys",
+                                           "bench", "report", "devices", "figures"};
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         char arguments[32], begin[32], *argv[32];
         int argc = 0;

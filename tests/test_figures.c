@@ -192,21 +192,6 @@ static void pictures_stand_in_a_sheet(void **state)
     assert_int_equal(count_lines("runs/seen/sheet.csv"), 1 + 2 * 2);
     assert_true(
         contains("runs/seen/fast.csv", "a,seed_00001,,0.1 s,")); /* time is greatest at its end */
-    write_file(
-        "most.yaml", "%s",
-        "name: most\n"
-        "runs: [{name: a, scene: scene.yaml, seeds: [1, 3], set: ['snapshots={times: [0]}']}]\n"
-        "figures: [{name: one, kind: pictures, runs: [a], at: 0, of_most: kinetic}]\n");
-    expect(0, "runs/most/one.png", "figures most.yaml");
-    int best = 0;
-    for (int i = 1; i < 3; i++) {
-        bool more = cell("runs/most/a/members.csv", i, "kinetic") >
-                    cell("runs/most/a/members.csv", best, "kinetic");
-        best = more ? i : best;
-    }
-    char member[32];
-    snprintf(member, sizeof member, "a,seed_%05d,", best + 1);
-    assert_true(contains("runs/most/one.csv", member));
     size_of("runs/seen/fast.png", one);
     size_of("runs/seen/sheet.png", two);
     assert_int_equal(two[0] - one[0], 200);

@@ -140,26 +140,15 @@ done:
     return status;
 }
 
-/* The folder of the run's first member, or of that with most of a column. */
-static OzStatus choose_member(const OzFigureWork *work, OzSheetRow *row)
+/* The folder of the run's first member. */
+static OzStatus find_member(const OzFigureWork *work, OzSheetRow *row)
 {
     OzStatus status = OZ_OK;
     OzCells table = {0};
     char *path = NULL;
-    const char *most = work->figure->of_most;
     OZ_TRY(oz_study_runs_path(&path, row->run, work->folder, "members.csv"));
     OZ_TRY(oz_cells_read(&table, path));
-    int column = most ? oz_cells_find(&table, most) : 0;
-    if (column < 0 || table.row_count == 0) {
-        status = oz_status_fail(OZ_ERR_INPUT, "%s has no column %s", path, most);
-        goto done;
-    }
-    int64_t best = 0;
-    for (int64_t i = 1; most && i < table.row_count; i++) {
-        bool more = oz_cells_number(&table, i, column) > oz_cells_number(&table, best, column);
-        best = more ? i : best;
-    }
-    OZ_TRY(oz_memory_text(&row->member, oz_cells_text(&table, best, 0)));
+    OZ_TRY(oz_memory_text(&row->member, oz_cells_text(&table, 0, 0)));
 done:
     oz_cells_free(&table);
     free(path);
@@ -172,7 +161,7 @@ OzStatus oz_sheet_pictures_draw(const OzFigureWork *work, OzSheetRow *row)
     OzRunFacts facts;
     char *member = NULL, *out = NULL, moments[SETTING];
     OZ_TRY(oz_study_runs_facts(&facts, row->run, work->folder));
-    OZ_TRY(choose_member(work, row));
+    OZ_TRY(find_member(work, row));
     OZ_TRY(oz_study_runs_path(&member, row->run, work->folder, row->member));
     if (asprintf(&out, "%s/pictures/%s_%s%s%s", work->folder, work->figure->name, row->run->name,
                  row->view ? "_" : "", row->view ? row->view : "") < 0) {

@@ -11,7 +11,7 @@ typedef struct OzSheetRow {
     OzTexts files;    /* owned                 */
 } OzSheetRow;
 
-/* Draws the pictures of one of the run's members that the figure asks for, below folder/pictures;
+/* Draws the pictures of the run's first member that the figure asks for, below folder/pictures;
  * view may be NULL. What is asked for beyond the run's end is left out. The caller frees, also on
  * failure. */
 OzStatus oz_sheet_pictures_draw(const OzFigureWork *work, OzSheetRow *row);

@@ -46,9 +46,8 @@ typedef struct OzStudyFigure {
     char *at_greatest; /* pictures where this column is greatest, from time `from`, s, on,
                         * and `before`, s, that */
     OzNumbers before, from;
-    char *of_most; /* pictures of the member with most of this column at its end; NULL: the first */
-    OzNumbers at;  /* taps or times of pictures, as the scene counts */
-    char *bars;    /* of a sweep: the column that bars show */
+    OzNumbers at;        /* taps or times of pictures, as the scene counts */
+    char *bars;          /* of a sweep: the column that bars show */
     OzNumbers power;     /* of a sweep: the paper's exponent */
     OzTexts rows, parts; /* of shares: the paper's rows, and what they are of here */
     OzNumbers paper;     /* of shares: its numbers, %                          */

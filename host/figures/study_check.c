@@ -122,7 +122,6 @@ static void check_columns(const OzNode *map, const OzStudyFigure *figure, OzFaul
     }
     check_column(map, "bars", figure->bars, faults);
     check_column(map, "at_greatest", figure->at_greatest, faults);
-    check_column(map, "of_most", figure->of_most, faults);
 }
 
 /* As of pictures in scenes. */

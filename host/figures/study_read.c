@@ -61,7 +61,6 @@ static const OzField figure_fields[] = {
     {"inset_range", NUMBERS(OzStudyFigure, inset_range), .of = "curves", .count = 2},
     {"at", NUMBERS(OzStudyFigure, at), .of = "pictures"},
     {"at_greatest", TEXT(OzStudyFigure, at_greatest), .of = "pictures"},
-    {"of_most", TEXT(OzStudyFigure, of_most), .of = "pictures"},
     {"before", NUMBERS(OzStudyFigure, before), .of = "pictures", .count = 1},
     {"from", NUMBERS(OzStudyFigure, from), .of = "pictures", .count = 1},
     {"bars", TEXT(OzStudyFigure, bars), .of = "sweep"},
