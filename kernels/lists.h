@@ -212,7 +212,7 @@ OZ_INLINE void oz_lists_search_all(OzWork *w, OzSearch *s, int region)
     oz_work_tile(w, region);
     oz_tiles_begin(w, &s->strays, region);
     for (int i = begin; i < end; i++) {
-        oz_lists_search_one(w, s, w->cell_of[i]);
+        oz_lists_search_one(w, s, w->slot_of[w->cell_of[i]]);
     }
     s->out = oz_tiles_merge(w, &s->strays, s->limit - w->z.outer_capacity, s->out, s->limit);
 #else

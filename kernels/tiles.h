@@ -4,7 +4,7 @@
 
 #include "kernels/member.h"
 
-/* Strays are put aside where the inner list will be. */
+/* Strays are put aside where the inner list will be, by their ids. */
 typedef struct OzStrays {
     int begin, end, limit; /* in pair_a and pair_b */
     int wanted;            /* found, stored or not */
@@ -27,8 +27,8 @@ OZ_INLINE void oz_tiles_add_stray(OzWork *w, OzStrays *strays, int first, int se
 {
     strays->wanted++;
     if (strays->end < strays->limit) {
-        w->pair_a[strays->end] = first;
-        w->pair_b[strays->end++] = second;
+        w->pair_a[strays->end] = w->id[first];
+        w->pair_b[strays->end++] = w->id[second];
     }
 }
 
@@ -38,8 +38,7 @@ OZ_INLINE int oz_tiles_gap(int before)
     return before > 1 ? before / 3 + (before == 2) : 0;
 }
 
-/* No strays yet; slots of the tile's grains to cell_of, which the grid needs no more, in the order
- * of ids. */
+/* No strays yet; the ids of the tile's grains to cell_of, which the grid needs no more, sorted. */
 OZ_INLINE void oz_tiles_begin(OzWork *w, OzStrays *strays, int region)
 {
     int begin = w->own_begin, end = w->own_end;
@@ -47,12 +46,12 @@ OZ_INLINE void oz_tiles_begin(OzWork *w, OzStrays *strays, int region)
     strays->limit = strays->begin + w->z.inner_capacity;
     strays->wanted = 0;
     for (int i = begin; i < end; i++) {
-        w->cell_of[i] = i;
+        w->cell_of[i] = w->id[i];
     }
     for (int gap = (end - begin) / 3 + 1; gap > 0; gap = oz_tiles_gap(gap)) {
         for (int i = begin + gap; i < end; i++) {
-            int kept = w->cell_of[i], key = w->id[kept], to = i;
-            while (to - gap >= begin && w->id[w->cell_of[to - gap]] > key) {
+            int kept = w->cell_of[i], to = i;
+            while (to - gap >= begin && w->cell_of[to - gap] > kept) {
                 w->cell_of[to] = w->cell_of[to - gap];
                 to -= gap;
             }
@@ -61,11 +60,10 @@ OZ_INLINE void oz_tiles_begin(OzWork *w, OzStrays *strays, int region)
     }
 }
 
-/* Whether pair (a, b) comes after pair (c, d) in the order of ids. */
-OZ_INLINE int oz_tiles_after(const OzWork *w, int a, int b, int c, int d)
+/* Whether the pair of ids (a, b) comes after the pair (c, d). */
+OZ_INLINE int oz_tiles_after(int a, int b, int c, int d)
 {
-    int one = w->id[a], other = w->id[c];
-    return one != other ? one > other : w->id[b] > w->id[d];
+    return a != c ? a > c : b > d;
 }
 
 OZ_INLINE void oz_tiles_sort(OzWork *w, const OzStrays *strays)
@@ -74,7 +72,7 @@ OZ_INLINE void oz_tiles_sort(OzWork *w, const OzStrays *strays)
         for (int i = strays->begin + gap; i < strays->end; i++) {
             int a = w->pair_a[i], b = w->pair_b[i], to = i;
             while (to - gap >= strays->begin &&
-                   oz_tiles_after(w, w->pair_a[to - gap], w->pair_b[to - gap], a, b)) {
+                   oz_tiles_after(w->pair_a[to - gap], w->pair_b[to - gap], a, b)) {
                 w->pair_a[to] = w->pair_a[to - gap];
                 w->pair_b[to] = w->pair_b[to - gap];
                 to -= gap;
@@ -96,12 +94,12 @@ OZ_INLINE int oz_tiles_merge(OzWork *w, const OzStrays *strays, int begin, int o
     oz_tiles_sort(w, strays);
     for (int to = end - 1; stray >= strays->begin; to--) {
         int a = w->pair_a[stray], b = w->pair_b[stray];
-        if (own >= begin && oz_tiles_after(w, w->outer_a[own], w->outer_b[own], a, b)) {
+        if (own >= begin && oz_tiles_after(w->id[w->outer_a[own]], w->id[w->outer_b[own]], a, b)) {
             w->outer_a[to] = w->outer_a[own];
             w->outer_b[to] = w->outer_b[own--];
         } else {
-            w->outer_a[to] = a;
-            w->outer_b[to] = b;
+            w->outer_a[to] = w->slot_of[a];
+            w->outer_b[to] = w->slot_of[b];
             stray--;
         }
     }
