@@ -8,7 +8,7 @@
  *   share   of the step by which tangential springs are advanced before the force, the rest after it
  *   first   1: places move before the forces, and acceleration and torque are kept from step to step
  * kernels/integrate_<name>.h has oz_<name>_after(body, shape, load, dt, inverse_unit), with first 1 also _before,
- * _seen_velocity and _seen_spin; host/model/predict.c its map of a 1-D contact (step_, polynomial_, limit_<name>),
+ * _seen_velocity and _seen_spin, and is included by integrate.h; host/model/predict.c its map of a 1-D contact (step_, polynomial_, limit_<name>),
  * host/model/calibrate.c that map turned round (invert_<name>). */
 #define OZ_INTEGRATORS(X)                                                                          \
     X(EULER, euler, "euler", "", 0.0, 0)                                                           \

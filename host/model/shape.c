@@ -215,7 +215,7 @@ static OzStatus refuse(const OzScene *scene, const OzPopulation *population, con
     }
     return oz_status_fail(
         OZ_ERR_INPUT,
-        "%s:%d: a grain%s has a triangle of %.3g m^2, below beams.area_min %g m^2: so light a "
+        "%s:%d: a grain%s has a triangle of %.3g m^2, below beams.area_min %g m^2: so light an "
         "element would need tiny steps; expected larger grains, fewer corners, or a lower "
         "beams.area_min",
         scene->path, population->line, draws, least->area, limits->area_min);

@@ -1,6 +1,7 @@
-/* The rows. What is a constant of the physics rather than a choice of the person is not here.
- * Ranges are wider than any sense, and narrow enough that products of a few values stay finite in
- * double. */
+/* THE list of scene keys: name, unit, range, default and one line of help; of a member of OzScene
+ * that scene_types.h has. What is a constant of the physics rather than a choice of the person is
+ * not here. Ranges are wider than any sense, and narrow enough that products of a few values stay
+ * finite in double. */
 #include "scene/rows.h"
 
 #include "scene/choices.h"
@@ -22,7 +23,10 @@ enum { OZ_SHAPES(SHAPE_BIT) };
 #define WALL_BIT(NAME, name, choice, fine) NAME = 1 << OZ_WALL_##NAME,
 #define COMPOUND_BIT(NAME, name, choice)   NAME = 1 << OZ_WALL_##NAME,
 #define FLAT_BIT(NAME, name, choice, rank) NAME = 1 << OZ_WALL_##NAME,
-enum { OZ_WALLS(WALL_BIT) OZ_COMPOUND_WALLS(COMPOUND_BIT) OZ_TRIGRAINS_WALLS(FLAT_BIT) TOOTHED = FLOOR | HOPPER | DRUM };
+enum {
+    OZ_WALLS(WALL_BIT) OZ_COMPOUND_WALLS(COMPOUND_BIT) OZ_TRIGRAINS_WALLS(FLAT_BIT) TOOTHED =
+        FLOOR | HOPPER | DRUM
+};
 #undef WALL_BIT
 #undef FLAT_BIT
 #define LAW_BIT(NAME, name, choice, linear, stiffness, damping) NAME = 1 << OZ_LAW_##NAME,
@@ -286,8 +290,7 @@ static const OzKey KEYS[] = {
     {"observe.layer_thickness", NUMBER(1e-9, 1e6, "m"), AT(observe.layer_thickness),
      DEFAULT("0.004"), SOLID, .help = "of the layers counted from the floor"},
     {"observe.ledger", OF(BOOL), AT(observe.ledger), DEFAULT("false"), .help = "energy columns"},
-    {"observe.walls", OF(BOOL), AT(observe.walls), DEFAULT("false"),
-     .help = "force on each wall"},
+    {"observe.walls", OF(BOOL), AT(observe.walls), DEFAULT("false"), .help = "force on each wall"},
     {"observe.contacts", OF(BOOL), AT(observe.contacts), COLUMNS, DEFAULT("false"),
      .help = "contacts.csv"},
     {"observe.contacts_interval", NUMBER(1e-12, 1e9, "s"), AT(observe.contacts_interval),
@@ -353,7 +356,8 @@ static const OzKey KEYS[] = {
      .help = "between states that are kept, in checkpoints/, to begin other runs from"},
     {"checkpoint.taps", .type = OZ_KEY_NUMBERS, .low = 0, .high = 1e9, .unit = "periods",
      AT(checkpoint.taps), .count_offset = offsetof(OzScene, checkpoint.tap_count), .rival = "times",
-     .write = OZ_WRITE_NONZERO, .help = "states are kept at these periods of the first moving wall"},
+     .write = OZ_WRITE_NONZERO,
+     .help = "states are kept at these periods of the first moving wall"},
     {"checkpoint.times", .type = OZ_KEY_NUMBERS, .low = 0, .high = 1e9, .unit = "s",
      AT(checkpoint.times), .count_offset = offsetof(OzScene, checkpoint.count), .rival = "taps",
      .write = OZ_WRITE_UNLESS_RIVAL, .help = "states are kept at these times"},

@@ -133,7 +133,8 @@ enum { OZ_CORNERS_MAX = 300 };
 
 /* THE list of trigrains' shapes, X(NAME, name, choice): four triangles about the middle; a triangle
  * on each edge about the middle, irregular if asked for; corners in and out in turn; any simple
- * polygon; a disc. host/model/shape.c makes each (make_<name>). */
+ * polygon; a disc. host/model/shape.c makes each (make_<name>). The keys that a shape reads name it
+ * under `.shapes` in host/scene/rows.c. */
 #define OZ_SHAPES(X)                                                                               \
     X(SQUARE, square, "square")                                                                    \
     X(POLYGON, polygon, "polygon")                                                                 \
