@@ -55,6 +55,8 @@ static void a_sphere_at_rest_bears_its_weight(void **state)
                   (double[]){1, 2, 3 - 3.5e-3});
     expect_weight("kind: cylinder, axis: [0, 1, 0], diameter: 8e-3, length: 3e-3, ends: closed",
                   (double[]){0, -3, -6}, (double[]){0, 0.5e-3, -3.5e-3});
+    expect_weight("kind: cylinder, axis: [0, 1, 0], diameter: 8e-3, side: outside", down,
+                  (double[]){0, -3, 4.5e-3});
     expect_weight("kind: sphere, diameter: 8e-3, point: [0, 0, 1e-3]", down,
                   (double[]){0, 0, -2.5e-3});
     expect_weight("kind: box, size: [4e-3, 6e-3, 8e-3], point: [1e-3, 0, 0]", aslant,
@@ -139,6 +141,26 @@ static void a_ball_in_a_bowl_swings(void **state)
     rig_close(&rig);
 }
 
+/* A ball that slides from the top of a smooth sphere leaves it where it has fallen by a third of
+ * the way between the middles. Until it does its speed is that of its fall. */
+static void a_ball_leaves_a_dome_at_two_thirds(void **state)
+{
+    (void)state;
+    Rig rig;
+    const double way = 10e-3 + R, angle = 0.2;
+    rig_open(&rig, ONE, 0.0, 0.0, -G, way * sin(angle), 0.0, way * cos(angle),
+             "kind: sphere, diameter: 20e-3, side: outside, contact: {friction: 0}");
+    rig_start(&rig);
+    double last = 0;
+    while (rig.now.position[2] > 0) {
+        rig_advance(&rig, rig.now.step + STEPS_PER_MS / 5);
+        last = rig.now.contacts.count > 0 ? rig.now.position[2] : last;
+    }
+    double left = 2.0 / 3 * way * cos(angle);
+    assert_within(last, left, 0.02 * way); /* it goes 0.015 of the way between two looks */
+    rig_close(&rig);
+}
+
 static const char crowd[] =
     "model: rods\nprecision: %s\ntime: {step: 1e-5, duration: 1}\nintegrator: velocity-verlet\n"
     "observe: {ledger: true}\n"
@@ -219,6 +241,7 @@ int main(void)
         cmocka_unit_test(a_ball_in_a_drum_stays),
         cmocka_unit_test(a_ball_on_a_plate_follows),
         cmocka_unit_test(a_ball_in_a_bowl_swings),
+        cmocka_unit_test(a_ball_leaves_a_dome_at_two_thirds),
         cmocka_unit_test(the_work_of_turning_walls_is_accounted_for),
         cmocka_unit_test(the_device_does_as_the_reference),
     };

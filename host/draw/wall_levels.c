@@ -12,9 +12,11 @@ enum {
     SEGMENTS = 96 /* of a turn: as circles of other walls have */
 };
 
-static bool is_free(const OzWallLevels *levels, const double point[3])
+/* Whether a point is within the wall: the free side of most, not of one that has grains outside. */
+static bool is_within(const OzWallLevels *levels, const double point[3])
 {
-    return oz_wall_shape_distance(levels->wall, levels->offset, point, NULL) > 0;
+    bool is_inside = levels->wall->side == OZ_SIDE_INSIDE;
+    return (oz_wall_shape_distance(levels->wall, levels->offset, point, NULL) > 0) == is_inside;
 }
 
 /* Where a ray meets the wall; false where it begins behind the wall or stays free as far as the
@@ -28,11 +30,11 @@ static bool find_edge(const OzWallLevels *levels, double angle, double z, double
         point[0] = middle[0] + at * cos(angle);
         point[1] = middle[1] + at * sin(angle);
         point[2] = z;
-        bool found_free = is_free(levels, point);
-        if (i < 2 && found_free != (i == 0)) {
+        bool found_within = is_within(levels, point);
+        if (i < 2 && found_within != (i == 0)) {
             return false;
         }
-        *(found_free ? &low : &high) = at;
+        *(found_within ? &low : &high) = at;
     }
     return true;
 }

@@ -117,7 +117,9 @@ OzFillRegion oz_fill_region_make(const OzScene *scene, double volume, double ext
                                 .high = {INFINITY, INFINITY, INFINITY},
                                 .radius = INFINITY};
     for (int w = 0; w < scene->wall_count; w++) {
-        bounds[scene->walls[w].kind](&fill_region, &scene->walls[w]);
+        if (scene->walls[w].side == OZ_SIDE_INSIDE) {
+            bounds[scene->walls[w].kind](&fill_region, &scene->walls[w]);
+        }
     }
     double length = free_length(&fill_region, volume, extent);
     for (int k = 0; k < 3; k++) {

@@ -49,6 +49,8 @@ static const char *const WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_WALL)
                                              OZ_COMPOUND_WALLS(OZ_CHOICES_COMPOUND) NULL};
 static const char *const ENDS[] = {
     [OZ_ENDS_OPEN] = "open", [OZ_ENDS_CLOSED] = "closed", NULL};
+static const char *const WALL_SIDES[] = {
+    [OZ_SIDE_INSIDE] = "inside", [OZ_SIDE_OUTSIDE] = "outside", NULL};
 static const char *const FLAT_WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_NO_WALL)
                                                   OZ_COMPOUND_WALLS(OZ_CHOICES_NO_COMPOUND)
                                                   OZ_TRIGRAINS_WALLS(OZ_CHOICES_FLAT_WALL) NULL};

@@ -18,6 +18,8 @@
      .help = "of a cylinder with ends: closed, from its point along its axis"},
     {"walls[].ends", CHOICE(ENDS), WALL(ends), WALLS_MADE, .kinds = CYLINDER, DEFAULT("open"),
      SOLID, .help = "of a cylinder with a length: closed"},
+    {"walls[].side", CHOICE(WALL_SIDES), WALL(side), WALLS_MADE, .kinds = CYLINDER | SPHERE,
+     DEFAULT("inside"), SOLID, .help = "where grains are; outside: spheres alone"},
     {"walls[].size", VECTOR(1e6, "m"), WALL(size), WALLS_MADE, .kinds = BOX, REQUIRED, SOLID,
      .help = "of a box, inside"},
     {"walls[].from", PAIR(1e6, "m"), WALL(from), WALLS_MADE, .kinds = SEGMENT, REQUIRED, FLAT,

@@ -93,6 +93,8 @@ typedef struct OzMotion {
 
 typedef enum OzWallEnds { OZ_ENDS_OPEN, OZ_ENDS_CLOSED } OzWallEnds;
 
+typedef enum OzWallSideChoice { OZ_SIDE_INSIDE, OZ_SIDE_OUTSIDE } OzWallSideChoice;
+
 typedef struct OzWall {
     OzWallKind kind;
     double point[3], normal[3]; /* plane: normal is a unit vector into the free side       */
@@ -100,6 +102,7 @@ typedef struct OzWall {
     double axis[3];             /* cylinder: a unit vector along its axis, through point; zero: z */
     double length;              /* m, cylinder: from point along axis; 0: endless             */
     OzWallEnds ends;            /* cylinder with a length                                     */
+    OzWallSideChoice side;      /* cylinder, sphere: where grains are                         */
     double size[3];             /* m, box: its bottom's middle is point                       */
     double from[2], to[2];      /* m, segment: the free side lies to the left on the way      */
     double width, height;       /* m, floor, hopper (inner, at the top), vessel (inner)       */

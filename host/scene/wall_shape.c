@@ -44,7 +44,7 @@ static void shape_tube(OzWallShape *shape, const OzWall *wall)
         shape->point[c] = wall->point[c];
     }
     shape->radius = wall->diameter / 2;
-    shape->side = 1;
+    shape->side = wall->side == OZ_SIDE_OUTSIDE ? -1 : 1;
 }
 
 static void shape_cylinder(OzWallShape *shape, const OzWall *wall)
@@ -64,7 +64,7 @@ static void shape_sphere(OzWallShape *shape, const OzWall *wall)
         shape->point[c] = wall->point[c];
     }
     shape->radius = wall->diameter / 2;
-    shape->side = 1;
+    shape->side = wall->side == OZ_SIDE_OUTSIDE ? -1 : 1;
 }
 
 /* A plane through a point that lies `along` from another one, in the direction of normal. */
@@ -93,8 +93,8 @@ bool oz_wall_shape_is_upright(const OzWall *wall)
 {
     double axis[3];
     oz_wall_shape_axis(wall, axis);
-    return wall->kind == OZ_WALL_CYLINDER && fabs(axis[2]) == 1 && wall->point[0] == 0 &&
-           wall->point[1] == 0;
+    return wall->kind == OZ_WALL_CYLINDER && wall->side == OZ_SIDE_INSIDE && fabs(axis[2]) == 1 &&
+           wall->point[0] == 0 && wall->point[1] == 0;
 }
 
 /* The one side of a wall that is no compound of several. */
