@@ -1,9 +1,9 @@
 /* From ensemble.csv to the rows of a figure. */
 #include "figures/curves_data.h"
 
+#include "base/cells.h"
 #include "base/folder.h"
 #include "base/memory.h"
-#include "figures/cells.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* The table's rows, one by one. */
 #include "figures/shares.h"
 
+#include "base/cells.h"
 #include "base/file.h"
 #include "base/folder.h"
 #include "base/log.h"
 #include "bench/bench.h"
-#include "figures/cells.h"
 
 #include <math.h>
 #include <stdlib.h>

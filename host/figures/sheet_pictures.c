@@ -1,9 +1,9 @@
 /* Which moments, `orzo draw`, and what came of it. */
 #include "figures/sheet_pictures.h"
 
+#include "base/cells.h"
 #include "base/memory.h"
 #include "command/redraw.h"
-#include "figures/cells.h"
 
 #include <glob.h>
 #include <math.h>
@@ -194,8 +194,8 @@ void oz_sheet_pictures_say(const char *file, char *text, size_t size)
     double at = 0;
     text[0] = '\0';
     if (sscanf(name, "tap_%lf", &at) == 1) {
-        snprintf(text, size, "%.6g taps", at);
+        snprintf(text, size, "%.4g taps", at);
     } else if (sscanf(name, "time_%lf", &at) == 1) {
-        snprintf(text, size, "%.6g s", at);
+        snprintf(text, size, "%.3g s", at);
     }
 }

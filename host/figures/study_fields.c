@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void *oz_study_fields_at(const OzField *field, const void *base)
+void *oz_study_fields_at(const OzStudyField *field, const void *base)
 {
     return (char *)(uintptr_t)base + field->offset;
 }
@@ -26,12 +26,13 @@ bool oz_study_fields_has(const char *words, const char *word)
     return false;
 }
 
-static bool is_known(const OzField *field, const char *kind)
+static bool is_known(const OzStudyField *field, const char *kind)
 {
     return !field->of || !kind || oz_study_fields_has(field->of, kind);
 }
 
-static const OzField *find_field(const OzField *fields, const char *kind, const char *name)
+static const OzStudyField *find_field(const OzStudyField *fields, const char *kind,
+                                      const char *name)
 {
     for (; fields->name; fields++) {
         if (is_known(fields, kind) && strcmp(fields->name, name) == 0) {
@@ -61,7 +62,8 @@ static bool is_text(const OzNode *node)
     return node->kind == OZ_NODE_SCALAR && !node->refused && node->text[0];
 }
 
-static OzStatus read_text(const OzField *field, const OzNode *node, char **text, OzFaults *faults)
+static OzStatus read_text(const OzStudyField *field, const OzNode *node, char **text,
+                          OzFaults *faults)
 {
     if (!is_text(node)) {
         refuse(node, field->choices ? field->choices : "a text", faults);
@@ -106,7 +108,7 @@ static bool read_number(const OzNode *node, double *number)
     return *end == '\0' && isfinite(*number);
 }
 
-static OzStatus read_numbers(const OzField *field, const OzNode *node, OzNumbers *numbers,
+static OzStatus read_numbers(const OzStudyField *field, const OzNode *node, OzNumbers *numbers,
                              OzFaults *faults)
 {
     int count = node->kind == OZ_NODE_LIST ? node->count : 1;
@@ -139,28 +141,29 @@ static OzStatus read_flag(const OzNode *node, bool *flag, OzFaults *faults)
     return OZ_OK;
 }
 
-static OzStatus read_value(const OzField *field, const OzNode *node, void *base, OzFaults *faults)
+static OzStatus read_value(const OzStudyField *field, const OzNode *node, void *base,
+                           OzFaults *faults)
 {
     void *place = oz_study_fields_at(field, base);
     switch (field->type) {
-    case OZ_FIELD_TEXT:
+    case OZ_STUDY_FIELD_TEXT:
         return read_text(field, node, place, faults);
-    case OZ_FIELD_TEXTS:
+    case OZ_STUDY_FIELD_TEXTS:
         return read_texts(node, place, faults);
-    case OZ_FIELD_NUMBERS:
+    case OZ_STUDY_FIELD_NUMBERS:
         return read_numbers(field, node, place, faults);
-    case OZ_FIELD_FLAG:
+    case OZ_STUDY_FIELD_FLAG:
         break;
     }
     return read_flag(node, place, faults);
 }
 
-static void refuse_unknown(const OzField *fields, const char *kind, const OzNode *node,
+static void refuse_unknown(const OzStudyField *fields, const char *kind, const OzNode *node,
                            const char *what, OzFaults *faults)
 {
     char names[512] = "";
     size_t used = 0;
-    for (const OzField *field = fields; field->name && used < sizeof names; field++) {
+    for (const OzStudyField *field = fields; field->name && used < sizeof names; field++) {
         if (is_known(field, kind)) {
             used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "",
                                      field->name);
@@ -170,7 +173,7 @@ static void refuse_unknown(const OzField *fields, const char *kind, const OzNode
                   node->key, what, names);
 }
 
-OzStatus oz_study_fields_read(const OzField *fields, const char *kind, const OzNode *map,
+OzStatus oz_study_fields_read(const OzStudyField *fields, const char *kind, const OzNode *map,
                               const char *what, void *base, OzFaults *faults)
 {
     if (map->kind != OZ_NODE_MAP) {
@@ -179,7 +182,7 @@ OzStatus oz_study_fields_read(const OzField *fields, const char *kind, const OzN
         return OZ_OK;
     }
     for (int i = 0; i < map->count; i++) {
-        const OzField *field = find_field(fields, kind, map->items[i]->key);
+        const OzStudyField *field = find_field(fields, kind, map->items[i]->key);
         if (oz_tree_child(map, map->items[i]->key) != map->items[i]) {
             continue; /* written twice, which is refused already */
         }
@@ -207,15 +210,15 @@ static void free_texts(OzTexts *texts)
     free(texts->items);
 }
 
-void oz_study_fields_free(const OzField *fields, void *base)
+void oz_study_fields_free(const OzStudyField *fields, void *base)
 {
     for (; fields->name; fields++) {
         void *place = oz_study_fields_at(fields, base);
-        if (fields->type == OZ_FIELD_TEXT) {
+        if (fields->type == OZ_STUDY_FIELD_TEXT) {
             free(*(char **)place);
-        } else if (fields->type == OZ_FIELD_TEXTS) {
+        } else if (fields->type == OZ_STUDY_FIELD_TEXTS) {
             free_texts(place);
-        } else if (fields->type == OZ_FIELD_NUMBERS) {
+        } else if (fields->type == OZ_STUDY_FIELD_NUMBERS) {
             free(((OzNumbers *)place)->items);
         }
     }

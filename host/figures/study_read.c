@@ -14,13 +14,13 @@
 static const char kind_words[] = OZ_FIGURE_KINDS(KIND_WORD);
 #undef KIND_WORD
 
-#define TEXT(base, member)    .type = OZ_FIELD_TEXT, .offset = offsetof(base, member)
-#define TEXTS(base, member)   .type = OZ_FIELD_TEXTS, .offset = offsetof(base, member)
-#define NUMBERS(base, member) .type = OZ_FIELD_NUMBERS, .offset = offsetof(base, member)
-#define FLAG(base, member)    .type = OZ_FIELD_FLAG, .offset = offsetof(base, member)
+#define TEXT(base, member)    .type = OZ_STUDY_FIELD_TEXT, .offset = offsetof(base, member)
+#define TEXTS(base, member)   .type = OZ_STUDY_FIELD_TEXTS, .offset = offsetof(base, member)
+#define NUMBERS(base, member) .type = OZ_STUDY_FIELD_NUMBERS, .offset = offsetof(base, member)
+#define FLAG(base, member)    .type = OZ_STUDY_FIELD_FLAG, .offset = offsetof(base, member)
 
 /* clang-format off */
-static const OzField run_fields[] = {
+static const OzStudyField run_fields[] = {
     {"name", TEXT(OzStudyRun, name), .needed = true},
     {"scene", TEXT(OzStudyRun, scene), .needed = true},
     {"label", TEXT(OzStudyRun, label)},
@@ -30,13 +30,13 @@ static const OzField run_fields[] = {
     {NULL, TEXT(OzStudyRun, path)},
 };
 
-static const OzField quick_fields[] = {
+static const OzStudyField quick_fields[] = {
     {"seeds", NUMBERS(OzStudyQuick, seeds), .count = 1},
     {"set", TEXTS(OzStudyQuick, set)},
     {NULL, TEXTS(OzStudyQuick, set)},
 };
 
-static const OzField figure_fields[] = {
+static const OzStudyField figure_fields[] = {
     {"name", TEXT(OzStudyFigure, name), .needed = true},
     {"kind", TEXT(OzStudyFigure, kind), .needed = true, .choices = kind_words},
     {"title", TEXT(OzStudyFigure, title)},

@@ -1,9 +1,9 @@
 /* Looking at what is there, and running what is not. */
 #include "figures/study_runs.h"
 
+#include "base/cells.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "figures/cells.h"
 #include "run/run.h"
 #include "scene/scene.h"
 

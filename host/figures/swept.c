@@ -1,11 +1,11 @@
 /* From members.csv to points, and a line through them. */
 #include "figures/swept.h"
 
+#include "base/cells.h"
 #include "base/folder.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/student.h"
-#include "figures/cells.h"
 #include "observe/power_fit.h"
 
 #include <math.h>

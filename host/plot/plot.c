@@ -33,7 +33,7 @@ static int find_values(const Work *work, const char *name)
 {
     char mean[OZ_COLUMN_NAME + 8];
     snprintf(mean, sizeof mean, "%s_mean", name);
-    return oz_plot_table_find(&work->table, work->is_ensemble ? mean : name);
+    return oz_cells_find(&work->table.cells, work->is_ensemble ? mean : name);
 }
 
 static OzStatus add_column(Work *work, const char *name)
@@ -78,9 +78,9 @@ static OzStatus choose_columns(Work *work, const OzPlot *plot)
 /* Along x: what was asked for, else taps where there are any. */
 static OzStatus choose_against(Work *work, const char *asked)
 {
-    int tap = oz_plot_table_find(&work->table, "tap");
+    int tap = oz_cells_find(&work->table.cells, "tap");
     work->against = asked ? asked : tap >= 0 && work->table.has_value[tap] ? "tap" : "time";
-    int column = oz_plot_table_find(&work->table, work->against);
+    int column = oz_cells_find(&work->table.cells, work->against);
     return column >= 0 && work->table.has_value[column]
                ? OZ_OK
                : oz_status_fail(OZ_ERR_INPUT,
@@ -159,7 +159,7 @@ static void send_members(const Work *work, FILE *gnuplot, const char *name)
 /* The mean of one combination of a sweep, or (NULL) of all members, with its interval. */
 static void send_mean(const Work *work, FILE *gnuplot, const char *name, const char *value, int i)
 {
-    const char *key = work->table.names[0];
+    const char *key = oz_cells_text(&work->table.cells, -1, 0);
     char only[512] = "";
     if (value) {
         snprintf(only, sizeof only, "stringcolumn(1) ne '%s' ? NaN : ", value);
@@ -211,7 +211,8 @@ static OzStatus draw(const Work *work, const char *terminal, const char *picture
                 terminal, WIDTH, 60 + PANEL_HEIGHT * work->count);
         send_text(gnuplot, path);
         fprintf(gnuplot,
-                "\nset datafile separator ','\nset datafile missing ''\nset lmargin 12\nset autoscale xfix\nset grid lc rgb '#dddddd'\n"
+                "\nset datafile separator ','\nset datafile missing ''\nset lmargin 12\nset "
+                "autoscale xfix\nset grid lc rgb '#dddddd'\n"
                 "set multiplot layout %d,1 title ",
                 work->count);
         send_text(gnuplot, work->folder);
@@ -264,7 +265,7 @@ OzStatus oz_plot_series(const char *folder)
     }
     OZ_TRY(read_tables(&work));
     OZ_TRY(choose_usual(&work));
-    if (work.count > 0 && work.table.row_count >= rows_least) {
+    if (work.count > 0 && work.table.cells.row_count >= rows_least) {
         OZ_TRY(choose_against(&work, NULL));
         OZ_TRY(draw(&work, "pngcairo", "series.png"));
     }

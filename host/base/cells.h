@@ -1,4 +1,4 @@
-/* A table of a run (series.csv, ensemble.csv, members.csv) with all its cells. */
+/* A table (series.csv, ensemble.csv, members.csv) cut into cells, all of it in memory. */
 #pragma once
 
 #include "base/status.h"
@@ -22,6 +22,6 @@ void oz_cells_free(OzCells *table);
 /* The column's number, -1: there is none. */
 int oz_cells_find(const OzCells *table, const char *name);
 
-/* A cell's text; its number, NAN where it holds none. */
+/* A cell's text, of row -1 the column's name; its number, NAN where it holds none. */
 const char *oz_cells_text(const OzCells *table, int64_t row, int column);
 double oz_cells_number(const OzCells *table, int64_t row, int column);

@@ -1,5 +1,5 @@
 /* Cutting a table into cells. */
-#include "figures/cells.h"
+#include "base/cells.h"
 
 #include "base/file.h"
 #include "base/memory.h"
