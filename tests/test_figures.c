@@ -291,7 +291,7 @@ static void every_error_of_a_study_is_said(void **state)
         "bad.yaml:5: a is there already; expected a new name",
         "bad.yaml:5: steps is no key of a run; expected one of name, scene",
         "bad.yaml:6: a run has no scene; expected it",
-        "bad.yaml:8: kind is circles; expected one of curves",
+        "bad.yaml:8: kind is circles; expected one of curves, pictures, sweep, shares",
         "bad.yaml:9: z is none of the study's runs",
         "bad.yaml:10: x_range is empty; expected [low, high], above 0 on a logarithmic axis",
         "bad.yaml:11: a figure has no against; expected it",

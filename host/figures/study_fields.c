@@ -62,17 +62,32 @@ static bool is_text(const OzNode *node)
     return node->kind == OZ_NODE_SCALAR && !node->refused && node->text[0];
 }
 
+/* The node is none of a field's words, which are told with commas between. */
+static void refuse_choice(const OzStudyField *field, const OzNode *node, OzFaults *faults)
+{
+    char expected[256] = "one of ";
+    size_t used = strlen(expected), here;
+    const char *separator = "";
+    for (const char *at = field->choices; *at && used < sizeof expected; at += here) {
+        here = strcspn(at, " ");
+        used += (size_t)snprintf(expected + used, sizeof expected - used, "%s%.*s", separator,
+                                 (int)here, at);
+        separator = ", ";
+        here += strspn(at + here, " ");
+    }
+    refuse(node, expected, faults);
+}
+
 static OzStatus read_text(const OzStudyField *field, const OzNode *node, char **text,
                           OzFaults *faults)
 {
-    if (!is_text(node)) {
-        refuse(node, field->choices ? field->choices : "a text", faults);
+    bool is_one = is_text(node);
+    if (field->choices && !(is_one && oz_study_fields_has(field->choices, node->text))) {
+        refuse_choice(field, node, faults);
         return OZ_OK;
     }
-    if (field->choices && !oz_study_fields_has(field->choices, node->text)) {
-        char expected[256];
-        snprintf(expected, sizeof expected, "one of %s", field->choices);
-        refuse(node, expected, faults);
+    if (!is_one) {
+        refuse(node, "a text", faults);
         return OZ_OK;
     }
     return oz_memory_text(text, node->text);
