@@ -305,7 +305,7 @@ static void test_header(void **state)
         "density_com_tap_mean,density_slab,density_slab_tap_mean,angle,"
         "angle_tap_mean,angle_layer1,angle_layer2,angle_layer3,angle_layer4,count_layer1,"
         "count_layer2,count_layer3,count_layer4,nematic_s,contact_count,overlap_max,overlap_mean,"
-        "speed_max,kinetic,rotational,deep_count";
+        "speed_max,kinetic,rotational,contact_number,deep_count";
     const char *ledger = ",energy_potential,energy_elastic,energy_dissipated,energy_friction,"
                          "work_walls,energy_residual\n";
     bed_create(&bed, 0, 1, 1); /* no grains: every cell is a number or empty */

@@ -33,6 +33,8 @@ static void colours_tell_direction_and_speed(void **state)
     assert_true(same_colour(a, b, 2));
     centre_of_one_rod(OZ_COLOUR_AZIMUTH, slanted, b);
     assert_false(same_colour(a, b, 40));
+    centre_of_one_rod(OZ_COLOUR_ORDER, along_z, a); /* alone: none */
+    assert_true(same_colour(a, lying, 2));
     centre_of_one_rod(OZ_COLOUR_SPEED, along_x, a); /* at the top of the bar: yellow */
     assert_true(a[0] > 180 && a[1] > 160 && a[2] < 120);
 }

@@ -12,6 +12,7 @@ void oz_bodies_free(OzBodies *bodies)
     free(bodies->bodies);
     free(bodies->grains);
     free(bodies->unsorted);
+    oz_local_order_free(&bodies->order);
     memset(bodies, 0, sizeof *bodies);
 }
 
@@ -118,6 +119,9 @@ OzStatus oz_bodies_take(OzBodies *bodies, const OzSnapshot *snapshot, const OzLo
                         const OzCamera *camera)
 {
     OZ_PASS(fit(bodies, snapshot->count));
+    if (look->colour == OZ_COLOUR_ORDER) {
+        OZ_PASS(oz_local_order_find(&bodies->order, snapshot));
+    }
     bodies->snapshot = snapshot;
     bodies->look = look;
     bodies->camera = camera;

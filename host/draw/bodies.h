@@ -3,6 +3,7 @@
 #pragma once
 
 #include "draw/camera.h"
+#include "model/local_order.h"
 
 /* A rod or sphere in view coordinates. */
 typedef struct OzBody {
@@ -22,6 +23,7 @@ typedef struct OzBodies {
     OzBody *bodies;  /* nearest first, those of equal depth in the snapshot's order       */
     int64_t *grains; /* of each, which grain of the snapshot it is                        */
     int64_t count, capacity;
+    OzLocalOrder order;     /* for OZ_COLOUR_ORDER alone */
     OzBody *unsorted;       /* on the way */
     double low[2], high[2]; /* view coordinates x and y that they may reach */
 } OzBodies;

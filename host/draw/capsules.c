@@ -119,7 +119,8 @@ static OzStatus add_records(Upload *upload, OzSide side)
         int64_t seen = upload->seen[side][k], grain = upload->all->grains[seen];
         Record *record = &upload->records[upload->record_count++];
         *record = (Record){.body = upload->all->bodies[seen]};
-        oz_palette_grain(upload->all->snapshot, upload->all->look, grain, record->colour);
+        oz_palette_grain(upload->all->snapshot, upload->all->look, upload->all->order.crystal,
+                         grain, record->colour);
     }
     return OZ_OK;
 }

@@ -178,6 +178,9 @@ static void tick_text(const OzLook *look, double share, char *text, size_t size)
     case OZ_COLOUR_TURNED:
         snprintf(text, size, "%.0f\xc2\xb0", 360 * share);
         break;
+    case OZ_COLOUR_ORDER:
+        snprintf(text, size, "%.3g", share);
+        break;
     default:
         snprintf(text, size, "%.3g", look->speed_high * share);
     }
@@ -185,11 +188,10 @@ static void tick_text(const OzLook *look, double share, char *text, size_t size)
 
 static void add_colour_bar(const Page *page)
 {
-    static const char *const names[] = {[OZ_COLOUR_ANGLE] = "angle to floor",
-                                        [OZ_COLOUR_AZIMUTH] = "azimuth",
-                                        [OZ_COLOUR_SPEED] = "speed (m/s)",
-                                        [OZ_COLOUR_GREY] = "speed (m/s)",
-                                        [OZ_COLOUR_TURNED] = "turned by"};
+    static const char *const names[] = {
+        [OZ_COLOUR_ANGLE] = "angle to floor", [OZ_COLOUR_AZIMUTH] = "azimuth",
+        [OZ_COLOUR_SPEED] = "speed (m/s)",    [OZ_COLOUR_GREY] = "speed (m/s)",
+        [OZ_COLOUR_TURNED] = "turned by",     [OZ_COLOUR_ORDER] = "local order"};
     double right = page->look->width - page->margin, width = 0.85 * page->size;
     double height = fmin(0.45 * page->look->height, 14 * page->size);
     double top = 0.5 * (page->look->height - height), left = right - width;

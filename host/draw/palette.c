@@ -92,7 +92,8 @@ void oz_palette_grey(double x, float rgb[3])
     rgb[0] = rgb[1] = rgb[2] = (float)(0.15 + 0.75 * fmin(fmax(x, 0), 1));
 }
 
-void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i, float rgb[3])
+void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const double *crystal,
+                      int64_t i, float rgb[3])
 {
     const double *axis = &snapshot->axis[3 * i], *v = &snapshot->velocity[3 * i];
     bool sphere = !(snapshot->grains->length[i] > 0);
@@ -112,12 +113,15 @@ void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, int64_t i,
         return;
     case OZ_COLOUR_ANGLE:
     case OZ_COLOUR_AZIMUTH:
+    case OZ_COLOUR_ORDER:
         break;
     }
     if (look->flat) {
         long_axis_colour(snapshot, i, rgb);
     } else if (sphere) {
         mix(GREY, GREY, 0, rgb);
+    } else if (look->colour == OZ_COLOUR_ORDER) {
+        oz_palette_viridis(crystal[i], rgb);
     } else if (look->colour == OZ_COLOUR_ANGLE) {
         angle_colour(axis, rgb);
     } else {

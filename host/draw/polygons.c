@@ -288,7 +288,7 @@ void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, co
     int64_t next = 0;
     for (int64_t g = 0; g < elements->grain_count; g++) {
         float rgb[3];
-        oz_palette_grain(snapshot, look, g, rgb);
+        oz_palette_grain(snapshot, look, NULL, g, rgb);
         choose_ink(rgb, element.ink);
         for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
             float shade = is_mark(elements, g, i) ? 0.6f : 1.0f;

@@ -190,7 +190,8 @@ OZ_WIDE static bool is_open(const OzRaster *raster, const Stroke *stroke, const 
 static void take_colour(const OzRaster *raster, Stroke *stroke, int64_t k)
 {
     const OzBodies *bodies = raster->bodies;
-    oz_palette_grain(bodies->snapshot, bodies->look, bodies->grains[k], stroke->body.rgb);
+    oz_palette_grain(bodies->snapshot, bodies->look, bodies->order.crystal, bodies->grains[k],
+                     stroke->body.rgb);
 }
 
 static void draw_body(OzRaster *raster, int64_t k, DrawRow *draw_row)

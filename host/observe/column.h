@@ -1,7 +1,8 @@
-/* A column of series.csv: a row of THE list of observables (observe/observables.h), and all that its
- * value may depend on. */
+/* A column of series.csv: a row of THE list of observables (observe/observables.h), and all that
+ * its value may depend on. */
 #pragma once
 
+#include "observe/bed_order.h"
 #include "observe/flow.h"
 #include "observe/measure.h"
 
@@ -30,6 +31,7 @@ typedef struct OzObservation {
     OzContactSums contacts;
     double (*wall_force)[3];  /* N, of all grains on each wall of the scene; NULL: nobody asked */
     double (*wall_torque)[3]; /* N m, of these about the wall's point, with it                  */
+    const OzBedOrder *order;  /* of rods, this state's; with observe.order alone */
     OzLayer layers[OZ_MEASURE_LAYERS];
     bool has_mean[OZ_TAP_MEANS];
     double mean[OZ_TAP_MEANS]; /* tap means, by the series                  */
@@ -37,12 +39,13 @@ typedef struct OzObservation {
     double energy_start;       /* J, oz_observables_energy of the first row */
 } OzObservation;
 
-/* How often a column stands in a row, and what must be asked for: once; once with observe.ledger;
- * for each layer, "<i>" in its name being 1 to 4; with observe.walls for each wall, "<i>" being its
- * number from 0, and of each for every axis of the model, "<x>". */
+/* How often a column stands in a row, and what must be asked for: once; once with observe.ledger,
+ * or with observe.order; for each layer, "<i>" in its name being 1 to 4; with observe.walls for
+ * each wall, "<i>" being its number from 0, and of each for every axis of the model, "<x>". */
 typedef enum OzColumnNeed {
     OZ_COLUMN_ALWAYS,
     OZ_COLUMN_LEDGER,
+    OZ_COLUMN_ORDER,
     OZ_COLUMN_LAYERS,
     OZ_COLUMN_WALLS,
     OZ_COLUMN_WALL_TURNS

@@ -35,13 +35,6 @@ bool oz_flat_spin(const OzObservation *observation, double *value)
     return there;
 }
 
-bool oz_flat_contact_number(const OzObservation *observation, double *value)
-{
-    const OzSnapshot *s = observation->snapshot;
-    *value = 2 * (double)observation->contacts.pairs / fmax((double)s->count, 1);
-    return s->has_contacts && s->count > 0;
-}
-
 bool oz_flat_wall_touches(const OzObservation *observation, double *value)
 {
     *value = (double)observation->contacts.walls;

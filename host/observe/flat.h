@@ -10,7 +10,6 @@ bool oz_flat_spin_mean(const OzObservation *observation, double *value);
 /* Spin of the grain with this index; none when there are fewer. */
 bool oz_flat_spin(const OzObservation *observation, double *value);
 
-bool oz_flat_contact_number(const OzObservation *observation, double *value);
 bool oz_flat_wall_touches(const OzObservation *observation, double *value);
 
 /* index: OzContactKind. The share is among contacts of triangles. */

@@ -5,6 +5,7 @@
 #include "model/motion.h"
 #include "observe/element_energy.h"
 #include "observe/flat.h"
+#include "observe/rod_energy.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -78,6 +79,14 @@ static bool nematic(const OzObservation *o, double *value)
     return oz_measure_nematic(o->snapshot, value);
 }
 
+static bool order(const OzObservation *o, double *value)
+{
+    const OzBedOrder *found = o->order;
+    const double values[] = {found->nematic_axis, found->psi6, (double)found->rattlers};
+    *value = values[o->index];
+    return o->index < 2 ? found->rods > 0 : found->has_contacts;
+}
+
 OzTapSample oz_observables_sample(OzMeasure *measure, const OzSnapshot *snapshot)
 {
     OzTapSample s = {0};
@@ -103,6 +112,13 @@ static bool contact_count(const OzObservation *o, double *value)
 {
     *value = (double)o->contacts.pairs;
     return o->snapshot->has_contacts;
+}
+
+static bool contact_number(const OzObservation *o, double *value)
+{
+    const OzSnapshot *s = o->snapshot;
+    *value = 2 * (double)o->contacts.pairs / fmax((double)s->count, 1);
+    return s->has_contacts && s->count > 0;
 }
 
 static bool overlap_max(const OzObservation *o, double *value)
@@ -168,32 +184,17 @@ static bool speed_max(const OzObservation *o, double *value)
 
 static double kinetic_energy(const OzSnapshot *s)
 {
-    double sum = is_flat(s) ? oz_element_energy_translational(s) : 0;
-    for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
-        sum += s->grains->mass[i] / 2 * dot(&s->velocity[3 * i], &s->velocity[3 * i]);
-    }
-    return sum;
+    return is_flat(s) ? oz_element_energy_translational(s) : oz_rod_energy_translational(s);
 }
 
 static double rotational_energy(const OzSnapshot *s)
 {
-    double sum = is_flat(s) ? oz_element_energy_rotational(s) : 0;
-    for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
-        const double *w = &s->angular_velocity[3 * i];
-        double along = dot(w, &s->axis[3 * i]);
-        double across = dot(w, w) - along * along;
-        sum += (s->grains->inertia[i] * across + s->grains->inertia_axis[i] * along * along) / 2;
-    }
-    return sum;
+    return is_flat(s) ? oz_element_energy_rotational(s) : oz_rod_energy_rotational(s);
 }
 
 static double potential_energy(const OzSnapshot *s)
 {
-    double sum = is_flat(s) ? oz_element_energy_potential(s) : 0;
-    for (int64_t i = 0; i < s->count && !is_flat(s); i++) {
-        sum -= s->grains->mass[i] * dot(s->scene->gravity, &s->position[3 * i]);
-    }
-    return sum;
+    return is_flat(s) ? oz_element_energy_potential(s) : oz_rod_energy_potential(s);
 }
 
 static double work_of_walls(const OzSnapshot *s)
@@ -275,14 +276,15 @@ static bool residual(const OzObservation *o, double *value)
     return o->snapshot->has_ledger;
 }
 
-#define ALWAYS OZ_COLUMN_ALWAYS
-#define LEDGER OZ_COLUMN_LEDGER
-#define LAYERS OZ_COLUMN_LAYERS
-#define WALLS  OZ_COLUMN_WALLS
+#define ALWAYS     OZ_COLUMN_ALWAYS
+#define LEDGER     OZ_COLUMN_LEDGER
+#define ORDER      OZ_COLUMN_ORDER
+#define LAYERS     OZ_COLUMN_LAYERS
+#define WALLS      OZ_COLUMN_WALLS
 #define WALL_TURNS OZ_COLUMN_WALL_TURNS
-#define RODS   OZ_COLUMN_RODS
-#define FLAT   OZ_COLUMN_TRIGRAINS
-#define ALL    OZ_COLUMN_ALL
+#define RODS       OZ_COLUMN_RODS
+#define FLAT       OZ_COLUMN_TRIGRAINS
+#define ALL        OZ_COLUMN_ALL
 
 /* clang-format off */
 static const OzColumn list[] = {
@@ -313,6 +315,11 @@ static const OzColumn list[] = {
     {"count_layer<i>", "1", "grains whose centre lies in a layer", RODS, LAYERS, true, count_layer, 0},
     {"nematic_s", "1", "largest eigenvalue of <3uu - 1>/2, rods only: 1 aligned, 0 isotropic", RODS, ALWAYS,
      false, nematic, 0},
+    {"nematic_axis", "1", "mean of (3 (u.a)^2 - 1)/2, rods only, a the axis of the first cylinder, else z; this "
+     "and the next two with observe.order", RODS, ORDER, false, order, 0},
+    {"psi6", "1", "hexagonal order across that axis, mean over the rods: |mean of exp(6 i theta)| over "
+     "neighbours beside each: 1 in a hexagonal packing of upright rods", RODS, ORDER, false, order, 1},
+    {"rattler_count", "1", "grains that touch less than two others or walls", RODS, ORDER, true, order, 2},
     {"contact_count", "1", "touching pairs of grains", ALL, ALWAYS, true, contact_count, 0},
     {"overlap_max", "m", "deepest overlap of pairs and walls", RODS, ALWAYS, false, overlap_max, 0},
     {"overlap_mean", "m", "mean overlap of pairs and walls; 0 when nothing touches", RODS, ALWAYS, false,
@@ -328,8 +335,7 @@ static const OzColumn list[] = {
     {"rotational", "J", "kinetic energy of the spins (trigrains: of their elements')", ALL, ALWAYS, false, rotational, 0},
     {"energy_contact", "J", "stored in overlaps now", FLAT, ALWAYS, false, oz_flat_stored, 0},
     {"energy_beam", "J", "stored in beams now", FLAT, ALWAYS, false, oz_flat_stored, 1},
-    {"contact_number", "1", "grains that a grain touches, on average", FLAT, ALWAYS, false,
-     oz_flat_contact_number, 0},
+    {"contact_number", "1", "grains that a grain touches, on average", ALL, ALWAYS, false, contact_number, 0},
     {"wall_touches", "1", "contacts of elements with walls", FLAT, ALWAYS, true, oz_flat_wall_touches, 0},
     {"touches_i", "1", "contacts of triangles, kind i: two crossings on one edge", FLAT, ALWAYS, true,
      oz_flat_touches, OZ_CONTACT_I},
@@ -410,9 +416,11 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
 {
     const int cells[] = {[ALWAYS] = 1,
                          [LEDGER] = 1,
+                         [ORDER] = 1,
                          [LAYERS] = OZ_MEASURE_LAYERS,
                          [WALLS] = scene->wall_count * (int)strlen(axes_of(WALLS, scene)),
-                         [WALL_TURNS] = scene->wall_count * (int)strlen(axes_of(WALL_TURNS, scene))};
+                         [WALL_TURNS] =
+                             scene->wall_count * (int)strlen(axes_of(WALL_TURNS, scene))};
     return (column->models & 1 << scene->model) != 0 ? cells[column->need] : 0;
 }
 
@@ -420,6 +428,7 @@ int oz_observables_cells(const OzColumn *column, const OzScene *scene)
 {
     bool of_walls = column->need == WALLS || column->need == WALL_TURNS;
     bool is_there = (column->need != LEDGER || scene->observe.ledger) &&
+                    (column->need != ORDER || scene->observe.order) &&
                     (!of_walls || scene->observe.walls);
     return is_there ? oz_observables_width(column, scene) : 0;
 }

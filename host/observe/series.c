@@ -39,6 +39,7 @@ struct OzSeries {
     double energy_start; /* J, of the first row */
     OzSurplus surplus;
     OzFlow flow;
+    OzBedOrder order; /* of the row in hand, where the scene asks for it */
 };
 
 const OzColumn *oz_series_columns(void)
@@ -314,8 +315,10 @@ void oz_series_sample(OzSeries *series, const OzSnapshot *snapshot)
 
 static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
 {
-    OzObservation observation = {
-        .measure = &series->measure, .snapshot = snapshot, .flow = &series->flow};
+    OzObservation observation = {.measure = &series->measure,
+                                 .snapshot = snapshot,
+                                 .flow = &series->flow,
+                                 .order = &series->order};
     observation.contacts = oz_contact_list_sum(&snapshot->contacts);
     observation.wall_force = series->wall_force;
     observation.wall_torque = series->wall_torque;
@@ -348,9 +351,10 @@ static double write_cell(FILE *file, const OzColumn *column, const OzObservation
 
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
 {
-    OzStatus status = oz_flow_see(&series->flow, snapshot);
-    if (status != OZ_OK) {
-        return status;
+    OzStatus status = OZ_OK;
+    OZ_PASS(oz_flow_see(&series->flow, snapshot));
+    if (series->scene->observe.order) {
+        OZ_PASS(oz_bed_order_find(&series->order, snapshot));
     }
     OzObservation observation = observe(series, snapshot);
     const char *comma = "";
@@ -411,6 +415,7 @@ OzStatus oz_series_free(OzSeries *series)
     free(series->row);
     free(series->is_kept);
     oz_flow_free(&series->flow);
+    oz_bed_order_free(&series->order);
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         free(series->mean[k].value);
     }

@@ -291,6 +291,8 @@ static const OzKey KEYS[] = {
      DEFAULT("0.004"), SOLID, .help = "of the layers counted from the floor"},
     {"observe.ledger", OF(BOOL), AT(observe.ledger), DEFAULT("false"), .help = "energy columns"},
     {"observe.walls", OF(BOOL), AT(observe.walls), DEFAULT("false"), .help = "force on each wall"},
+    {"observe.order", OF(BOOL), AT(observe.order), SOLID, DEFAULT("false"),
+     .help = "columns of rods' order"},
     {"observe.contacts", OF(BOOL), AT(observe.contacts), COLUMNS, DEFAULT("false"),
      .help = "contacts.csv"},
     {"observe.contacts_interval", NUMBER(1e-12, 1e9, "s"), AT(observe.contacts_interval),
@@ -311,7 +313,8 @@ static const OzKey KEYS[] = {
      AT(movie.views), .count_offset = offsetof(OzScene, movie.view_count), DEFAULT("[lateral]"),
      FLAT, .help = "there is one"},
     {"movie.colour", CHOICE(COLOURS), AT(movie.colour), DEFAULT("angle"), SOLID,
-     .help = "what a grain's colour shows"},
+     .help = "what a grain's colour shows; order is how far its neighbours stand around it as in a "
+             "crystal, upright in a hexagon"},
     {"movie.colour", CHOICE(FLAT_COLOURS), AT(movie.colour), DEFAULT("speed"), FLAT,
      .help =
          "what a grain's colour shows; angle is its long axis' direction, turned how far it has "

@@ -211,6 +211,7 @@ typedef struct OzObserve {
     double layer_thickness;   /* m; default 4e-3                                             */
     bool ledger;              /* energy columns                                              */
     bool walls;               /* columns of the force on each wall                           */
+    bool order;               /* columns of rods' order                                      */
     bool contacts;            /* contacts.csv                                                */
     double contacts_interval; /* s between its looks; 0: at every row of series.csv         */
     double outlet;            /* m, trigrains: grains below this height have flowed out      */
@@ -225,7 +226,8 @@ typedef enum OzColour {
     OZ_COLOUR_SPEED,   /* viridis, 0 to the scene's typical speed                          */
     OZ_COLOUR_TYPE,    /* one colour for each population                                   */
     OZ_COLOUR_GREY,    /* speed in greys: the faster, the lighter                          */
-    OZ_COLOUR_TURNED   /* trigrains: how far since the start, cyclic, 0..360 degrees       */
+    OZ_COLOUR_TURNED,  /* trigrains: how far since the start, cyclic, 0..360 degrees       */
+    OZ_COLOUR_ORDER    /* rods: local order (model/local_order.h), viridis, 0..1           */
 } OzColour;
 
 /* THE list of formats that a run's frames are exported to, X(NAME, name, choice):
