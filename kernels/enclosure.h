@@ -4,6 +4,7 @@
 
 #include "kernels/grains.h"
 #include "kernels/wall_drive.h"
+#include "kernels/wall_joint.h"
 
 #if OZ_WALL_COUNT > 0
 
@@ -189,6 +190,45 @@ OZ_INLINE void oz_enclosure_part(OzWork *w, size_t index, int bits)
     w->wall_active[index] = bits;
 }
 
+/* The first end at a wall with edges. */
+#define OZ_ENCLOSURE_EDGED (OZ_WALL_ENDS - (OZ_ROUND ? 1 : 2) * OZ_WALL_EDGED)
+
+/* The tangential springs of a block's ends (one bit a lane) that touch one side no more, but one
+ * that it joins: those that were picked before take theirs along to where none is yet. */
+OZ_INLINE void oz_enclosure_hand_over(OzWork *w, int block, int from, int to, int bits)
+{
+#if OZ_HISTORY
+    size_t old = (size_t)block * OZ_WALL_ENDS + from, new = (size_t)block *OZ_WALL_ENDS + to;
+    global const scalar *given = (global const scalar *)(w->wall_history + 3 * old);
+    global scalar *taken = (global scalar *)(w->wall_history + 3 * new);
+    bits &= w->wall_active[old] & (to < from ? w->wall_active[new] : -1);
+    for (int l = 0; bits >> l != 0 && l < OZ_LANES; l++) {
+        int is_free = taken[l] == 0 && taken[OZ_LANES + l] == 0 && taken[2 * OZ_LANES + l] == 0;
+        for (int c = 0; c < 3 && is_free && (bits >> l) & 1; c++) {
+            taken[c * OZ_LANES + l] = given[c * OZ_LANES + l];
+        }
+    }
+    w->wall_active[new] |= bits; /* if the sieve does not pick them there, they are cleared */
+#endif
+}
+
+/* Which ends of a block touch another side with edges at the same place (wall_joint.h). */
+OZ_INLINE mask oz_enclosure_hidden(OzWork *w, const OzSide *sides, int k, int block, OzBody body,
+                                   OzVec3 end, OzWallDistance own, real radius)
+{
+    mask hidden = own.distance < REAL(0.0);
+    for (int j = OZ_ENCLOSURE_EDGED; j < OZ_WALL_ENDS; j++) {
+        if (j != k && sides[j].first == sides[k].first) {
+            OzVec3 from = oz_enclosure_from(w, body.position, end, &sides[j]);
+            OzWallDistance other = oz_wall_distance(from, sides[j].shape);
+            mask hides = oz_wall_joint_hides(from, sides[j].shape, other, j < k, own, radius);
+            oz_enclosure_hand_over(w, block, k, j, oz_lanes_bits(hides & !hidden));
+            hidden = hidden | hides;
+        }
+    }
+    return hidden;
+}
+
 /* Picks the ends of a block of grains that touch a wall, or nearly so. */
 OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
 {
@@ -199,7 +239,12 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
     for (int k = 0; k < OZ_WALL_ENDS; k++) {
         OzVec3 end = oz_scale(half_shaft, sides[k].sign);
         OzWallDistance at = oz_enclosure_distance(w, body.position, end, &sides[k]);
-        oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + k, oz_lanes_bits(at.distance < near));
+        int bits = oz_lanes_bits(at.distance < near);
+        if (k >= OZ_ENCLOSURE_EDGED && bits != 0) {
+            bits &= ~oz_lanes_bits(
+                oz_enclosure_hidden(w, sides, k, block, body, end, at, shape.radius));
+        }
+        oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + k, bits);
     }
 #if OZ_LEDGER
     global real *words = w->wall_ledger + (size_t)block * OZ_WALL_ENDS * OZ_CONTACT_LEDGER;

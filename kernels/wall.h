@@ -1,15 +1,22 @@
-/* The distance of any wall. Switch OZ_WALL_KINDS: how many walls of each kind the scene has, five bits a kind, a
- * constant on a device: kinds that it lacks are left out there. */
+/* The distance of any wall. Switches OZ_WALL_KINDS and OZ_WALL_KINDS_MORE: how many walls of each kind the scene has, five
+ * bits a kind, six kinds each; constants on a device: kinds that the scene lacks are left out there. */
 #pragma once
 
+#include "kernels/wall_band.h"
 #include "kernels/wall_cylinder.h"
 #include "kernels/wall_plane.h"
+#include "kernels/wall_rectangle.h"
 #include "kernels/wall_sphere.h"
 #include "kernels/wall_tube.h"
 #include "kernels/walls.h"
 
-#define OZ_WALL_COUNT_OF(NAME)  (OZ_WALL_KINDS >> 5 * OZ_WALL_##NAME & 31)
-#define OZ_WALL_NONE_AFTER(NAME) (OZ_WALL_KINDS >> 5 * OZ_WALL_##NAME >> 5 == 0)
+#define OZ_WALL_ALL_KINDS        ((long)OZ_WALL_KINDS | (long)OZ_WALL_KINDS_MORE << 30)
+#define OZ_WALL_COUNT_OF(NAME)   ((int)(OZ_WALL_ALL_KINDS >> 5 * OZ_WALL_##NAME & 31))
+#define OZ_WALL_NONE_AFTER(NAME) (OZ_WALL_ALL_KINDS >> 5 * OZ_WALL_##NAME >> 5 == 0)
+
+/* How many walls have edges. */
+#define OZ_WALL_EDGED_ROW(NAME, name, choice, fine, edged) +(edged) * OZ_WALL_COUNT_OF(NAME)
+#define OZ_WALL_EDGED                                      (0 OZ_WALLS(OZ_WALL_EDGED_ROW))
 
 /* Whether a wall is of a kind; no question where the scene has none of the kinds behind it in the list, as it is asked in
  * the list's order. */
@@ -21,7 +28,7 @@
 OZ_INLINE int oz_wall_kind(int wall)
 {
     int kind = 0, first = 0;
-#define OZ_WALL_ROW(NAME, name, choice, fine)                                                      \
+#define OZ_WALL_ROW(NAME, name, choice, fine, edged)                                                      \
     kind = OZ_WALL_COUNT_OF(NAME) > 0 && wall >= first ? OZ_WALL_##NAME : kind;                    \
     first += OZ_WALL_COUNT_OF(NAME);
     OZ_WALLS(OZ_WALL_ROW)
@@ -33,7 +40,7 @@ OZ_INLINE int oz_wall_kind(int wall)
 /* from: cap centre minus the wall's point, the wall's motion included. */
 OZ_INLINE OzWallDistance oz_wall_distance(OzVec3 from, OzWallShape wall)
 {
-#define OZ_WALL_ROW(NAME, name, choice, fine)                                                      \
+#define OZ_WALL_ROW(NAME, name, choice, fine, edged)                                                      \
     if (OZ_WALL_IS(NAME, wall)) {                                                                  \
         return oz_wall_##name(from, wall);                                                         \
     }
@@ -49,7 +56,7 @@ OZ_INLINE real oz_wall_overlap(OzFineVec3 end, OzWallShape wall, OzFine rise, re
 {
 #define OZ_WALL_FINE_0(name) REAL(0.0) /* such a scene is not counted so finely */
 #define OZ_WALL_FINE_1(name) oz_wall_##name##_fine(end, wall, rise, radius, counts)
-#define OZ_WALL_ROW(NAME, name, choice, fine)                                                      \
+#define OZ_WALL_ROW(NAME, name, choice, fine, edged)                                                      \
     if (OZ_WALL_IS(NAME, wall)) {                                                                  \
         return OZ_WALL_FINE_##fine(name);                                                          \
     }

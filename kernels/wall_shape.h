@@ -12,7 +12,9 @@ typedef struct OzWallShape {
     scalar kind;      /* OZ_WALL_...                                                */
     scalar point[3];  /* where distances are measured from; on a device in a place's units, else m */
     scalar normal[3]; /* a unit vector: of a plane into the free side, of a tube along its axis     */
-    scalar radius;    /* m                                                          */
+    scalar across[3]; /* a unit vector across normal: along a rectangle's first side        */
+    scalar radius;    /* m; of a band at its point                                  */
+    scalar extent[2]; /* m: half a rectangle's sides; of a band the radius at its far end, its length */
     scalar side;      /* 1: grains are inside a tube or sphere; -1: outside         */
 } OzWallShape;
 
@@ -24,3 +26,14 @@ typedef struct OzWallDistance {
     real overlap; /* m, of the cap and the wall */
 #endif
 } OzWallDistance;
+
+/* The distance from a sheet's nearest point, which the cap's centre is so far away from. */
+OZ_INLINE OzWallDistance oz_wall_shape_sheet(OzVec3 away)
+{
+    OzWallDistance at;
+    real r2 = oz_dot(away, away);
+    real inverse = oz_inverse_root(oz_larger(r2, REAL(OZ_TINY * OZ_TINY)));
+    at.normal = oz_scale(away, inverse);
+    at.distance = r2 * inverse;
+    return at;
+}

@@ -3,25 +3,31 @@
  * host/scene reads it too. */
 #pragma once
 
-/* X(NAME, name, choice, fine), a row each, of rods' walls:
+/* X(NAME, name, choice, fine, edged), a row each, of rods' walls:
  *   fine   1: kernels/wall_<name>.h has oz_wall_<name>_fine, too: the overlap of light contacts
  * with all digits that places carry; 0: precision: float refuses scenes that need it
+ *   edged  1: a thin sheet with edges and grains on both sides; these come last
  * kernels/wall_<name>.h has oz_wall_<name>(from, wall) and is included by wall.h;
  * host/scene/wall_shape.c fills the numbers that it reads (shape_<name>); host/model/fill_region.c
  * bounds the room for grains placed at random (bound_by_<name>). An empty
  * choice is for sides of other walls alone: a cylinder that is not upright about the origin is a
- * tube. The keys of a wall name it under
+ * tube, or a band where its ends are open. The keys of a wall name it under
  * `.kinds` in host/scene/rows.c. Pictures show kinds without a drawing of their own
  * (host/draw/container.c) by level lines, found by distance. */
 #define OZ_WALLS(X)                                                                                \
-    X(PLANE, plane, "plane", 1)                                                                    \
-    X(CYLINDER, cylinder, "cylinder", 1)                                                           \
-    X(TUBE, tube, "", 0)                                                                           \
-    X(SPHERE, sphere, "sphere", 0)
+    X(PLANE, plane, "plane", 1, 0)                                                                 \
+    X(CYLINDER, cylinder, "cylinder", 1, 0)                                                        \
+    X(TUBE, tube, "", 0, 0)                                                                        \
+    X(SPHERE, sphere, "sphere", 0, 0)                                                              \
+    X(RECTANGLE, rectangle, "rectangle", 0, 1)                                                     \
+    X(BAND, band, "", 0, 1)
 
-/* X(NAME, name, choice), of rods' walls that are made of several of these, as a box is of planes:
- * host/scene/wall_shape.c makes them (sides_<name>), host/model/fill_region.c as above. */
-#define OZ_COMPOUND_WALLS(X) X(BOX, box, "box")
+/* X(NAME, name, choice), of rods' walls that are made of these, as a box is of planes and a disc is
+ * a band: host/scene/wall_shape.c makes them (sides_<name>), host/model/fill_region.c as above. */
+#define OZ_COMPOUND_WALLS(X)                                                                       \
+    X(BOX, box, "box")                                                                             \
+    X(DISC, disc, "disc")                                                                          \
+    X(CONE, cone, "cone")
 
 /* X(NAME, name, choice, rank), of trigrains: a smooth straight wall from one point to another; a
  * toothed floor of a width about a point; two slopes with an opening between them, and upright
@@ -36,9 +42,9 @@
     X(DRUM, drum, "drum", 3)                                                                       \
     X(VESSEL, vessel, "vessel", 2)
 
-#define OZ_WALLS_ID(NAME, name, choice, fine)      OZ_WALL_##NAME,
-#define OZ_WALLS_COMPOUND_ID(NAME, name, choice)   OZ_WALL_##NAME,
-#define OZ_WALLS_FLAT_ID(NAME, name, choice, rank) OZ_WALL_##NAME,
+#define OZ_WALLS_ID(NAME, name, choice, fine, edged) OZ_WALL_##NAME,
+#define OZ_WALLS_COMPOUND_ID(NAME, name, choice)     OZ_WALL_##NAME,
+#define OZ_WALLS_FLAT_ID(NAME, name, choice, rank)   OZ_WALL_##NAME,
 typedef enum OzWallKind {
     OZ_WALLS(OZ_WALLS_ID) OZ_COMPOUND_WALLS(OZ_WALLS_COMPOUND_ID)
         OZ_TRIGRAINS_WALLS(OZ_WALLS_FLAT_ID) OZ_WALLS_END

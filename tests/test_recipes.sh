@@ -47,7 +47,7 @@ put after kernels/integrators.h 'X(SYMPLECTIC_EULER,' <<'ROW'
     X(MEAN_EULER, mean_euler, "mean-euler", "", 0.5, 0) \
 ROW
 put after kernels/walls.h 'X(PLANE,' <<'ROW'
-    X(CONE, cone, "cone", 0) \
+    X(FUNNEL, funnel, "funnel", 0, 0) \
 ROW
 put after host/scene/scene_types.h 'X(SQUARE,' <<'ROW'
     X(RHOMBUS, rhombus, "rhombus") \
@@ -56,19 +56,19 @@ put after host/observe/observables.c '{"time", "s"' <<'ROW'
     {"lowest", "m", "height of the lowest grain's centre", RODS, ALWAYS, false, lowest, 0},
 ROW
 put before host/scene/rows_walls.h '{"walls[].motion", OF(SECTION)' <<'ROW'
-    {"walls[].half_angle", NUMBER(1, 89, "degrees"), WALL(half_angle), DEGREES, .kinds = CONE,
-     DEFAULT("45"), SOLID, .help = "of the cone"},
+    {"walls[].half_angle", NUMBER(1, 89, "degrees"), WALL(half_angle), DEGREES, .kinds = FUNNEL,
+     DEFAULT("45"), SOLID, .help = "of the funnel"},
 ROW
 
 put after host/scene/scene_types.h 'double diameter;            /* m, cylinder' <<'CODE'
-    double half_angle; /* rad, cone */
+    double half_angle; /* rad, funnel */
 CODE
 refuses OZ_LAWS host/model/contact.c constants_brake
 refuses OZ_LAWS host/model/predict.c repulsion_brake
 refuses OZ_INTEGRATORS host/model/predict.c step_mean_euler
 refuses OZ_INTEGRATORS host/model/calibrate.c invert_mean_euler
-refuses OZ_WALLS host/model/fill_region.c bound_by_cone
-refuses OZ_WALLS host/scene/wall_shape.c oz_wall_cone
+refuses OZ_WALLS host/model/fill_region.c bound_by_funnel
+refuses OZ_WALLS host/scene/wall_shape.c oz_wall_funnel
 refuses OZ_SHAPES host/model/shape.c make_rhombus
 refuses columns host/observe/observables.c lowest
 
@@ -141,11 +141,11 @@ static void invert_mean_euler(double rho, double theta, double *stiffness, doubl
 }
 CODE
 
-# A wall: the inside of an upright cone, its tip below.
-cat >kernels/wall_cone.h <<'CODE'
+# A wall: the inside of an endless upright cone, its tip below.
+cat >kernels/wall_funnel.h <<'CODE'
 #pragma once
 #include "kernels/wall_shape.h"
-OZ_INLINE OzWallDistance oz_wall_cone(OzVec3 from, OzWallShape wall)
+OZ_INLINE OzWallDistance oz_wall_funnel(OzVec3 from, OzWallShape wall)
 {
     OzWallDistance at;
     real r2 = from.x * from.x + from.y * from.y;
@@ -156,9 +156,9 @@ OZ_INLINE OzWallDistance oz_wall_cone(OzVec3 from, OzWallShape wall)
     return at;
 }
 CODE
-echo '#include "kernels/wall_cone.h"' | put before kernels/wall.h '#include "kernels/wall_cylinder.h"'
+echo '#include "kernels/wall_funnel.h"' | put before kernels/wall.h '#include "kernels/wall_band.h"'
 put before host/scene/wall_shape.c '/* The one side of a wall' <<'CODE'
-static void shape_cone(OzWallShape *shape, const OzWall *wall)
+static void shape_funnel(OzWallShape *shape, const OzWall *wall)
 {
     shape_plane(shape, wall); /* its point */
     shape->normal[0] = cos(wall->half_angle);
@@ -166,7 +166,7 @@ static void shape_cone(OzWallShape *shape, const OzWall *wall)
 }
 CODE
 put before host/model/fill_region.c '#define ROW(NAME' <<'CODE'
-static void bound_by_cone(OzFillRegion *region, const OzWall *wall)
+static void bound_by_funnel(OzFillRegion *region, const OzWall *wall)
 {
     region->low[2] = fmax(region->low[2], wall->point[2]);
     region->walled_low[2] = true;
@@ -187,7 +187,7 @@ static OzStatus make_rhombus(OzTriangleSet *set, const OzScene *scene, const OzP
     return status == OZ_OK ? fan(set) : status;
 }
 CODE
-sed -i 's/\.shapes = SQUARE/.shapes = SQUARE | RHOMBUS/' host/scene/rows.c
+sed -i 's/\.shapes = SHAPE_SQUARE/.shapes = SHAPE_SQUARE | SHAPE_RHOMBUS/' host/scene/rows.c
 
 # An observable.
 put before host/observe/observables.c 'static bool density(' <<'CODE'
@@ -207,8 +207,8 @@ cmake --build "$work/build" --parallel 2 --target orzo >"$work/log" 2>&1 || { ca
 # What might be cut off is seen through only with -O2.
 grep 'warning:' "$work/log" | grep -v 'format-truncation' && fail 'builds with warnings'
 
-# A sphere falls freely; another one flies down into the cone.
-cat >"$work/cone.yaml" <<'SCENE'
+# A sphere falls freely; another one flies down into the funnel.
+cat >"$work/funnel.yaml" <<'SCENE'
 model: rods
 precision: double
 integrator: mean-euler
@@ -217,7 +217,7 @@ contact: {law: brake, contact_time: 4e-4, restitution: 0.25, friction: 0}
 grains:
   - {kind: single, diameter: 1e-3, position: [0, 0, 0.5]}
   - {kind: single, diameter: 1e-3, position: [5e-3, 0, 8e-3], velocity: [0, 0, -1]}
-walls: [{kind: cone, half_angle: 45}]
+walls: [{kind: funnel, half_angle: 45}]
 SCENE
 # A rhombus without a load.
 cat >"$work/rhombus.yaml" <<'SCENE'
@@ -226,12 +226,12 @@ time: {step: 1e-6, duration: 1e-5}
 gravity: [0, 0]
 grains: [{kind: single, shape: rhombus, edge: 6e-3, position: [0, 0], velocity: [1, 0]}]
 SCENE
-for scene in cone rhombus; do
+for scene in funnel rhombus; do
     "$work/build/orzo" run "$work/$scene.yaml" -o "$work/$scene" --no-video >"$work/log" 2>&1 ||
         { cat "$work/log"; fail "$scene.yaml"; }
 done
-grep -q 'half_angle: 45' "$work/cone/scene.yaml" || fail 'the new key is not written back'
-"$work/build/orzo" keys half_angle | grep -q 'of the cone' || fail 'keys does not know the new one'
+grep -q 'half_angle: 45' "$work/funnel/scene.yaml" || fail 'the new key is not written back'
+"$work/build/orzo" keys half_angle | grep -q 'of the funnel' || fail 'keys does not know the new one'
 
 cat >"$work/judge.pl" <<'CODE'
 # The last row of a table, by column.
@@ -249,12 +249,12 @@ sub near {
     printf "%s: %.9g, expected %.9g\n", $what, $value, $right;
     $wrong = 1 unless abs($value - $right) <= $tolerance * abs($right);
 }
-my ($falls, $hits) = last_row("$ARGV[0]/cone/final.csv", 1);
+my ($falls, $hits) = last_row("$ARGV[0]/funnel/final.csv", 1);
 # After N steps Euler has fallen by g dt^2 N (N - 1) / 2, symplectic Euler by N (N + 1) / 2, the mean by N^2 / 2: a
 # 4000th apart.
 near('integrator: fall', 0.5 - $falls->{z}, 0.5 * 9.81 * 4e-3**2, 5e-5);
 # Damped oscillation to its deepest point, then an undamped half: e = exp(-b t1), b / w = -ln(0.25) / pi, t1 =
-# atan(w / b) / w. The cone's normal turns (1 + e) / 2 of the speed outwards, which is 1 m/s and what a fall adds until
+# atan(w / b) / w. The funnel's normal turns (1 + e) / 2 of the speed outwards, which is 1 m/s and what a fall adds until
 # the sphere touches, its centre 0.5 mm x sqrt(2) above the slope. Without the wall vx is 0, with hooke's law -0.64.
 # Gravity acts for the contact time, too, 0.3 % of the speed; 400 steps in a contact add 0.3 %.
 my $ratio = log(4) / (4 * atan2(1, 1));
@@ -263,7 +263,7 @@ my $speed = sqrt(1 + 2 * 9.81 * (8e-3 - 5e-3 - 0.5e-3 * sqrt(2)));
 near('wall and law: vx', $hits->{vx}, -$speed * (1 + $e) / 2, 0.01);
 # Written with nine digits or more.
 my $least = $falls->{z} < $hits->{z} ? $falls->{z} : $hits->{z};
-near('observable: lowest', last_row("$ARGV[0]/cone/series.csv")->{lowest}, $least, 1e-7);
+near('observable: lowest', last_row("$ARGV[0]/funnel/series.csv")->{lowest}, $least, 1e-7);
 # 4 kg/m^2 on a quarter of the edge's square; beams at rest.
 near('shape: kinetic', last_row("$ARGV[0]/rhombus/series.csv")->{kinetic}, 0.5 * 4 * 6e-3**2 / 4, 1e-7);
 exit($wrong // 0);

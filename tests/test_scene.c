@@ -270,7 +270,8 @@ static void rows_are_complete(void **state)
     fclose(file);
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         for (int model = 0; model < 2; model++) {
-            assert_true(!oz_keys_serves(key, model) || oz_keys_of(key->path, model) == key);
+            assert_true(!oz_keys_serves(key, model) ||
+                        oz_keys_of_kind(key->path, model, key->kinds) == key);
         }
         assert_non_null(key->help);
         assert_non_null(key->unit);

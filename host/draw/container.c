@@ -3,6 +3,7 @@
 
 #include "draw/framing.h"
 #include "draw/wall_outline.h"
+#include "draw/wall_sheet.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -345,6 +346,18 @@ static void add_lines(OzContainer *container, const Scope *scope, int row)
                         &container->meshes[OZ_CONTAINER_BEFORE], EDGE);
 }
 
+static void add_sheet(OzContainer *container, const Scope *scope, int row)
+{
+    OzWallSheet sheet = {.snapshot = scope->snapshot,
+                         .camera = scope->camera,
+                         .behind = &container->meshes[OZ_CONTAINER_BEHIND],
+                         .before = &container->meshes[OZ_CONTAINER_BEFORE],
+                         .line_width = line_width(scope),
+                         .is_cut = scope->view == OZ_VIEW_CUT,
+                         .cut = scope->look->cut};
+    oz_wall_sheet_add(&sheet, row);
+}
+
 /* Where its highest corner is seen, view coordinates. */
 static double highest(const OzMesh *mesh, const OzCamera *camera)
 {
@@ -375,6 +388,8 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
         const OzWall *wall = &snapshot->scene->walls[w];
         if (wall->kind == OZ_WALL_PLANE) {
             add_plane(container, &scope, w);
+        } else if (oz_wall_shape_is_sheet(wall)) {
+            add_sheet(container, &scope, w);
         } else if (!oz_wall_shape_is_upright(wall)) {
             add_lines(container, &scope, w);
         }

@@ -60,8 +60,10 @@ static double bounce(const OzScene *scene)
     for (int w = 0; w < scene->wall_count; w++) {
         const OzMotion *motion = &scene->walls[w].motion;
         if (motion->present && gravity > 0) {
-            double speed = 2 * PI * motion->frequency * motion->amplitude;
-            most = fmax(most, 2 * motion->amplitude + 0.5 * speed * speed / gravity);
+            double shift[3];
+            oz_wall_shape_shift(&scene->walls[w], motion->amplitude, shift);
+            double rise = fabs(shift[2]), speed = 2 * PI * motion->frequency * rise;
+            most = fmax(most, 2 * rise + 0.5 * speed * speed / gravity);
         }
     }
     return most;
@@ -85,6 +87,32 @@ static void close_by_planes(Room *room, const OzScene *scene)
     }
 }
 
+/* Rectangles, discs, cones and open tubes are shown whole. */
+static void include_sheet(Room *room, const OzWall *wall)
+{
+    OzWallShape sides[OZ_WALL_SIDES_MAX];
+    double u[3], v[3];
+    oz_wall_shape_sides(wall, sides);
+    const OzWallShape shape = sides[0];
+    oz_wall_shape_across(shape.normal, u, v);
+    bool is_square = wall->kind == OZ_WALL_RECTANGLE;
+    for (int k = 0; k < 3 && is_square; k++) {
+        u[k] = shape.across[k] * shape.extent[0];
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        v[k] = shape.extent[1] *
+               (shape.normal[a] * shape.across[b] - shape.normal[b] * shape.across[a]);
+    }
+    for (int end = 0; end < (is_square ? 1 : 2); end++) {
+        double radius = end ? shape.extent[0] : shape.radius;
+        for (int k = 0; k < 3; k++) {
+            double reach = is_square ? fabs(u[k]) + fabs(v[k]) : radius * hypot(u[k], v[k]);
+            double middle = wall->point[k] + (end ? shape.extent[1] * shape.normal[k] : 0);
+            room->low[k] = fmin(room->low[k], middle - reach);
+            room->high[k] = fmax(room->high[k], middle + reach);
+        }
+    }
+}
+
 /* Containers that close in upon themselves are shown whole; a box only as wide as it is, and as
  * deep as it goes. */
 static void surround(Room *room, const OzScene *scene)
@@ -92,7 +120,12 @@ static void surround(Room *room, const OzScene *scene)
     for (int w = 0; w < scene->wall_count; w++) {
         const OzWall *wall = &scene->walls[w];
         bool is_box = wall->kind == OZ_WALL_BOX, is_ball = wall->kind == OZ_WALL_SPHERE;
-        bool is_tube = wall->kind == OZ_WALL_CYLINDER && !oz_wall_shape_is_upright(wall);
+        bool is_sheet = oz_wall_shape_is_sheet(wall);
+        bool is_tube =
+            wall->kind == OZ_WALL_CYLINDER && !oz_wall_shape_is_upright(wall) && !is_sheet;
+        if (is_sheet) {
+            include_sheet(room, wall);
+        }
         for (int k = 0; k < 3 && (is_box || is_ball || is_tube); k++) {
             double along = is_tube ? wall->axis[k] * wall->length : 0;
             double reach = is_box ? wall->size[k] / 2 : wall->diameter / 2;

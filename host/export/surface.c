@@ -167,6 +167,29 @@ static OzStatus add_cylinder(OzSurface *s, const OzWall *wall, const Round *roun
     return add_belt(s, round, along, (double[2]){radius, radius}, number);
 }
 
+/* A rectangle; or what a line makes that is turned about an axis. */
+static OzStatus add_sheet(OzSurface *s, const OzWall *wall, const Round *round, int64_t number)
+{
+    OzWallShape sides[OZ_WALL_SIDES_MAX];
+    double corners[4][3];
+    oz_wall_shape_sides(wall, sides);
+    const OzWallShape shape = sides[0];
+    if (wall->kind != OZ_WALL_RECTANGLE) {
+        return add_belt(s, round, (double[2]){0, shape.extent[1]},
+                        (double[2]){shape.radius, shape.extent[0]}, number);
+    }
+    for (int c = 0; c < 4; c++) {
+        double one = c == 1 || c == 2 ? 1 : -1, other = c >= 2 ? 1 : -1;
+        for (int k = 0; k < 3; k++) {
+            int a = (k + 1) % 3, b = (k + 2) % 3;
+            double second = shape.normal[a] * shape.across[b] - shape.normal[b] * shape.across[a];
+            corners[c][k] = round->middle[k] + one * shape.extent[0] * shape.across[k] +
+                            other * shape.extent[1] * second;
+        }
+    }
+    return add_polygon(s, corners, 4, number);
+}
+
 static OzStatus add_sphere(OzSurface *s, const OzWall *wall, const Round *round, int64_t number)
 {
     double radius = 0.5 * wall->diameter;
@@ -207,10 +230,15 @@ static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, 
     for (int k = 0; k < 3; k++) {
         round.middle[k] = wall->point[k] + shift[k];
     }
-    if (wall->kind == OZ_WALL_CYLINDER) {
+    if (wall->kind == OZ_WALL_CYLINDER || wall->kind == OZ_WALL_CONE) {
         oz_wall_shape_axis(wall, round.axis);
+    } else if (wall->kind == OZ_WALL_DISC) {
+        memcpy(round.axis, wall->normal, sizeof round.axis);
     }
     oz_wall_shape_across(round.axis, round.across[0], round.across[1]);
+    if (oz_wall_shape_is_sheet(wall)) {
+        return add_sheet(s, wall, &round, w);
+    }
     switch (wall->kind) {
     case OZ_WALL_PLANE:
         return add_plane(s, wall, now->wall_offset[w], ball, w);

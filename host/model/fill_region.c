@@ -9,6 +9,8 @@
  * normalised in double, and a millionth of a slope is far below any overlap that matters. */
 static const double across = 1 - 1e-12;
 
+static const double PI = 3.14159265358979323846;
+
 static void bound_by_plane(OzFillRegion *fill_region, const OzWall *wall)
 {
     for (int k = 0; k < 3; k++) {
@@ -45,8 +47,67 @@ static void bound_by_tube(OzFillRegion *fill_region, const OzWall *wall)
     }
 }
 
+/* A cone or an open tube, with radii at its two ends. */
+static void add_vessel(OzFillRegion *fill_region, const OzWall *wall, const double radii[2])
+{
+    double axis[3];
+    oz_wall_shape_axis(wall, axis);
+    fill_region->vessels++;
+    for (int end = 0; end < 2; end++) {
+        for (int k = 0; k < 3; k++) {
+            double reach = radii[end] * sqrt(fmax(0, 1 - axis[k] * axis[k]));
+            double middle = wall->point[k] + (end ? wall->length * axis[k] : 0);
+            fill_region->vessels_low[k] = fmin(fill_region->vessels_low[k], middle - reach);
+            fill_region->vessels_high[k] = fmax(fill_region->vessels_high[k], middle + reach);
+        }
+    }
+}
+
+static bool is_vessel(const OzWall *wall)
+{
+    bool is_tube = wall->kind == OZ_WALL_CYLINDER && wall->ends == OZ_ENDS_OPEN && wall->length > 0;
+    return wall->side == OZ_SIDE_INSIDE && (wall->kind == OZ_WALL_CONE || is_tube);
+}
+
+static void radii_of(const OzWall *wall, double radii[2])
+{
+    bool is_cone = wall->kind == OZ_WALL_CONE;
+    radii[0] = (is_cone ? wall->diameters[0] : wall->diameter) / 2;
+    radii[1] = (is_cone ? wall->diameters[1] : wall->diameter) / 2;
+}
+
+static bool vessel_holds(const OzWall *wall, const double point[3])
+{
+    double axis[3], radii[2], along = 0, far2 = 0;
+    oz_wall_shape_axis(wall, axis);
+    radii_of(wall, radii);
+    for (int k = 0; k < 3; k++) {
+        along += (point[k] - wall->point[k]) * axis[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        double out = point[k] - wall->point[k] - along * axis[k];
+        far2 += out * out;
+    }
+    double share = along / wall->length;
+    return share >= 0 && share <= 1 && sqrt(far2) < radii[0] + share * (radii[1] - radii[0]);
+}
+
+static void bound_by_cone(OzFillRegion *fill_region, const OzWall *wall)
+{
+    add_vessel(fill_region, wall, (double[]){wall->diameters[0] / 2, wall->diameters[1] / 2});
+}
+
+static void bound_by_band(OzFillRegion *fill_region, const OzWall *wall)
+{
+    add_vessel(fill_region, wall, (double[]){wall->diameter / 2, wall->diameter / 2});
+}
+
 static void bound_by_cylinder(OzFillRegion *fill_region, const OzWall *wall)
 {
+    if (is_vessel(wall)) {
+        bound_by_band(fill_region, wall);
+        return;
+    }
     bound_by_tube(fill_region, wall);
     if (oz_wall_shape_is_upright(wall)) {
         fill_region->radius = fmin(fill_region->radius, 0.5 * wall->diameter);
@@ -69,8 +130,41 @@ static void bound_by_box(OzFillRegion *fill_region, const OzWall *wall)
     }
 }
 
-#define ROW(NAME, name, choice, fine)    [OZ_WALL_##NAME] = bound_by_##name,
-#define COMPOUND_ROW(NAME, name, choice) [OZ_WALL_##NAME] = bound_by_##name,
+/* Whether a level sheet closes the column at its own height: the corners of the box, or the rim of
+ * the cylinder, lie on it. */
+static bool closes(const OzFillRegion *fill_region, const OzWall *wall)
+{
+    enum { RIM = 16 };
+    bool is_round = isfinite(fill_region->radius), all_on = fabs(wall->normal[2]) > across;
+    for (int i = 0; i < (is_round ? RIM : 4); i++) {
+        double angle = 2 * PI * i / RIM, size = 0;
+        double point[3] = {fill_region->radius * cos(angle), fill_region->radius * sin(angle),
+                           wall->point[2]};
+        for (int k = 0; k < 2; k++) {
+            double sides[2] = {fill_region->low[k], fill_region->high[k]};
+            point[k] = is_round ? point[k] : sides[i >> k & 1];
+            size = fmax(size, fabs(point[k]));
+        }
+        double gap = isfinite(size) ? oz_wall_shape_distance(wall, 0, point, NULL) : INFINITY;
+        all_on &= gap <= 1e-9 * size;
+    }
+    return all_on;
+}
+
+static void bound_by_rectangle(OzFillRegion *fill_region, const OzWall *wall)
+{
+    if (closes(fill_region, wall)) {
+        bound_by_plane(fill_region, wall);
+    }
+}
+
+static void bound_by_disc(OzFillRegion *fill_region, const OzWall *wall)
+{
+    bound_by_rectangle(fill_region, wall);
+}
+
+#define ROW(NAME, name, choice, fine, edged) [OZ_WALL_##NAME] = bound_by_##name,
+#define COMPOUND_ROW(NAME, name, choice)     [OZ_WALL_##NAME] = bound_by_##name,
 static void (*const bounds[])(OzFillRegion *fill_region,
                               const OzWall *wall) = {OZ_WALLS(ROW) OZ_COMPOUND_WALLS(COMPOUND_ROW)};
 #undef ROW
@@ -85,7 +179,7 @@ static bool walled(const OzFillRegion *fill_region, int k)
 static double free_length(const OzFillRegion *fill_region, double volume, double extent)
 {
     int free_count = 0;
-    double area = isfinite(fill_region->radius) ? 0.25 * 3.14159265358979323846 : 1;
+    double area = isfinite(fill_region->radius) ? 0.25 * PI : 1;
     for (int k = 0; k < 3; k++) {
         if (walled(fill_region, k)) {
             area *= fmax(fill_region->high[k] - fill_region->low[k], 0);
@@ -110,17 +204,46 @@ static void cut_off(OzFillRegion *fill_region, int k, double length)
     }
 }
 
+/* Sheets across the column come last: they close one that is there. */
+static void bound_by_walls(OzFillRegion *fill_region, bool are_sheets)
+{
+    const OzScene *scene = fill_region->scene;
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        bool is_sheet = wall->kind == OZ_WALL_RECTANGLE || wall->kind == OZ_WALL_DISC;
+        if (wall->side == OZ_SIDE_INSIDE && is_sheet == are_sheets) {
+            bounds[wall->kind](fill_region, wall);
+        }
+    }
+}
+
+/* The room of vessels: their bounds, but for above where other walls enclose what is there. */
+static void bound_by_vessels(OzFillRegion *fill_region)
+{
+    bool is_sided =
+        isfinite(fill_region->radius) || (walled(fill_region, 0) && walled(fill_region, 1));
+    if (fill_region->vessels > 0 && is_sided) {
+        fill_region->low[2] = fmax(fill_region->low[2], fill_region->vessels_low[2]);
+        fill_region->walled_low[2] = true;
+        fill_region->open_above = fill_region->vessels_high[2];
+    }
+    for (int k = 0; k < 3 && fill_region->vessels > 0 && !is_sided; k++) {
+        bound_between(fill_region, k, fill_region->vessels_low[k], fill_region->vessels_high[k]);
+    }
+}
+
 OzFillRegion oz_fill_region_make(const OzScene *scene, double volume, double extent)
 {
     OzFillRegion fill_region = {.scene = scene,
                                 .low = {-INFINITY, -INFINITY, -INFINITY},
                                 .high = {INFINITY, INFINITY, INFINITY},
-                                .radius = INFINITY};
-    for (int w = 0; w < scene->wall_count; w++) {
-        if (scene->walls[w].side == OZ_SIDE_INSIDE) {
-            bounds[scene->walls[w].kind](&fill_region, &scene->walls[w]);
-        }
-    }
+                                .radius = INFINITY,
+                                .vessels_low = {INFINITY, INFINITY, INFINITY},
+                                .vessels_high = {-INFINITY, -INFINITY, -INFINITY},
+                                .open_above = INFINITY};
+    bound_by_walls(&fill_region, false);
+    bound_by_vessels(&fill_region);
+    bound_by_walls(&fill_region, true);
     double length = free_length(&fill_region, volume, extent);
     for (int k = 0; k < 3; k++) {
         cut_off(&fill_region, k, length);
@@ -169,9 +292,39 @@ void oz_fill_region_draw(const OzFillRegion *fill_region, OzRandom *random, OzCa
     }
 }
 
-static bool end_is_free(const OzWall *wall, const double end[3], double radius)
+/* Whether a point is in a vessel, or above all where that is the room, too. */
+static bool is_enclosed(const OzFillRegion *fill_region, const double point[3])
 {
-    return oz_wall_shape_distance(wall, 0, end, NULL) >= radius;
+    bool found = fill_region->vessels == 0 || point[2] > fill_region->open_above;
+    for (int w = 0; w < fill_region->scene->wall_count && !found; w++) {
+        const OzWall *wall = &fill_region->scene->walls[w];
+        found = is_vessel(wall) && vessel_holds(wall, point);
+    }
+    return found;
+}
+
+/* Whether the shaft keeps its radius from a wall. Between its ends no point is nearer to a wall
+ * without edges. A sheet is as far from the next point as from this one, less the way there; ways
+ * shorter than a hundredth of the radius are not looked at. */
+static bool shaft_is_free(const OzWall *wall, const OzCapsule *capsule)
+{
+    const double *half = capsule->half_shaft;
+    double length = 2 * sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    double least = oz_wall_shape_is_sheet(wall) ? 0.01 * capsule->radius : length;
+    for (double way = 0;;) {
+        double share = length > 0 ? 2 * way / length - 1 : 0, point[3];
+        for (int k = 0; k < 3; k++) {
+            point[k] = capsule->centre[k] + share * half[k];
+        }
+        double spare = oz_wall_shape_distance(wall, 0, point, NULL) - capsule->radius;
+        if (!(spare >= 0)) {
+            return false;
+        }
+        if (way >= length) {
+            return true;
+        }
+        way = fmin(way + fmax(least, least < length ? spare : 0), length);
+    }
 }
 
 bool oz_fill_region_holds(const OzFillRegion *fill_region, const OzCapsule *capsule)
@@ -181,12 +334,9 @@ bool oz_fill_region_holds(const OzFillRegion *fill_region, const OzCapsule *caps
         ends[0][k] = capsule->centre[k] - capsule->half_shaft[k];
         ends[1][k] = capsule->centre[k] + capsule->half_shaft[k];
     }
-    for (int w = 0; w < fill_region->scene->wall_count; w++) {
-        const OzWall *wall = &fill_region->scene->walls[w];
-        if (!end_is_free(wall, ends[0], capsule->radius) ||
-            !end_is_free(wall, ends[1], capsule->radius)) {
-            return false;
-        }
+    bool holds = is_enclosed(fill_region, ends[0]) && is_enclosed(fill_region, ends[1]);
+    for (int w = 0; w < fill_region->scene->wall_count && holds; w++) {
+        holds = shaft_is_free(&fill_region->scene->walls[w], capsule);
     }
-    return true;
+    return holds;
 }

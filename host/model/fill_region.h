@@ -13,9 +13,15 @@ typedef struct OzFillRegion {
     double low[3], high[3];             /* m                                                     */
     bool walled_low[3], walled_high[3]; /* that side is a plane or the cylinder        */
     double radius;                      /* m, of the narrowest cylinder; INFINITY without        */
+    int vessels; /* cones and open tubes with grains inside, each of which begins where another ends
+                  */
+    double vessels_low[3], vessels_high[3]; /* m: what they reach                                */
+    double open_above; /* m: from here on other walls are the room's sides; INFINITY: none are    */
 } OzFillRegion;
 
-/* Planes across an axis and cylinders bound the column. Directions without a wall on both sides are
+/* Planes across an axis and cylinders bound the column, and so do level rectangles and discs that
+ * are as wide as it is. Cones and open tubes with grains inside are its room, all together, and
+ * what is above them where other walls enclose that. Directions without a wall on both sides are
  * made as long as the wanted volume (m^3) needs, alike for all of them, and never shorter than
  * extent (m): on from the wall when there is one, from z = 0 upwards inside a cylinder without a
  * floor, else about the origin. With walls all round volume has no effect. */

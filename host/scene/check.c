@@ -73,7 +73,8 @@ static void derive_motion(Checker *checker, OzMotion *motion, int i)
 /* A wall turns about its own axis; a sphere has none, and is told one. */
 static void derive_axes(Checker *checker, OzWall *wall, int i)
 {
-    const double *own = wall->kind == OZ_WALL_CYLINDER ? wall->axis : wall->normal;
+    bool is_axial = wall->kind == OZ_WALL_CYLINDER || wall->kind == OZ_WALL_CONE;
+    const double *own = is_axial ? wall->axis : wall->normal;
     make_unit(checker, wall->motion.direction, "walls", i, "motion.direction");
     if (wall->kind == OZ_WALL_SPHERE) {
         make_unit(checker, wall->motion.axis, "walls", i, "motion.axis");
@@ -82,17 +83,47 @@ static void derive_axes(Checker *checker, OzWall *wall, int i)
     }
 }
 
+/* Across the rectangle's normal. */
+static void derive_edge(Checker *checker, OzWall *wall, int i)
+{
+    make_unit(checker, wall->edge, "walls", i, "edge");
+    double along = 0;
+    for (int c = 0; c < 3; c++) {
+        along += wall->edge[c] * wall->normal[c];
+    }
+    if (fabs(along) > 1 - 1e-9) {
+        char path[64];
+        snprintf(path, sizeof path, "walls.%d.edge", i);
+        fault(checker, path, "%s is along the normal; expected one across it", path);
+    } else if (fabs(along) > 1e-15) {
+        for (int c = 0; c < 3; c++) {
+            wall->edge[c] -= along * wall->normal[c];
+        }
+        make_unit(checker, wall->edge, "walls", i, "edge");
+    }
+}
+
+/* Directions that the wall is built along, as unit vectors. */
+static void derive_directions(Checker *checker, OzWall *wall, int i)
+{
+    bool is_sheet = wall->kind == OZ_WALL_RECTANGLE || wall->kind == OZ_WALL_DISC;
+    if (is_sheet || (wall->kind == OZ_WALL_PLANE && checker->scene->model == OZ_MODEL_RODS)) {
+        make_unit(checker, wall->normal, "walls", i, "normal");
+    }
+    if (wall->kind == OZ_WALL_CYLINDER || wall->kind == OZ_WALL_CONE) {
+        make_unit(checker, wall->axis, "walls", i, "axis");
+    }
+    if (wall->kind == OZ_WALL_RECTANGLE) {
+        derive_edge(checker, wall, i);
+    }
+}
+
 static void derive_walls(Checker *checker)
 {
     OzScene *scene = checker->scene;
     for (int i = 0; i < scene->wall_count; i++) {
         OzWall *wall = &scene->walls[i];
-        if (wall->kind == OZ_WALL_PLANE && scene->model == OZ_MODEL_RODS) {
-            make_unit(checker, wall->normal, "walls", i, "normal");
-        }
-        if (wall->kind == OZ_WALL_CYLINDER) {
-            make_unit(checker, wall->axis, "walls", i, "axis");
-        }
+        derive_directions(checker, wall, i);
         if (wall->motion.present && scene->model == OZ_MODEL_RODS) {
             derive_axes(checker, wall, i);
         }

@@ -44,9 +44,10 @@ void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults 
         FAULT("", "motion says nothing; expected angular_velocity, or frequency with "
                   "acceleration_ratio or amplitude");
     }
-    if (wall->kind == OZ_WALL_BOX && motion->angular_velocity != 0) {
-        FAULT(
-            ".angular_velocity",
-            "a box does not stay as it is when it turns; expected a cylinder, a sphere or a plane");
+    bool is_square = wall->kind == OZ_WALL_BOX || wall->kind == OZ_WALL_RECTANGLE;
+    if (is_square && motion->angular_velocity != 0) {
+        FAULT(".angular_velocity",
+              "a %s does not stay as it is when it turns; expected a plane or a round wall",
+              wall->kind == OZ_WALL_BOX ? "box" : "rectangle");
     }
 }

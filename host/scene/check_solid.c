@@ -102,13 +102,37 @@ static void check_outside(const OzScene *scene, int i, OzNode *root, OzFaults *f
         const OzPopulation *grains = &scene->populations[k];
         all_round &= grains->kind != OZ_GRAINS_FILE && !(grains->aspect.high > 0);
     }
+    bool is_sheet = oz_wall_shape_is_sheet(wall);
     snprintf(path, sizeof path, "walls.%d.side", i);
-    if (wall->side == OZ_SIDE_OUTSIDE && wall->length > 0) {
+    if (is_sheet && !all_round) {
+        snprintf(path, sizeof path, "walls.%d.kind", i);
+        oz_tree_fault(root, faults, path,
+                      "rods, or grains of a file, at a wall with edges; expected spheres");
+    } else if (!is_sheet && wall->side == OZ_SIDE_OUTSIDE && wall->length > 0) {
         oz_tree_fault(root, faults, path,
                       "the outside of a cylinder with ends; expected one without a length");
-    } else if (wall->side == OZ_SIDE_OUTSIDE && !all_round) {
+    } else if (!is_sheet && wall->side == OZ_SIDE_OUTSIDE && !all_round) {
         oz_tree_fault(root, faults, path,
                       "rods, or grains of a file, outside of a wall; expected spheres");
+    }
+}
+
+/* Sizes of which the rows do not know enough. */
+static void check_sizes(const OzWall *wall, int i, OzNode *root, OzFaults *faults)
+{
+    char path[64];
+    double least = fmin(wall->size[0], fmin(wall->size[1], wall->size[2]));
+    snprintf(path, sizeof path, "walls.%d.size", i);
+    if (wall->kind == OZ_WALL_BOX && oz_tree_at(root, path) && !(least > 0)) {
+        oz_tree_fault(root, faults, path, "%s has a side of %g m; expected more than 0", path,
+                      least);
+    }
+    snprintf(path, sizeof path, "walls.%d.diameter", i);
+    const OzNode *diameter = oz_tree_at(root, path);
+    if (wall->kind == OZ_WALL_CONE && diameter && diameter->kind == OZ_NODE_LIST &&
+        !(fmax(wall->diameters[0], wall->diameters[1]) > 0)) {
+        oz_tree_fault(root, faults, path, "%s is 0 at both ends; expected more than 0 at one",
+                      path);
     }
 }
 
@@ -120,21 +144,12 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
         char path[64];
         oz_check_motion_wall(wall, i, root, faults);
         check_outside(scene, i, root, faults);
-        bool is_cylinder = wall->kind == OZ_WALL_CYLINDER, is_long = wall->length > 0;
-        snprintf(path, sizeof path, "walls.%d.%s", i, is_long ? "length" : "ends");
-        if (is_cylinder && is_long != (wall->ends == OZ_ENDS_CLOSED)) {
+        snprintf(path, sizeof path, "walls.%d.ends", i);
+        if (wall->kind == OZ_WALL_CYLINDER && wall->length == 0 && wall->ends == OZ_ENDS_CLOSED) {
             oz_tree_fault(root, faults, path,
-                          is_long
-                              ? "a cylinder of a length with open ends; expected ends: closed "
-                                "with it, or no length"
-                              : "closed ends of an endless cylinder; expected a length with it");
+                          "closed ends of an endless cylinder; expected a length with it");
         }
-        snprintf(path, sizeof path, "walls.%d.size", i);
-        double least = fmin(wall->size[0], fmin(wall->size[1], wall->size[2]));
-        if (wall->kind == OZ_WALL_BOX && oz_tree_at(root, path) && !(least > 0)) {
-            oz_tree_fault(root, faults, path, "%s has a side of %g m; expected more than 0", path,
-                          least);
-        }
+        check_sizes(wall, i, root, faults);
     }
 }
 

@@ -40,8 +40,8 @@ static const char *const RESTITUTIONS_AT[] = {
     [OZ_RESTITUTION_CENTRE] = "centre", [OZ_RESTITUTION_CONTACT] = "contact", NULL};
 static const char *const CALIBRATIONS[] = {
     [OZ_CALIBRATION_NONE] = "none", [OZ_CALIBRATION_DISCRETE] = "discrete", NULL};
-#define OZ_CHOICES_WALL(NAME, name, choice, fine)      choice,
-#define OZ_CHOICES_NO_WALL(NAME, name, choice, fine)   "",
+#define OZ_CHOICES_WALL(NAME, name, choice, fine, edged)      choice,
+#define OZ_CHOICES_NO_WALL(NAME, name, choice, fine, edged)   "",
 #define OZ_CHOICES_COMPOUND(NAME, name, choice)        choice,
 #define OZ_CHOICES_NO_COMPOUND(NAME, name, choice)     "",
 #define OZ_CHOICES_FLAT_WALL(NAME, name, choice, rank) choice,

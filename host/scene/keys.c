@@ -38,6 +38,29 @@ const OzKey *oz_keys_of(const char *path, int model)
     return NULL;
 }
 
+const OzKey *oz_keys_of_kind(const char *path, int model, unsigned kinds)
+{
+    const OzKey *first = oz_keys_of(path, model);
+    for (const OzKey *key = first; key && key->path; key++) {
+        if (strcmp(key->path, path) == 0 && oz_keys_serves(key, model) &&
+            (!key->kinds || key->kinds & kinds)) {
+            return key;
+        }
+    }
+    return first;
+}
+
+unsigned oz_keys_kinds(const char *path, int model)
+{
+    unsigned kinds = 0;
+    for (const OzKey *key = oz_keys_of(path, model); key && key->path; key++) {
+        if (strcmp(key->path, path) == 0 && oz_keys_serves(key, model)) {
+            kinds |= key->kinds;
+        }
+    }
+    return kinds;
+}
+
 const OzKey *oz_keys_end(const OzKey *first, size_t length)
 {
     const OzKey *end = first + 1;

@@ -15,6 +15,13 @@ const OzKey *oz_keys_find(const char *path);
 /* The row with this path that belongs to the model (an OzModelKind), or NULL. */
 const OzKey *oz_keys_of(const char *path, int model);
 
+/* The row with this path for items of a kind (a bit of kinds, or 0 where it is not known); where
+ * none is, the first of the model, or NULL. */
+const OzKey *oz_keys_of_kind(const char *path, int model, unsigned kinds);
+
+/* The kinds of items that rows of this path serve, as bits; 0: all. */
+unsigned oz_keys_kinds(const char *path, int model);
+
 /* True when the row belongs to the model. */
 bool oz_keys_serves(const OzKey *key, int model);
 

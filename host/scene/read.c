@@ -177,7 +177,8 @@ static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, 
 static OzStatus read_key(Reader *reader, const OzKey *key, const OzNode *node, const Place *place)
 {
     if (key->kinds && place->kind && !(key->kinds & place->kind)) {
-        report_foreign(reader, "kind", key->kinds, place->kind, node, place);
+        report_foreign(reader, "kind", oz_keys_kinds(key->path, reader->model), place->kind, node,
+                       place);
         return OZ_OK;
     }
     if (key->shapes && place->shape && !(key->shapes & place->shape)) {
@@ -214,7 +215,7 @@ static OzStatus read_map(Reader *reader, const OzNode *map, const Place *place, 
         const OzNode *node = map->items[i];
         char path[LONGEST_PATH];
         oz_tree_path(node, true, path, sizeof path);
-        const OzKey *key = oz_keys_of(path, reader->model);
+        const OzKey *key = oz_keys_of_kind(path, reader->model, place->kind);
         if (lists != (key && key->type == OZ_KEY_ITEMS)) {
             continue;
         }

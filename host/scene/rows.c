@@ -17,15 +17,17 @@ enum {
 };
 
 /* A bit for each shape, wall and law, of its name. */
-#define SHAPE_BIT(NAME, name, choice) NAME = 1 << OZ_SHAPE_##NAME,
+#define SHAPE_BIT(NAME, name, choice) SHAPE_##NAME = 1 << OZ_SHAPE_##NAME,
 enum { OZ_SHAPES(SHAPE_BIT) };
 #undef SHAPE_BIT
-#define WALL_BIT(NAME, name, choice, fine) NAME = 1 << OZ_WALL_##NAME,
-#define COMPOUND_BIT(NAME, name, choice)   NAME = 1 << OZ_WALL_##NAME,
-#define FLAT_BIT(NAME, name, choice, rank) NAME = 1 << OZ_WALL_##NAME,
+#define WALL_BIT(NAME, name, choice, fine, edged) NAME = 1 << OZ_WALL_##NAME,
+#define COMPOUND_BIT(NAME, name, choice)          NAME = 1 << OZ_WALL_##NAME,
+#define FLAT_BIT(NAME, name, choice, rank)        NAME = 1 << OZ_WALL_##NAME,
 enum {
     OZ_WALLS(WALL_BIT) OZ_COMPOUND_WALLS(COMPOUND_BIT) OZ_TRIGRAINS_WALLS(FLAT_BIT) TOOTHED =
-        FLOOR | HOPPER | DRUM
+        FLOOR | HOPPER | DRUM,
+    NORMAL = PLANE | RECTANGLE | DISC,
+    AXIAL = CYLINDER | CONE
 };
 #undef WALL_BIT
 #undef FLAT_BIT
@@ -48,6 +50,7 @@ enum { OZ_LAWS(LAW_BIT) };
     .type = OZ_KEY_VECTOR, .width = 3, .low = -(limit), .high = limit, .unit = unit_
 #define PAIR(limit, unit_)                                                                         \
     .type = OZ_KEY_VECTOR, .width = 2, .low = -(limit), .high = limit, .unit = unit_
+#define TWO(low_)     .type = OZ_KEY_VECTOR, .width = 2, .low = low_, .high = 1e6, .unit = "m"
 #define CHOICE(names) .type = OZ_KEY_CHOICE, .choices = names, .unit = ""
 #define OF(type_)     .unit = "", .type = OZ_KEY_##type_
 #define AT(field)     .offset = offsetof(OzScene, field)
@@ -194,21 +197,21 @@ static const OzKey KEYS[] = {
      .help = "what triangles they are made of; a polygon has one on each edge about the middle"},
     {"grains[].count", INTEGER(0, 1e18), GRAIN(count), .kinds = RANDOM, REQUIRED,
      .help = "how many"},
-    {"grains[].edge", RANGE(1e-9, 1e3, "m"), GRAIN(edge), .kinds = MADE, .shapes = SQUARE, REQUIRED,
-     FLAT, .help = "of the square: four triangles about the middle"},
+    {"grains[].edge", RANGE(1e-9, 1e3, "m"), GRAIN(edge), .kinds = MADE, .shapes = SHAPE_SQUARE,
+     REQUIRED, FLAT, .help = "of the square: four triangles about the middle"},
     {"grains[].radius", RANGE(1e-9, 1e3, "m"), GRAIN(radius), .kinds = MADE,
-     .shapes = POLYGON | STAR | DISC, REQUIRED, FLAT,
+     .shapes = SHAPE_POLYGON | SHAPE_STAR | SHAPE_DISC, REQUIRED, FLAT,
      .help = "of the disc, or to the outer corners"},
     {"grains[].corners", RANGE(3, OZ_CORNERS_MAX, ""), GRAIN(corners), .kinds = MADE,
-     .shapes = POLYGON | STAR, REQUIRED, FLAT,
+     .shapes = SHAPE_POLYGON | SHAPE_STAR, REQUIRED, FLAT,
      .help = "of the polygon, points of the star; whole numbers"},
-    {"grains[].irregularity", FRACTION, GRAIN(irregularity), .kinds = MADE, .shapes = POLYGON,
+    {"grains[].irregularity", FRACTION, GRAIN(irregularity), .kinds = MADE, .shapes = SHAPE_POLYGON,
      DEFAULT("0"), FLAT, .help = "how far corners are moved at random; 0 is a regular polygon"},
-    {"grains[].depth", NUMBER(0.05, 0.95, ""), GRAIN(depth), .kinds = MADE, .shapes = STAR,
+    {"grains[].depth", NUMBER(0.05, 0.95, ""), GRAIN(depth), .kinds = MADE, .shapes = SHAPE_STAR,
      DEFAULT("0.5"), FLAT, .help = "inner over outer radius"},
     {"grains[].vertices", .type = OZ_KEY_NUMBERS, .low = -1e6, .high = 1e6, .unit = "m",
      GRAIN(vertices), .count_offset = offsetof(OzPopulation, vertex_count), .kinds = MADE,
-     .shapes = VERTICES, REQUIRED, FLAT, .help = "x and y of each corner on the way round"},
+     .shapes = SHAPE_VERTICES, REQUIRED, FLAT, .help = "x and y of each corner on the way round"},
     {"grains[].angle", NUMBER(-360, 360, "degrees"), GRAIN(angle), DEGREES,
      .kinds = SINGLE | LATTICE, DEFAULT("0"), FLAT, .help = "turned by, counter-clockwise"},
     {"grains[].diameter", RANGE(1e-9, 1e3, "m"), GRAIN(diameter), .kinds = MADE, REQUIRED, SOLID,

@@ -97,21 +97,24 @@ typedef enum OzWallSideChoice { OZ_SIDE_INSIDE, OZ_SIDE_OUTSIDE } OzWallSideChoi
 
 typedef struct OzWall {
     OzWallKind kind;
-    double point[3], normal[3]; /* plane: normal is a unit vector into the free side       */
-    double diameter;            /* m, cylinder, sphere, drum                                  */
-    double axis[3];             /* cylinder: a unit vector along its axis, through point; zero: z */
-    double length;              /* m, cylinder: from point along axis; 0: endless             */
-    OzWallEnds ends;            /* cylinder with a length                                     */
-    OzWallSideChoice side;      /* cylinder, sphere: where grains are                         */
-    double size[3];             /* m, box: its bottom's middle is point                       */
-    double from[2], to[2];      /* m, segment: the free side lies to the left on the way      */
-    double width, height;       /* m, floor, hopper (inner, at the top), vessel (inner)       */
-    double opening;             /* m, hopper                                                  */
-    double slope;               /* rad from the horizontal, hopper                            */
-    int64_t tooth_count;        /* floor, hopper's slopes, drum; 0: smooth                    */
-    double tooth_depth;         /* m                                                          */
-    double thickness;           /* m, of what walls of triangles are made; 0: chosen by orzo  */
-    double until;               /* s: the wall is gone from this time on; 0: never            */
+    double point[3], normal[3]; /* plane: normal is a unit vector into the free side; rectangle,
+                                   disc: across it                                          */
+    double diameter;            /* m, cylinder, sphere, disc, drum                            */
+    double diameters[2];        /* m, cone: at its point, and at the far end                  */
+    double axis[3];  /* cylinder, cone: a unit vector along its axis, through point; zero: z */
+    double length;   /* m, cylinder, cone: from point along axis; 0: endless       */
+    OzWallEnds ends; /* cylinder with a length                                     */
+    OzWallSideChoice side; /* cylinder, cone, sphere: where grains are                   */
+    double size[3];        /* m, box: its bottom's middle is point; rectangle: two sides */
+    double edge[3];        /* rectangle: a unit vector along its first side              */
+    double from[2], to[2]; /* m, segment: the free side lies to the left on the way      */
+    double width, height;  /* m, floor, hopper (inner, at the top), vessel (inner)       */
+    double opening;        /* m, hopper                                                  */
+    double slope;          /* rad from the horizontal, hopper                            */
+    int64_t tooth_count;   /* floor, hopper's slopes, drum; 0: smooth                    */
+    double tooth_depth;    /* m                                                          */
+    double thickness;      /* m, of what walls of triangles are made; 0: chosen by orzo  */
+    double until;          /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;
     OzContactValues contact; /* the scene's, with this wall's own values put over them  */
     int line;

@@ -2,8 +2,10 @@
 #include "scene/wall_shape.h"
 
 #include <math.h>
+#include <string.h>
 
-#define OZ_WALL_KINDS (-1)
+#define OZ_WALL_KINDS      0x3fffffff /* the host knows them all */
+#define OZ_WALL_KINDS_MORE 0x3fffffff
 
 #include "kernels/wall.h"
 
@@ -47,9 +49,38 @@ static void shape_tube(OzWallShape *shape, const OzWall *wall)
     shape->side = wall->side == OZ_SIDE_OUTSIDE ? -1 : 1;
 }
 
+static void copy(double to[3], const double from[3])
+{
+    memcpy(to, from, 3 * sizeof *to);
+}
+
+static void shape_rectangle(OzWallShape *shape, const OzWall *wall)
+{
+    copy(shape->point, wall->point);
+    copy(shape->normal, wall->normal);
+    copy(shape->across, wall->edge);
+    for (int c = 0; c < 2; c++) {
+        shape->extent[c] = wall->size[c] / 2;
+    }
+}
+
+/* An open cylinder. */
+static void shape_band(OzWallShape *shape, const OzWall *wall)
+{
+    double v[3];
+    shape->kind = OZ_WALL_BAND;
+    copy(shape->point, wall->point);
+    oz_wall_shape_axis(wall, shape->normal);
+    oz_wall_shape_across(shape->normal, shape->across, v);
+    shape->radius = shape->extent[0] = wall->diameter / 2;
+    shape->extent[1] = wall->length;
+}
+
 static void shape_cylinder(OzWallShape *shape, const OzWall *wall)
 {
-    if (oz_wall_shape_is_upright(wall)) {
+    if (wall->length > 0 && wall->ends == OZ_ENDS_OPEN) {
+        shape_band(shape, wall);
+    } else if (oz_wall_shape_is_upright(wall)) {
         shape->radius = wall->diameter / 2;
         oz_wall_shape_axis(wall, shape->normal);
     } else {
@@ -89,18 +120,38 @@ static int sides_box(OzWallShape *sides, const OzWall *wall)
     return 6;
 }
 
+static int sides_disc(OzWallShape *sides, const OzWall *wall)
+{
+    double v[3];
+    sides[0] = (OzWallShape){.kind = OZ_WALL_BAND, .extent = {wall->diameter / 2, 0}};
+    copy(sides[0].point, wall->point);
+    copy(sides[0].normal, wall->normal);
+    oz_wall_shape_across(wall->normal, sides[0].across, v);
+    return 1;
+}
+
+static int sides_cone(OzWallShape *sides, const OzWall *wall)
+{
+    sides[0] = (OzWallShape){.radius = 0};
+    shape_band(&sides[0], wall);
+    sides[0].radius = wall->diameters[0] / 2;
+    sides[0].extent[0] = wall->diameters[1] / 2;
+    return 1;
+}
+
 bool oz_wall_shape_is_upright(const OzWall *wall)
 {
     double axis[3];
     oz_wall_shape_axis(wall, axis);
     return wall->kind == OZ_WALL_CYLINDER && wall->side == OZ_SIDE_INSIDE && fabs(axis[2]) == 1 &&
-           wall->point[0] == 0 && wall->point[1] == 0;
+           wall->point[0] == 0 && wall->point[1] == 0 &&
+           !(wall->length > 0 && wall->ends == OZ_ENDS_OPEN);
 }
 
 /* The one side of a wall that is no compound of several. */
 static int shape_of(OzWallShape *side, const OzWall *wall)
 {
-#define ROW(NAME, name, choice, fine) [OZ_WALL_##NAME] = shape_##name,
+#define ROW(NAME, name, choice, fine, edged) [OZ_WALL_##NAME] = shape_##name,
     static void (*const shapes[OZ_WALLS_END])(OzWallShape * shape,
                                               const OzWall *wall) = {OZ_WALLS(ROW)};
 #undef ROW
@@ -122,7 +173,7 @@ int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]
         return compounds[wall->kind](sides, wall);
     }
     int count = shape_of(sides, wall);
-    if (count > 0 && wall->length > 0) { /* a cylinder with closed ends */
+    if (count > 0 && wall->length > 0 && wall->ends == OZ_ENDS_CLOSED) {
         sides[count++] = plane(wall->point, 0, wall->axis, 1);
         sides[count++] = plane(wall->point, wall->length, wall->axis, -1);
     }
@@ -166,4 +217,18 @@ double oz_wall_shape_distance(const OzWall *wall, double offset, const double po
         least = fmin(distance, least);
     }
     return count > 0 ? oz_wall_shape_side_distance(&sides[nearest], shift, point, normal) : least;
+}
+
+bool oz_wall_shape_is_edged(const OzWallShape *side)
+{
+#define ROW(NAME, name, choice, fine, edged) [OZ_WALL_##NAME] = edged,
+    static const bool is_edged[OZ_WALLS_END] = {OZ_WALLS(ROW)};
+#undef ROW
+    return is_edged[(int)side->kind];
+}
+
+bool oz_wall_shape_is_sheet(const OzWall *wall)
+{
+    OzWallShape sides[OZ_WALL_SIDES_MAX];
+    return oz_wall_shape_sides(wall, sides) > 0 && oz_wall_shape_is_edged(&sides[0]);
 }

@@ -13,7 +13,13 @@ enum { OZ_WALL_SIDES_MAX = 6 };
  * six. Returns how many. Walls of trigrains have none. */
 int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]);
 
-/* The unit vector along a cylinder's axis. */
+/* Whether a side has edges: a thin sheet, free on both sides. */
+bool oz_wall_shape_is_edged(const OzWallShape *side);
+
+/* Whether a wall is made of such sides. */
+bool oz_wall_shape_is_sheet(const OzWall *wall);
+
+/* The unit vector along a cylinder's or a cone's axis. */
 void oz_wall_shape_axis(const OzWall *wall, double axis[3]);
 
 /* Two unit vectors across a third. */

@@ -13,6 +13,12 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
         contacts->physics.share -=
             1; /* the force was part of the last step, and springs are ahead */
     }
+    for (int k = 0; k < contacts->physics.wall_count; k++) {
+        int wall = contacts->physics.wall_order[k];
+        contacts->drives[k] = oz_dialect_drive(
+            &contacts->physics, k, snapshot->wall_offset[wall], snapshot->wall_velocity[wall],
+            oz_motion_rate(&snapshot->scene->walls[wall].motion));
+    }
     return OZ_OK;
 }
 
@@ -106,11 +112,8 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end
     bool has_spring = OZ_HISTORY && history;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
     OzVec3 spring = found.stored;
-    OzWallDrive drive = oz_dialect_drive(
-        physics, wall, snapshot->wall_offset[scene_wall], snapshot->wall_velocity[scene_wall],
-        oz_motion_rate(&snapshot->scene->walls[scene_wall].motion));
-    OzWallForce at = oz_dialect_touch_wall(physics, wall, end, one, drive, physics->parameters.dt,
-                                           &spring);
+    OzWallForce at = oz_dialect_touch_wall(physics, wall, end, one, contacts->drives,
+                                           physics->parameters.dt, &spring);
     found.parts = at.parts;
     found.contact = at.contact;
     if (!found.contact.touching) {

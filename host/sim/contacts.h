@@ -7,9 +7,12 @@
 #include "model/snapshot.h"
 #include "sim/physics.h"
 
+#include "kernels/wall_drive.h"
+
 typedef struct OzContacts {
-    OzPhysics physics;          /* its walls are in the order in which `wall` counts below, its
-                                   share is that of forces at this moment                         */
+    OzPhysics physics; /* its walls are in the order in which `wall` counts below, its
+                          share is that of forces at this moment                         */
+    OzWallDrive drives[OZ_WALLS_MAX]; /* how each of them moves now                           */
     double share;               /* of a step by which the integrator advances springs             */
     const OzSnapshot *snapshot; /* borrowed: position, axis, velocity, spin, walls                */
     OzContactList *list;        /* borrowed: receives what touches                                */

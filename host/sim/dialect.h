@@ -17,13 +17,15 @@
 #define OZ_LINE             oz_host_switches_now.rods.line
 #define OZ_SMOOTH           oz_host_switches_now.rods.smooth
 #define OZ_AT_CONTACT       oz_host_switches_now.rods.at_contact
-#define OZ_WALL_KINDS       (-1) /* the host knows them all */
+#define OZ_WALL_KINDS       0x3fffffff /* the host knows them all */
+#define OZ_WALL_KINDS_MORE  0x3fffffff
 #define OZ_INTEGRATOR_ID    oz_host_switches_now.rods.integrator
 #define OZ_MOVES_BEFORE     oz_host_switches_now.rods.moves_before
 
 #include "kernels/integrate.h"
 #include "kernels/rods.h"
 #include "kernels/wall_drive.h"
+#include "kernels/wall_joint.h"
 
 OZ_INLINE OzVec3 oz_dialect_load3(const double *from)
 {
@@ -72,16 +74,37 @@ OZ_INLINE OzVec3 oz_dialect_wall_velocity(const OzPhysics *physics, int w, OzFix
     return oz_wall_drive_velocity(drive, oz_dialect_from(physics, w, place, arm, drive));
 }
 
-/* One end of a grain at kernel wall w; history as for oz_rods_wall. */
+/* The kernel wall that an end touches in the place of wall w where both join (wall_joint.h); -1:
+ * none. drives: of every wall. */
+OZ_INLINE int oz_dialect_hider(const OzPhysics *physics, int w, int end_index, OzGrain grain,
+                               const OzWallDrive *drives)
+{
+    OzVec3 end = oz_scale(grain.half_shaft, end_index ? -1 : 1);
+    OzWallDistance own = oz_dialect_wall(physics, w, grain.position, end, drives[w]);
+    int first = physics->wall_count - physics->edged;
+    for (int other = first; w >= first && other < physics->wall_count; other++) {
+        OzVec3 from = oz_dialect_from(physics, other, grain.position, end, drives[other]);
+        OzWallShape shape = physics->parameters.wall[other].shape;
+        if (other != w && oz_wall_joint_hides(from, shape, oz_wall_distance(from, shape), other < w,
+                                              own, grain.radius)) {
+            return other;
+        }
+    }
+    return -1;
+}
+
+/* One end of a grain at kernel wall w; drives: of every wall; history as for oz_rods_wall. */
 OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int w, int end_index,
-                                            OzGrain grain, OzWallDrive drive, double dt,
+                                            OzGrain grain, const OzWallDrive *drives, double dt,
                                             OzVec3 *history)
 {
     OzVec3 end = oz_scale(grain.half_shaft, end_index ? -1 : 1);
+    OzWallDrive drive = drives[w];
     OzWallEnd at = {.end = end, .wall = oz_dialect_wall(physics, w, grain.position, end, drive)};
     at.wall_velocity = oz_dialect_wall_velocity(physics, w, grain.position,
                                                 oz_rods_wall_arm(grain, end, at.wall), drive);
     /* a sphere touches once, not with two coincident ends */
-    at.present = end_index == 0 || oz_dot(end, end) > 0;
+    at.present = (end_index == 0 || oz_dot(end, end) > 0) &&
+                 oz_dialect_hider(physics, w, end_index, grain, drives) < 0;
     return oz_rods_wall(grain, at, physics->parameters.wall[w].law, history, dt, physics->share);
 }

@@ -11,6 +11,7 @@ typedef struct OzPhysics {
     OzParameters parameters;      /* in double whatever the scene says: length_unit is 1      */
     int wall_order[OZ_WALLS_MAX]; /* scene index of kernel wall k, in the order of kinds      */
     int wall_count;
+    int edged;    /* how many of them, the last ones, have edges                               */
     int ends;     /* of a grain that a wall can touch: 1 when all grains are spheres, else 2 */
     double share; /* of a step by which tangential springs are advanced before the force     */
 } OzPhysics;

@@ -136,15 +136,41 @@ static void touch_wall(OzReference *r, int i, int wall, int end, double dt)
 {
     int64_t k = wall_index(r, i, wall, end);
     OzWallForce *f = &r->wall_force[k];
-    *f = oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_drive[wall], dt,
+    *f = oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_drive, dt,
                                &r->wall_history[k]);
     r->load[i].force = oz_add(r->load[i].force, f->parts.force);
     r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
 }
 
+static bool is_empty(OzVec3 spring)
+{
+    return oz_dot(spring, spring) == 0;
+}
+
+/* As the kernels do where walls join: an end that touches another wall instead takes its spring
+ * along. */
+static void hand_over(OzReference *r, int i)
+{
+    int first = r->physics.wall_count - r->physics.edged;
+    for (int wall = first; wall < r->physics.wall_count; wall++) {
+        for (int end = 0; end < r->physics.ends; end++) {
+            OzVec3 *own = &r->wall_history[wall_index(r, i, wall, end)];
+            int hider = is_empty(*own)
+                            ? -1
+                            : oz_dialect_hider(&r->physics, wall, end, r->seen[i], r->wall_drive);
+            if (hider >= 0) {
+                OzVec3 *other = &r->wall_history[wall_index(r, i, hider, end)];
+                *other = is_empty(*other) ? *own : *other;
+                *own = oz_vec3(0, 0, 0);
+            }
+        }
+    }
+}
+
 static void touch_walls(OzReference *r, double dt)
 {
     for (int i = 0; i < r->count; i++) {
+        hand_over(r, i);
         for (int wall = 0; wall < r->physics.wall_count; wall++) {
             for (int end = 0; end < r->physics.ends; end++) {
                 touch_wall(r, i, wall, end, dt);

@@ -138,7 +138,7 @@ static OzStatus find(OzResolution *r, const OzScene *scene, const OzGrains *grai
 /* Whether every wall's overlap can be had with all digits. */
 static bool walls_are_fine(const OzScene *scene)
 {
-#define ROW(NAME, name, choice, fine) [OZ_WALL_##NAME] = fine,
+#define ROW(NAME, name, choice, fine, edged) [OZ_WALL_##NAME] = fine,
     static const bool is_fine[OZ_WALLS_END] = {OZ_WALLS(ROW)};
 #undef ROW
     OzWallSide sides[OZ_WALLS_MAX];

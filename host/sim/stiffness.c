@@ -74,6 +74,29 @@ static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
     return add(bed, &bed->now->scene->contact, mass, spring);
 }
 
+/* Whether a cap touches another side with edges in the place of side k (kernels/wall_joint.h). */
+static bool is_hidden(const Bed *bed, const OzWallSide *sides, int count, int k, OzVec3 point,
+                      double radius)
+{
+    OzWallDistance at[2];
+    OzVec3 from[2];
+    bool found = false;
+    for (int j = 0; j < count && oz_wall_shape_is_edged(&sides[k].shape) && !found; j++) {
+        const int both[2] = {k, j};
+        for (int n = 0; n < 2; n++) {
+            const OzWallSide *side = &sides[both[n]];
+            double shift[3];
+            oz_wall_shape_shift(&bed->now->scene->walls[side->wall],
+                                bed->now->wall_offset[side->wall], shift);
+            from[n] = oz_minus(point, oz_add(load(side->shape.point), load(shift)));
+            at[n] = oz_wall_distance(from[n], side->shape);
+        }
+        found = j != k && oz_wall_shape_is_edged(&sides[j].shape) &&
+                oz_wall_joint_hides(from[1], sides[j].shape, at[1], j < k, at[0], radius);
+    }
+    return found;
+}
+
 static OzStatus add_walls(Bed *bed, int64_t i)
 {
     const OzGrains *g = bed->now->grains;
@@ -90,7 +113,8 @@ static OzStatus add_walls(Bed *bed, int64_t i)
             double normal[3];
             double shift[3];
             oz_wall_shape_shift(wall, bed->now->wall_offset[w], shift);
-            if (oz_wall_shape_side_distance(&sides[k].shape, shift, at, normal) < radius) {
+            if (oz_wall_shape_side_distance(&sides[k].shape, shift, at, normal) < radius &&
+                !is_hidden(bed, sides, count, k, point, radius)) {
                 Spring spring = {.a = i, .b = -1, .normal = oz_scale(load(normal), -1)};
                 spring.arm_a = oz_along(arm, radius, spring.normal);
                 OZ_PASS(add(bed, &wall->contact, g->mass[i], spring));

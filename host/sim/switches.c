@@ -37,20 +37,22 @@ static bool moves_before(OzIntegrator integrator)
     return moves[integrator];
 }
 
-#define ONE(NAME, name, choice, fine) +1
-_Static_assert(0 OZ_WALLS(ONE) <= 6, "five bits a kind of wall fill an int");
+enum { KINDS_A_WORD = 6 }; /* five bits each */
+
+#define ONE(NAME, name, choice, fine, edged) +1
+_Static_assert(0 OZ_WALLS(ONE) <= 2 * KINDS_A_WORD, "five bits a kind of wall fill two ints");
 #undef ONE
 
 /* How many walls of each kind, as kernels/wall.h has them; constants.c refuses more walls than
  * that. */
-static int kinds_of_walls(const OzScene *scene)
+static void count_kinds(OzSwitches *s, const OzScene *scene)
 {
     OzWallSide sides[OZ_WALLS_MAX];
-    int kinds = 0, count = oz_sides_list(sides, scene);
-    for (int k = 0; k < count && k < OZ_WALLS_MAX; k++) {
-        kinds += 1 << 5 * (int)sides[k].shape.kind;
+    s->walls = oz_sides_list(sides, scene);
+    for (int k = 0; k < s->walls && k < OZ_WALLS_MAX; k++) {
+        int kind = (int)sides[k].shape.kind, more = kind >= KINDS_A_WORD;
+        *(more ? &s->wall_kinds_more : &s->wall_kinds) += 1 << 5 * (kind % KINDS_A_WORD);
     }
-    return kinds;
 }
 
 static bool has_spring(const OzContactValues *values, const OzScene *scene)
@@ -92,8 +94,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.at_contact = scene->contact.restitution_at == OZ_RESTITUTION_CONTACT && !s.round;
     s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
     s.fine = oz_resolution_is_fine(scene, grains);
-    s.walls = oz_sides_list((OzWallSide[OZ_WALLS_MAX]){{0}}, scene);
-    s.wall_kinds = kinds_of_walls(scene);
+    count_kinds(&s, scene);
     s.ledger = scene->observe.ledger;
     s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
     s.host_lists = scene->broadphase == OZ_BROADPHASE_SORT_AXIS;

@@ -31,6 +31,7 @@
     X(GYROSCOPIC, gyroscopic, "gyroscopic term")                                                   \
     X(WALL_COUNT, walls, "walls")                                                                  \
     X(WALL_KINDS, wall_kinds, NULL)                                                                \
+    X(WALL_KINDS_MORE, wall_kinds_more, NULL)                                                      \
     X(MOVING, moving, "moving walls")                                                              \
     X(FREE_MOTION, free_motion, "walls that turn or move otherwise than up and down")              \
     X(ALL_PAIRS, all_pairs, NULL)

@@ -102,6 +102,9 @@ static void count_law(OzLawConstants *law, const OzUnits *u, int id)
 static void count_wall(OzWallParameters *wall, const OzUnits *u, int law)
 {
     wall->shape.radius /= u->length;
+    for (int c = 0; c < 2; c++) {
+        wall->shape.extent[c] /= u->length;
+    }
     count_law(&wall->law, u, law);
 }
 

@@ -1,0 +1,178 @@
+/* Sheets in small quads, each cut off at the plane of a cut. */
+#include "draw/wall_sheet.h"
+
+#include "model/motion.h"
+#include "scene/wall_shape.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+enum { AROUND = 96, STAVES = 12, CORNERS = 5 };
+
+static const float GLASS[3] = {0.60f, 0.69f, 0.80f};
+static const float RIM[4] = {0.36f, 0.41f, 0.49f, 0.90f};
+static const float STAVE[4] = {0.36f, 0.41f, 0.49f, 0.30f};
+
+/* A quad or what a cut leaves of it: m, world. */
+typedef struct Patch {
+    double points[CORNERS][3];
+    int count;
+} Patch;
+
+static void cut_off(Patch *patch, double cut)
+{
+    Patch kept = {.count = 0};
+    for (int i = 0; i < patch->count; i++) {
+        const double *a = patch->points[i], *b = patch->points[(i + 1) % patch->count];
+        if (a[1] >= cut) {
+            memcpy(kept.points[kept.count++], a, sizeof kept.points[0]);
+        }
+        if ((a[1] >= cut) != (b[1] >= cut)) {
+            double share = (cut - a[1]) / (b[1] - a[1]);
+            for (int k = 0; k < 3; k++) {
+                kept.points[kept.count][k] = a[k] + share * (b[k] - a[k]);
+            }
+            kept.count++;
+        }
+    }
+    *patch = kept;
+}
+
+/* Glass is seen best where one looks along it; where it is cut it has an edge. normal: a unit
+ * vector; before: drawn after the grains, which shine through. */
+static void add_patch(const OzWallSheet *s, Patch *patch, const double normal[3], bool before)
+{
+    OzMesh *mesh = before ? s->before : s->behind;
+    double seen[3];
+    if (s->is_cut) {
+        cut_off(patch, s->cut);
+    }
+    oz_camera_turn(s->camera, normal, seen);
+    double edge = pow(1 - fmin(fabs(seen[2]), 1), 3);
+    const float rgba[4] = {GLASS[0], GLASS[1], GLASS[2],
+                           (float)(before ? 0.10 + 0.22 * edge : 0.22 + 0.22 * edge)};
+    for (int i = 0; s->is_cut && i < patch->count; i++) {
+        const double *a = patch->points[i], *b = patch->points[(i + 1) % patch->count];
+        double slack = 1e-6 * s->camera->unit;
+        if (fabs(a[1] - s->cut) < slack && fabs(b[1] - s->cut) < slack) {
+            oz_mesh_line(s->before, s->camera, a, b, s->line_width, RIM);
+        }
+    }
+    for (int i = 1; i + 1 < patch->count; i++) {
+        const int corners[3] = {0, i, i + 1};
+        for (int c = 0; c < 3; c++) {
+            double view[3];
+            oz_camera_see(s->camera, patch->points[corners[c]], view);
+            oz_mesh_corner(mesh, view, rgba);
+        }
+    }
+}
+
+static void add_line(const OzWallSheet *s, const double from[3], const double to[3], bool before,
+                     const float rgba[4])
+{
+    double slack = 1e-6 * s->camera->unit;
+    if (!s->is_cut || fmin(from[1], to[1]) >= s->cut - slack) {
+        oz_mesh_line(before ? s->before : s->behind, s->camera, from, to, s->line_width, rgba);
+    }
+}
+
+/* A wall that stands between eye and grains is before them; one whose far side faces the eye from
+ * below is a floor to what lies on it. */
+static void add_rectangle(const OzWallSheet *s, const OzWallShape *shape, const double point[3])
+{
+    double second[3], seen[3];
+    Patch patch = {.count = 4};
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        second[k] = shape->normal[a] * shape->across[b] - shape->normal[b] * shape->across[a];
+    }
+    for (int i = 0; i < 4; i++) {
+        double one = (i == 1 || i == 2 ? 1 : -1) * shape->extent[0];
+        double other = (i >= 2 ? 1 : -1) * shape->extent[1];
+        for (int k = 0; k < 3; k++) {
+            patch.points[i][k] = point[k] + one * shape->across[k] + other * second[k];
+        }
+    }
+    oz_camera_turn(s->camera, shape->normal, seen);
+    bool before = seen[2] < 0;
+    Patch whole = patch;
+    add_patch(s, &patch, shape->normal, before);
+    if (s->is_cut) {
+        cut_off(&whole, s->cut);
+    }
+    for (int i = 0; i < whole.count; i++) {
+        add_line(s, whole.points[i], whole.points[(i + 1) % whole.count], before, RIM);
+    }
+}
+
+/* A band at an angle about its axis: a place on either rim, and the unit vector across it, away
+ * from the axis (of a disc: along it). */
+typedef struct Stave {
+    double rims[2][3], normal[3];
+} Stave;
+
+static Stave stave_at(const OzWallShape *shape, const double point[3], double angle)
+{
+    Stave stave;
+    double second[3], length = shape->extent[1], wider = shape->extent[0] - shape->radius;
+    double size = sqrt(length * length + wider * wider);
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        second[k] = shape->normal[a] * shape->across[b] - shape->normal[b] * shape->across[a];
+    }
+    for (int k = 0; k < 3; k++) {
+        double out = cos(angle) * shape->across[k] + sin(angle) * second[k];
+        stave.rims[0][k] = point[k] + shape->radius * out;
+        stave.rims[1][k] = point[k] + shape->extent[0] * out + length * shape->normal[k];
+        stave.normal[k] = (length * out - wider * shape->normal[k]) / size;
+    }
+    return stave;
+}
+
+/* Outsides that face the eye are before the grains; a disc has none, and is a floor under most. */
+static void add_band(const OzWallSheet *s, const OzWallShape *shape, const double point[3],
+                     double turned)
+{
+    bool is_flat = shape->extent[1] == 0;
+    double seen[3];
+    for (int i = 0; i < AROUND; i++) {
+        double angle = turned + 2 * PI * i / AROUND, step = 2 * PI / AROUND;
+        Stave a = stave_at(shape, point, angle), b = stave_at(shape, point, angle + step);
+        Stave middle = stave_at(shape, point, angle + step / 2);
+        oz_camera_turn(s->camera, is_flat ? shape->normal : middle.normal, seen);
+        bool before = is_flat ? seen[2] < 0 : seen[2] > 0;
+        Patch patch = {.count = 4};
+        memcpy(patch.points[0], a.rims[0], sizeof a.rims[0]);
+        memcpy(patch.points[1], a.rims[1], sizeof a.rims[1]);
+        memcpy(patch.points[2], b.rims[1], sizeof b.rims[1]);
+        memcpy(patch.points[3], b.rims[0], sizeof b.rims[0]);
+        add_patch(s, &patch, middle.normal, before);
+        for (int rim = 0; rim < 2; rim++) {
+            add_line(s, a.rims[rim], b.rims[rim], before, RIM);
+        }
+        if (i % (AROUND / STAVES) == 0) {
+            add_line(s, a.rims[0], a.rims[1], before, STAVE);
+        }
+    }
+}
+
+void oz_wall_sheet_add(const OzWallSheet *s, int w)
+{
+    const OzWall *wall = &s->snapshot->scene->walls[w];
+    OzWallShape sides[OZ_WALL_SIDES_MAX];
+    double point[3];
+    oz_wall_shape_sides(wall, sides);
+    const OzWallShape shape = sides[0];
+    oz_wall_shape_shift(wall, s->snapshot->wall_offset[w], point);
+    for (int k = 0; k < 3; k++) {
+        point[k] += wall->point[k];
+    }
+    if (wall->kind == OZ_WALL_RECTANGLE) {
+        add_rectangle(s, &shape, point);
+    } else {
+        add_band(s, &shape, point, oz_motion_turn(&wall->motion, s->snapshot->time));
+    }
+}
