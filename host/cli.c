@@ -40,7 +40,7 @@ static const struct {
     {"bench", "[SCENE]...", "oQFzCbysdtS",
      "speed on this machine: an6 and a ladder of beds, or scenes", 0, OZ_CLI_PATHS_MAX,
      "orzo bench --quick --threads 2"},
-    {"report", "[SCENE]...", "oQTXMBEHxefsdtS", "what accuracy costs: error against run time", 0,
+    {"report", "[SCENE]...", "oQTXMBEHxAefsdtS", "what accuracy costs: error against run time", 0,
      OZ_CLI_PATHS_MAX, "orzo report scenes/report/normal_hit.yaml --tolerance 0.01"},
     {"devices", "", "", "OpenCL devices, GL back-ends and encoders found", 0, 0, "orzo devices"},
 };
@@ -246,6 +246,9 @@ static const struct {
      FLAG(ensemble)},
     {'H', "--hits", NULL,
      "how often two grains hit and how they spin then, for each value, instead", FLAG(hits)},
+    {'A', "--validate", NULL,
+     "results that are known beside ours instead, of all experiments or of those named",
+     FLAG(validate)},
     {'a', "--to", "FORMAT", "vtk, xyz, h5md or csv, or several with commas between",
      NAME(to, "--to with vtk, xyz, h5md or csv")},
     {'j', "--against", "COLUMN", "along x: step, time or tap (default: tap where there is one)",

@@ -39,7 +39,7 @@ typedef struct OzOptions {
     double budget;                                /* --budget, s; 0: not given        */
     double tolerance;                             /* --tolerance of report; 0: not given */
     double share;                                 /* --share of report --hits; 0: not given */
-    bool extreme, map, stability, ensemble, hits; /* report                   */
+    bool extreme, map, stability, ensemble, hits, validate; /* report         */
     const char *sizes;                            /* --sizes, as written              */
     const char *compare;                          /* --compare: a bench.json, or NULL */
     bool watch, replay;                   /* of run                           */

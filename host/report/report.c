@@ -16,6 +16,7 @@
 #include "report/report_plot.h"
 #include "report/report_point.h"
 #include "report/report_table.h"
+#include "report/report_validate.h"
 
 #include <libgen.h>
 #include <stdlib.h>
@@ -193,9 +194,11 @@ OzStatus oz_report_run(const OzOptions *options)
         OZ_TRY(oz_report_extreme_run(options));
     } else if (options->map) {
         OZ_TRY(oz_report_map_draw(report.folder));
+    } else if (options->validate) {
+        OZ_TRY(oz_report_validate_run(options, report.folder));
     } else if (options->path_count == 0) {
-        OZ_TRY(oz_status_fail(OZ_ERR_INPUT,
-                              "orzo report: no scene; expected SCENE..., --extreme or --map"));
+        OZ_TRY(oz_status_fail(OZ_ERR_INPUT, "orzo report: no scene; expected SCENE..., --validate, "
+                                            "--extreme or --map"));
     } else if (options->ensemble) {
         OZ_TRY(oz_report_ensemble_run(options, report.folder));
     } else if (options->hits) {

@@ -8,5 +8,5 @@
  * each and leaves DIR/report.csv and a picture of each scene (PNG and SVG). A setting that fails is
  * listed with its reason. A scene without a row gets the study of report_own.h, on the first
  * device. --device may be a list, as in cpu,gpu: a curve for each. With --extreme, --map,
- * --stability, --ensemble or --hits the study of that name instead. */
+ * --stability, --ensemble, --hits or --validate the study of that name instead. */
 OzStatus oz_report_run(const OzOptions *options);

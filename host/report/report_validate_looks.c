@@ -1,0 +1,126 @@
+/* One function for each experiment. */
+#include "report/report_validate_looks.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+enum {
+    HALF_OF_LOOKS = 20, /* of silo and drum, which look 40 times */
+    GAS_FROM = 10       /* of 100                              */
+};
+
+void oz_report_validate_looks_ball(OzTrialNumbers numbers, const OzSnapshot *now, int look)
+{
+    double radius = now->grains->diameter[0] / 2, speed = now->velocity[0];
+    if (look > 0) {
+        numbers[OZ_LOOK_BALL_SPEED] = speed / (now->scene->gravity[0] * now->time);
+        numbers[OZ_LOOK_BALL_SLIP] = 1 - now->angular_velocity[1] * radius / speed;
+    }
+}
+
+/* Of the two grains, or of grain 0 and the plane z = 0; below 0: the gap. */
+static double overlap_of(const OzSnapshot *now)
+{
+    const double *x = now->position, *d = now->grains->diameter;
+    if (now->count == 1) {
+        return d[0] / 2 - x[2];
+    }
+    double way = hypot(hypot(x[3] - x[0], x[4] - x[1]), x[5] - x[2]);
+    return (d[0] + d[1]) / 2 - way;
+}
+
+void oz_report_validate_looks_hit(OzTrialNumbers numbers, const OzSnapshot *now, int look)
+{
+    double overlap = overlap_of(now), before = numbers[OZ_LOOK_HIT_BEFORE];
+    const double *start = now->grains->velocity, *v = now->velocity;
+    int normal = now->count == 1 ? 2 : 0;
+    if (look > 0 && before > 0 && overlap <= 0) {
+        double since = now->time / look * overlap / (overlap - before);
+        numbers[OZ_LOOK_HIT_DURATION] = now->time - since;
+    }
+    numbers[OZ_LOOK_HIT_OVERLAP] = fmax(numbers[OZ_LOOK_HIT_OVERLAP], overlap);
+    numbers[OZ_LOOK_HIT_RESTITUTION] = -v[normal] / start[normal];
+    numbers[OZ_LOOK_HIT_TANGENTIAL] = v[0] / start[0];
+    numbers[OZ_LOOK_HIT_SPIN] = fabs(now->angular_velocity[1]);
+    numbers[OZ_LOOK_HIT_BEFORE] = overlap;
+}
+
+static void centre_of_mass(const OzSnapshot *now, double centre[3], double *mass)
+{
+    *mass = centre[0] = centre[1] = centre[2] = 0;
+    for (int64_t i = 0; i < now->count; i++) {
+        *mass += now->grains->mass[i];
+        for (int k = 0; k < 3; k++) {
+            centre[k] += now->grains->mass[i] * now->position[3 * i + k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        centre[k] /= *mass;
+    }
+}
+
+void oz_report_validate_looks_silo(OzTrialNumbers numbers, const OzSnapshot *now, int look)
+{
+    double centre[3], mass, force[2][3];
+    if (look <= HALF_OF_LOOKS) {
+        return;
+    }
+    centre_of_mass(now, centre, &mass);
+    oz_contact_list_push_walls(&now->contacts, force, 2);
+    numbers[OZ_LOOK_SILO_FLOOR] -= force[0][2];
+    numbers[OZ_LOOK_SILO_LOOKS]++;
+    numbers[OZ_LOOK_SILO_WEIGHT] = -mass * now->scene->gravity[2];
+    numbers[OZ_LOOK_SILO_HEIGHT] = 2 * (centre[2] + now->wall_offset[0]); /* it goes down */
+}
+
+/* Kinetic theory of inelastic spheres: the rate of cooling is (1 - e^2)/3 of the rate of hits, and
+ * hits are as frequent as Enskog's theory says, with Carnahan and Starling's (1969) g at contact
+ * (Brilliantov and Poeschel 2004, chapter 5). Deviations from Maxwell's velocities change it by
+ * less than 0.3 % at e = 0.9. Centres are kept in a box of side `room`: a grain has no partners
+ * behind a wall, which in the mean over places and directions takes 3/2 d/room of them. */
+static double slope_by_theory(double restitution, double density, double diameter, double room)
+{
+    double share = density * PI / 6 * pow(diameter, 3);
+    double g = (1 - share / 2) / pow(1 - share, 3) * (1 - 1.5 * diameter / room);
+    return 2 * sqrt(PI) / 3 * (1 - restitution * restitution) * density * diameter * diameter * g;
+}
+
+void oz_report_validate_looks_gas(OzTrialNumbers numbers, const OzSnapshot *now, int look)
+{
+    double square = 0, diameter = 0, mean[3] = {0}, n = (double)now->count;
+    if (look < GAS_FROM) {
+        return;
+    }
+    for (int64_t i = 0; i < now->count; i++) {
+        diameter += now->grains->diameter[i] / n;
+        for (int k = 0; k < 3; k++) {
+            square += pow(now->velocity[3 * i + k], 2) / n;
+            mean[k] += now->velocity[3 * i + k] / n;
+        }
+    }
+    double temperature = (square - mean[0] * mean[0] - mean[1] * mean[1] - mean[2] * mean[2]) / 3;
+    double slow = 1 / sqrt(temperature);
+    double room = now->scene->walls[0].size[0] - diameter;
+    double theory =
+        slope_by_theory(now->scene->contact.restitution, n / pow(room, 3), diameter, room);
+    numbers[OZ_LOOK_GAS_COUNT]++;
+    numbers[OZ_LOOK_GAS_TIME] += now->time;
+    numbers[OZ_LOOK_GAS_TIME2] += now->time * now->time;
+    numbers[OZ_LOOK_GAS_SLOW] += slow;
+    numbers[OZ_LOOK_GAS_PRODUCT] += now->time * slow;
+    numbers[OZ_LOOK_GAS_THEORY] = theory;
+}
+
+void oz_report_validate_looks_drum(OzTrialNumbers numbers, const OzSnapshot *now, int look)
+{
+    double centre[3], mass;
+    if (look <= HALF_OF_LOOKS) {
+        return;
+    }
+    const OzWall *drum = &now->scene->walls[0];
+    centre_of_mass(now, centre, &mass);
+    double aside = centre[0] - drum->point[0], down = drum->point[2] - centre[2];
+    numbers[OZ_LOOK_DRUM_SLOPE] += 180 / PI * atan2(fabs(aside), down);
+    numbers[OZ_LOOK_DRUM_LOOKS]++;
+}

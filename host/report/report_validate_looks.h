@@ -1,0 +1,47 @@
+/* What the experiments of `orzo report --validate` see of a state; each says what it leaves. */
+#pragma once
+
+#include "report/report_trial.h"
+
+/* A ball that starts from rest: speed over g_x t, and the share of it that the touching point has,
+ * at the last look. */
+enum { OZ_LOOK_BALL_SPEED, OZ_LOOK_BALL_SLIP };
+void oz_report_validate_looks_ball(OzTrialNumbers numbers, const OzSnapshot *now, int look);
+
+/* A hit of two grains, or of one and the plane z = 0, that begins at time 0. */
+enum {
+    OZ_LOOK_HIT_OVERLAP,     /* m, the greatest                                            */
+    OZ_LOOK_HIT_DURATION,    /* s, until they part, between looks along a straight line    */
+    OZ_LOOK_HIT_RESTITUTION, /* speed of grain 0 along the normal over that at the start   */
+    OZ_LOOK_HIT_TANGENTIAL,  /* the same along the plane (x)                               */
+    OZ_LOOK_HIT_SPIN,        /* rad/s, about y, without sign                               */
+    OZ_LOOK_HIT_BEFORE       /* on the way: m, the overlap at the last look                */
+};
+void oz_report_validate_looks_hit(OzTrialNumbers numbers, const OzSnapshot *now, int look);
+
+/* What a silo's floor (walls.0) carries, in the mean over the later half of the looks. */
+enum {
+    OZ_LOOK_SILO_FLOOR,  /* N, sum over those looks                                        */
+    OZ_LOOK_SILO_LOOKS,  /* their number                                                   */
+    OZ_LOOK_SILO_WEIGHT, /* N, of all grains                                               */
+    OZ_LOOK_SILO_HEIGHT  /* m, twice the centre of mass's above the floor                  */
+};
+void oz_report_validate_looks_silo(OzTrialNumbers numbers, const OzSnapshot *now, int look);
+
+/* Haff's law: 1/sqrt(T), T = <v^2>/3, grows as a straight line in time; and its slope by kinetic
+ * theory, of the box walls.0, whose sides are equal. From the look on when hits have made the
+ * velocities random, a tenth of all. */
+enum {
+    OZ_LOOK_GAS_COUNT,
+    OZ_LOOK_GAS_TIME,    /* sums over looks: s,                                            */
+    OZ_LOOK_GAS_TIME2,   /* s^2,                                                           */
+    OZ_LOOK_GAS_SLOW,    /* s/m, 1/sqrt(T)                                                 */
+    OZ_LOOK_GAS_PRODUCT, /* time times it,                                                 */
+    OZ_LOOK_GAS_THEORY   /* 1/m: (2 sqrt(pi)/3) (1 - e^2) n d^2 g                          */
+};
+void oz_report_validate_looks_gas(OzTrialNumbers numbers, const OzSnapshot *now, int look);
+
+/* The slope of a bed in a drum, walls.0, that turns about y: the direction from its axis to the
+ * centre of mass against gravity, in the mean over the later half of the looks. */
+enum { OZ_LOOK_DRUM_SLOPE /* degrees, sum over those looks */, OZ_LOOK_DRUM_LOOKS };
+void oz_report_validate_looks_drum(OzTrialNumbers numbers, const OzSnapshot *now, int look);
