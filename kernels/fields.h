@@ -11,7 +11,8 @@
 
 #include "kernels/ledger_entries.h"
 
-#define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
+/* What of a grain may touch walls: its ends, and points of its shaft at walls with edges. */
+#define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT + (OZ_ROUND ? 0 : 2 * OZ_WALL_EDGED))
 
 /* The ledger has a grain's sums of energy, J, by id, of contacts in which it is the first; this is
  * a contact's words for them (see ledger.h). */
@@ -28,6 +29,7 @@ enum { OZ_CONTACT_LEDGER = 15 };
     X(real, shape, OZ_EQUAL ? 0 : z.blocks *OZ_SHAPE, STATE)                                       \
     X(real, wall_history, OZ_HISTORY ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)                     \
     X(integer, wall_active, z.blocks *OZ_WALL_ENDS, SPRING)                                        \
+    X(real, wall_relief, OZ_ROUND || OZ_WALL_EDGED == 0 ? 0 : z.blocks * 2, SCRATCH)               \
     X(scalar, record, (z.slots + 1) * OZ_RECORD * (OZ_TILES ? 2 : 1), STATE)                       \
     X(scalar, fine, OZ_FINE ? (z.slots + 1) * OZ_FINE_RECORD *(OZ_TILES ? 2 : 1) : 0, STATE)       \
     X(real, reference_inner, z.blocks *OZ_REFERENCE, LIST)                                         \

@@ -14,10 +14,6 @@
 #define OZ_WALL_COUNT_OF(NAME)   ((int)(OZ_WALL_ALL_KINDS >> 5 * OZ_WALL_##NAME & 31))
 #define OZ_WALL_NONE_AFTER(NAME) (OZ_WALL_ALL_KINDS >> 5 * OZ_WALL_##NAME >> 5 == 0)
 
-/* How many walls have edges. */
-#define OZ_WALL_EDGED_ROW(NAME, name, choice, fine, edged) +(edged) * OZ_WALL_COUNT_OF(NAME)
-#define OZ_WALL_EDGED                                      (0 OZ_WALLS(OZ_WALL_EDGED_ROW))
-
 /* Whether a wall is of a kind; no question where the scene has none of the kinds behind it in the list, as it is asked in
  * the list's order. */
 #define OZ_WALL_IS(NAME, wall)                                                                     \
@@ -48,6 +44,36 @@ OZ_INLINE OzWallDistance oz_wall_distance(OzVec3 from, OzWallShape wall)
 #undef OZ_WALL_ROW
     OzWallDistance none = {oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), REAL(0.0)};
     return none;
+}
+
+/* Where the shaft from `from` - half_shaft to `from` + half_shaft is nearest to the middle of a wall with edges, in half
+ * shafts, and beyond its ends too; from: the grain's centre minus the wall's point. */
+OZ_INLINE real oz_wall_middle(OzVec3 from, OzVec3 half_shaft, OzWallShape wall)
+{
+#define OZ_WALL_MIDDLE_0(name) REAL(0.0)
+#define OZ_WALL_MIDDLE_1(name) oz_wall_##name##_middle(from, half_shaft, wall)
+#define OZ_WALL_ROW(NAME, name, choice, fine, edged)                                               \
+    if (OZ_WALL_IS(NAME, wall)) {                                                                  \
+        return OZ_WALL_MIDDLE_##edged(name);                                                       \
+    }
+    OZ_WALLS(OZ_WALL_ROW)
+#undef OZ_WALL_ROW
+    return REAL(0.0);
+}
+
+/* Not zero for a cap whose nearest point lies within the edges of such a wall. Where it has the same sign at both ends, the
+ * shaft between is no nearer than they are. */
+OZ_INLINE real oz_wall_flush(OzVec3 from, OzWallShape wall)
+{
+#define OZ_WALL_FLUSH_0(name) REAL(0.0)
+#define OZ_WALL_FLUSH_1(name) oz_wall_##name##_flush(from, wall)
+#define OZ_WALL_ROW(NAME, name, choice, fine, edged)                                               \
+    if (OZ_WALL_IS(NAME, wall)) {                                                                  \
+        return OZ_WALL_FLUSH_##edged(name);                                                        \
+    }
+    OZ_WALLS(OZ_WALL_ROW)
+#undef OZ_WALL_ROW
+    return REAL(0.0);
 }
 
 #if OZ_FINE

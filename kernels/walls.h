@@ -6,7 +6,8 @@
 /* X(NAME, name, choice, fine, edged), a row each, of rods' walls:
  *   fine   1: kernels/wall_<name>.h has oz_wall_<name>_fine, too: the overlap of light contacts
  * with all digits that places carry; 0: precision: float refuses scenes that need it
- *   edged  1: a thin sheet with edges and grains on both sides; these come last
+ *   edged  1: a thin sheet with edges and grains on both sides; these come last, and have
+ * oz_wall_<name>_middle and oz_wall_<name>_flush, too, for shafts (wall.h)
  * kernels/wall_<name>.h has oz_wall_<name>(from, wall) and is included by wall.h;
  * host/scene/wall_shape.c fills the numbers that it reads (shape_<name>); host/model/fill_region.c
  * bounds the room for grains placed at random (bound_by_<name>). An empty

@@ -104,11 +104,7 @@ static void check_outside(const OzScene *scene, int i, OzNode *root, OzFaults *f
     }
     bool is_sheet = oz_wall_shape_is_sheet(wall);
     snprintf(path, sizeof path, "walls.%d.side", i);
-    if (is_sheet && !all_round) {
-        snprintf(path, sizeof path, "walls.%d.kind", i);
-        oz_tree_fault(root, faults, path,
-                      "rods, or grains of a file, at a wall with edges; expected spheres");
-    } else if (!is_sheet && wall->side == OZ_SIDE_OUTSIDE && wall->length > 0) {
+    if (!is_sheet && wall->side == OZ_SIDE_OUTSIDE && wall->length > 0) {
         oz_tree_fault(root, faults, path,
                       "the outside of a cylinder with ends; expected one without a length");
     } else if (!is_sheet && wall->side == OZ_SIDE_OUTSIDE && !all_round) {

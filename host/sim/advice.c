@@ -56,9 +56,8 @@ static OzStatus find(OzContactList *list, const OzSnapshot *now, int64_t grain)
             OZ_PASS(oz_contacts_pair(&contacts, grain, other, NULL));
         }
     }
-    for (int at = 0; at < contacts.physics.wall_count * contacts.physics.ends; at++) {
-        int ends = contacts.physics.ends;
-        OZ_PASS(oz_contacts_wall(&contacts, grain, at / ends, at % ends, NULL));
+    for (int index = 0; index < contacts.physics.touches; index++) {
+        OZ_PASS(oz_contacts_wall(&contacts, grain, index, NULL));
     }
     return OZ_OK;
 }

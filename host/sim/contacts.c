@@ -101,18 +101,18 @@ OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const doub
     return oz_contact_list_add(contacts->list, &entry);
 }
 
-OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end,
-                          const double history[3])
+OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const double history[3])
 {
     const OzPhysics *physics = &contacts->physics;
     const OzSnapshot *snapshot = contacts->snapshot;
     OzGrain one = grain_of(snapshot, grain);
-    int scene_wall = physics->wall_order[wall];
+    int wall, part = oz_dialect_part(physics, index, &wall);
+    (void)part;
     OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
     bool has_spring = OZ_HISTORY && history;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
     OzVec3 spring = found.stored;
-    OzWallForce at = oz_dialect_touch_wall(physics, wall, end, one, contacts->drives,
+    OzWallForce at = oz_dialect_touch_wall(physics, index, one, contacts->drives,
                                            physics->parameters.dt, &spring);
     found.parts = at.parts;
     found.contact = at.contact;
@@ -120,7 +120,7 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end
         return OZ_OK;
     }
     OzContactEntry entry = {
-        .a = (int32_t)grain, .b = -1 - scene_wall, .part_a = wall * physics->ends + end};
+        .a = (int32_t)grain, .b = -1 - physics->wall_order[wall], .part_a = index};
     double friction = physics->parameters.wall[wall].law.friction;
     entry.spring_energy = has_spring ? spring_energy(contacts, &found, friction) : 0;
     fill(&entry, &found, -1, one, at.arm); /* to the kernels a wall is a */

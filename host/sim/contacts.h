@@ -1,5 +1,5 @@
 /* The contacts of rods and spheres at one moment, found by the same physics that moves the grains.
- * The caller knows which pairs and wall ends may touch and what tangential springs they carry;
+ * The caller knows which pairs and ends at walls may touch and what tangential springs they carry;
  * those that turn out not to touch add nothing. Serves the device simulation and the host reference
  * alike. */
 #pragma once
@@ -27,6 +27,5 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
  * does. */
 OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const double history[3]);
 
-/* End 0 (along the axis) or 1 of a grain at a wall, counted in kernel order. */
-OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int wall, int end,
-                          const double history[3]);
+/* An end of a grain at a wall, or a point of its shaft, one of physics.touches. */
+OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const double history[3]);

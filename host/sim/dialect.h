@@ -17,6 +17,7 @@
 #define OZ_LINE             oz_host_switches_now.rods.line
 #define OZ_SMOOTH           oz_host_switches_now.rods.smooth
 #define OZ_AT_CONTACT       oz_host_switches_now.rods.at_contact
+#define OZ_WALL_EDGED       oz_host_switches_now.rods.edged
 #define OZ_WALL_KINDS       0x3fffffff /* the host knows them all */
 #define OZ_WALL_KINDS_MORE  0x3fffffff
 #define OZ_INTEGRATOR_ID    oz_host_switches_now.rods.integrator
@@ -93,18 +94,100 @@ OZ_INLINE int oz_dialect_hider(const OzPhysics *physics, int w, int end_index, O
     return -1;
 }
 
-/* One end of a grain at kernel wall w; drives: of every wall; history as for oz_rods_wall. */
-OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int w, int end_index,
-                                            OzGrain grain, const OzWallDrive *drives, double dt,
-                                            OzVec3 *history)
+/* The points of a shaft at kernel wall w; those that another wall bears, which comes first, are
+ * none. */
+OZ_INLINE void oz_dialect_points(const OzPhysics *physics, int w, OzGrain grain,
+                                 const OzWallDrive *drives, OzWallPoint points[OZ_WALL_SHAFT_PARTS])
 {
-    OzVec3 end = oz_scale(grain.half_shaft, end_index ? -1 : 1);
-    OzWallDrive drive = drives[w];
-    OzWallEnd at = {.end = end, .wall = oz_dialect_wall(physics, w, grain.position, end, drive)};
-    at.wall_velocity = oz_dialect_wall_velocity(physics, w, grain.position,
-                                                oz_rods_wall_arm(grain, end, at.wall), drive);
-    /* a sphere touches once, not with two coincident ends */
-    at.present = (end_index == 0 || oz_dot(end, end) > 0) &&
-                 oz_dialect_hider(physics, w, end_index, grain, drives) < 0;
+    const OzWallParameters *walls = physics->parameters.wall;
+    OzVec3 none = oz_vec3(0, 0, 0);
+    OzWallRod rod = {oz_dialect_from(physics, w, grain.position, none, drives[w]), grain.half_shaft,
+                     grain.radius, -grain.radius, -grain.radius};
+    int first = physics->wall_count - physics->edged;
+    for (int other = first; other < physics->wall_count; other++) {
+        OzVec3 tail = oz_scale(grain.half_shaft, -1);
+        OzWallDistance ahead =
+            oz_dialect_wall(physics, other, grain.position, grain.half_shaft, drives[other]);
+        OzWallDistance behind =
+            oz_dialect_wall(physics, other, grain.position, tail, drives[other]);
+        rod.tip = fmax(rod.tip, grain.radius - ahead.distance);
+        rod.tail = fmax(rod.tail, grain.radius - behind.distance);
+    }
+    for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
+        points[part] = oz_wall_shaft_point(rod, walls[w].shape, part == 0);
+        OzVec3 place = oz_scale(grain.half_shaft, points[part].at);
+        for (int other = first; other < w; other++) {
+            OzVec3 from = oz_dialect_from(physics, other, grain.position, place, drives[other]);
+            if (oz_wall_shaft_hides(from, walls[other].shape, points[part], grain.radius)) {
+                points[part].overlap = -grain.radius;
+            }
+        }
+    }
+    oz_wall_shaft_push(rod, &points[0], &points[1]);
+}
+
+/* The overlap that an end at a wall with edges is relieved of by the shaft's points. */
+OZ_INLINE double oz_dialect_relief(const OzPhysics *physics, int w, int part, OzGrain grain,
+                                   const OzWallDrive *drives)
+{
+    int first = physics->wall_count - physics->edged;
+    double relief = 0;
+    for (int other = first; w >= first && other < physics->wall_count; other++) {
+        OzWallPoint points[OZ_WALL_SHAFT_PARTS];
+        oz_dialect_points(physics, other, grain, drives, points);
+        for (int k = 0; k < OZ_WALL_SHAFT_PARTS; k++) {
+            double end = part == OZ_WALL_TIP ? 1 : -1;
+            relief += points[k].push * oz_wall_shaft_reach(points[k].at, end);
+        }
+    }
+    return relief;
+}
+
+/* Where an end or a point of a shaft stands against kernel wall w; the wall's velocity is left
+ * open. */
+OZ_INLINE OzWallEnd oz_dialect_end(const OzPhysics *physics, int w, int part, OzGrain grain,
+                                   const OzWallDrive *drives)
+{
+    OzWallEnd at = {.share = 1};
+    double left;
+    if (part >= OZ_WALL_AHEAD) {
+        OzWallPoint points[OZ_WALL_SHAFT_PARTS];
+        oz_dialect_points(physics, w, grain, drives, points);
+        OzWallPoint point = points[part - OZ_WALL_AHEAD];
+        at.end = oz_scale(grain.half_shaft, point.at);
+        at.wall = point.wall;
+        at.present = true;
+        left = point.push;
+    } else {
+        at.end = oz_scale(grain.half_shaft, part == OZ_WALL_TIP ? 1 : -1);
+        at.wall = oz_dialect_wall(physics, w, grain.position, at.end, drives[w]);
+        /* a sphere touches once, not with two coincident ends */
+        at.present = (part == OZ_WALL_TIP || oz_dot(at.end, at.end) > 0) &&
+                     oz_dialect_hider(physics, w, part, grain, drives) < 0;
+        left = grain.radius - at.wall.distance -
+               (physics->switches.round ? 0 : oz_dialect_relief(physics, w, part, grain, drives));
+    }
+    if (w >= physics->wall_count - physics->edged) {
+        at.present &= left > 0;
+        at.share = at.present ? left / (grain.radius - at.wall.distance) : 1;
+    }
+    return at;
+}
+
+/* What may touch, one of physics->touches: an end or a point of a shaft at kernel wall *wall. */
+OZ_INLINE int oz_dialect_part(const OzPhysics *physics, int index, int *wall)
+{
+    *wall = oz_wall_shaft_wall(index, physics->ends, physics->wall_count, physics->edged);
+    return oz_wall_shaft_part(index, physics->ends, physics->wall_count);
+}
+
+/* That of a grain; drives: of every wall; history as for oz_rods_wall. */
+OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int index, OzGrain grain,
+                                            const OzWallDrive *drives, double dt, OzVec3 *history)
+{
+    int w, part = oz_dialect_part(physics, index, &w);
+    OzWallEnd at = oz_dialect_end(physics, w, part, grain, drives);
+    at.wall_velocity = oz_dialect_wall_velocity(
+        physics, w, grain.position, oz_rods_wall_arm(grain, at.end, at.wall), drives[w]);
     return oz_rods_wall(grain, at, physics->parameters.wall[w].law, history, dt, physics->share);
 }

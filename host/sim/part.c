@@ -56,17 +56,17 @@ static void part_pair(Rods *r, OzPair pair, double *deepest)
 static void part_walls(Rods *r, int64_t i, double *deepest)
 {
     double radius = r->grains->diameter[i] / 2;
-    const OzWallDrive at_rest = {.offset = 0};
-    for (int wall = 0; wall < r->physics.wall_count; wall++) {
-        for (int end = 0; end < r->physics.ends; end++) {
-            const double *x = &r->grains->position[3 * i];
-            OzFixedPosition place = {x[0], x[1], x[2]};
-            OzVec3 cap = oz_scale(half_shaft(r, i), end ? -1 : 1);
-            OzWallDistance at = oz_dialect_wall(&r->physics, wall, place, cap, at_rest);
-            if (at.distance < radius) {
-                *deepest = fmax(*deepest, (radius - at.distance) / radius);
-                move(r, i, at.normal, radius - at.distance);
-            }
+    const OzWallDrive at_rest[OZ_WALLS_MAX] = {{.offset = 0}};
+    for (int index = 0; index < r->physics.touches; index++) {
+        const double *x = &r->grains->position[3 * i];
+        OzGrain grain = {
+            .position = {x[0], x[1], x[2]}, .half_shaft = half_shaft(r, i), .radius = radius};
+        int wall, part = oz_dialect_part(&r->physics, index, &wall);
+        OzWallEnd at = oz_dialect_end(&r->physics, wall, part, grain, at_rest);
+        double depth = at.share * (radius - at.wall.distance);
+        if (depth > 0) {
+            *deepest = fmax(*deepest, depth / radius);
+            move(r, i, at.wall.normal, depth);
         }
     }
 }

@@ -17,13 +17,11 @@ OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGra
         .float_lanes = 1, .double_lanes = 1, .group = 1, .small_most = OZ_DEVICE_SMALL_MOST};
     in_double.precision = OZ_PRECISION_DOUBLE;
     physics->switches = oz_switches_derive(&in_double, grains, &none);
-    OzWallSide sides[OZ_WALLS_MAX];
-    physics->wall_count = oz_sides_list(sides, scene);
-    physics->edged = 0;
-    for (int k = 0; k < physics->wall_count && k < OZ_WALLS_MAX; k++) {
-        physics->edged += oz_wall_shape_is_edged(&sides[k].shape);
-    }
+    physics->wall_count = physics->switches.walls;
+    physics->edged = physics->switches.edged;
     physics->ends = physics->switches.round ? 1 : 2;
+    physics->touches = physics->ends * physics->wall_count;
+    physics->touches += physics->switches.round ? 0 : 2 * physics->edged;
     physics->share = shares[scene->integrator];
     return oz_constants_fill(&physics->parameters, physics->wall_order, &in_double, grains);
 }

@@ -13,6 +13,8 @@ typedef struct OzPhysics {
     int wall_count;
     int edged;    /* how many of them, the last ones, have edges                               */
     int ends;     /* of a grain that a wall can touch: 1 when all grains are spheres, else 2 */
+    int touches;  /* of a grain that walls can touch, in the order of kernels/wall_shaft.h: ends at
+                     all walls, then points of its shaft at those with edges               */
     double share; /* of a step by which tangential springs are advanced before the force     */
 } OzPhysics;
 

@@ -127,16 +127,11 @@ static void gather_pairs(OzReference *r)
     }
 }
 
-static int64_t wall_index(const OzReference *r, int i, int wall, int end)
+static void touch_wall(OzReference *r, int i, int index, double dt)
 {
-    return (int64_t)i * r->wall_ends + wall * r->physics.ends + end;
-}
-
-static void touch_wall(OzReference *r, int i, int wall, int end, double dt)
-{
-    int64_t k = wall_index(r, i, wall, end);
+    int64_t k = (int64_t)i * r->physics.touches + index;
     OzWallForce *f = &r->wall_force[k];
-    *f = oz_dialect_touch_wall(&r->physics, wall, end, r->seen[i], r->wall_drive, dt,
+    *f = oz_dialect_touch_wall(&r->physics, index, r->seen[i], r->wall_drive, dt,
                                &r->wall_history[k]);
     r->load[i].force = oz_add(r->load[i].force, f->parts.force);
     r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
@@ -151,15 +146,16 @@ static bool is_empty(OzVec3 spring)
  * along. */
 static void hand_over(OzReference *r, int i)
 {
-    int first = r->physics.wall_count - r->physics.edged;
+    int first = r->physics.wall_count - r->physics.edged, ends = r->physics.ends;
+    OzVec3 *springs = &r->wall_history[(int64_t)i * r->physics.touches];
     for (int wall = first; wall < r->physics.wall_count; wall++) {
-        for (int end = 0; end < r->physics.ends; end++) {
-            OzVec3 *own = &r->wall_history[wall_index(r, i, wall, end)];
+        for (int end = 0; end < ends; end++) {
+            OzVec3 *own = &springs[wall * ends + end];
             int hider = is_empty(*own)
                             ? -1
                             : oz_dialect_hider(&r->physics, wall, end, r->seen[i], r->wall_drive);
             if (hider >= 0) {
-                OzVec3 *other = &r->wall_history[wall_index(r, i, hider, end)];
+                OzVec3 *other = &springs[hider * ends + end];
                 *other = is_empty(*other) ? *own : *other;
                 *own = oz_vec3(0, 0, 0);
             }
@@ -171,10 +167,8 @@ static void touch_walls(OzReference *r, double dt)
 {
     for (int i = 0; i < r->count; i++) {
         hand_over(r, i);
-        for (int wall = 0; wall < r->physics.wall_count; wall++) {
-            for (int end = 0; end < r->physics.ends; end++) {
-                touch_wall(r, i, wall, end, dt);
-            }
+        for (int index = 0; index < r->physics.touches; index++) {
+            touch_wall(r, i, index, dt);
         }
     }
 }
@@ -207,20 +201,20 @@ static void note_pairs(OzReference *r, double dt)
     }
 }
 
-static void note_wall(OzReference *r, int i, int wall, double dt)
+static void note_wall(OzReference *r, int i, int index, double dt)
 {
-    OzWallDrive drive = drive_at(r, wall, oz_step_clock_time(&r->clock, r->step) + dt);
-    for (int end = 0; end < r->physics.ends; end++) {
-        const OzWallForce *f = &r->wall_force[wall_index(r, i, wall, end)];
-        if (f->contact.touching) {
-            OzGrain now = grain_now(r, i);
-            OzVec3 before = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm,
-                                                     r->wall_drive[wall]);
-            OzVec3 after = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, drive);
-            oz_ledger_note(&r->work, f->contact, f->parts,
-                           oz_minus(oz_grain_velocity_at(now, f->arm), after), dt);
-            oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
-        }
+    const OzWallForce *f = &r->wall_force[(int64_t)i * r->physics.touches + index];
+    int wall, part = oz_dialect_part(&r->physics, index, &wall);
+    (void)part;
+    if (f->contact.touching) {
+        OzGrain now = grain_now(r, i);
+        OzWallDrive drive = drive_at(r, wall, oz_step_clock_time(&r->clock, r->step) + dt);
+        OzVec3 before =
+            oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, r->wall_drive[wall]);
+        OzVec3 after = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, drive);
+        oz_ledger_note(&r->work, f->contact, f->parts,
+                       oz_minus(oz_grain_velocity_at(now, f->arm), after), dt);
+        oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
     }
 }
 
@@ -229,8 +223,8 @@ static void note_ledger(OzReference *r, double dt)
 {
     note_pairs(r, dt);
     for (int i = 0; i < r->count; i++) {
-        for (int wall = 0; wall < r->physics.wall_count; wall++) {
-            note_wall(r, i, wall, dt);
+        for (int index = 0; index < r->physics.touches; index++) {
+            note_wall(r, i, index, dt);
         }
     }
 }
@@ -290,11 +284,10 @@ static OzStatus find_contacts(const OzReference *r, OzSnapshot *snapshot)
         OZ_PASS(
             oz_contacts_pair(&contacts, r->near.pairs.pair[p].a, r->near.pairs.pair[p].b, spring));
     }
-    for (int64_t k = 0; k < (int64_t)r->count * r->wall_ends; k++) {
-        int slot = (int)(k % r->wall_ends);
+    int touches = r->physics.touches;
+    for (int64_t k = 0; k < (int64_t)r->count * touches; k++) {
         oz_dialect_store3(spring, r->wall_history[k]);
-        OZ_PASS(oz_contacts_wall(&contacts, k / r->wall_ends, slot / r->physics.ends,
-                                 slot % r->physics.ends, spring));
+        OZ_PASS(oz_contacts_wall(&contacts, k / touches, (int)(k % touches), spring));
     }
     oz_contact_list_sort(&snapshot->contacts);
     return OZ_OK;
@@ -318,15 +311,15 @@ OzStatus oz_reference_snapshot(const OzReference *reference, OzSnapshot *snapsho
 
 static OzStatus create_arrays(OzReference *r)
 {
-    int64_t count = r->count, ends = count * r->wall_ends;
+    int64_t count = r->count, touches = count * r->physics.touches;
     OZ_PASS(OZ_NEW(&r->shape, count));
     OZ_PASS(OZ_NEW(&r->body, count));
     OZ_PASS(OZ_NEW(&r->seen, count));
     OZ_PASS(OZ_NEW(&r->load, count));
     OZ_PASS(OZ_NEW(&r->position, 3 * count));
     OZ_PASS(OZ_NEW(&r->axis, 3 * count));
-    OZ_PASS(OZ_NEW(&r->wall_force, ends));
-    return OZ_NEW(&r->wall_history, ends);
+    OZ_PASS(OZ_NEW(&r->wall_force, touches));
+    return OZ_NEW(&r->wall_history, touches);
 }
 
 static OzStatus fill(OzReference *r, const OzScene *scene, const OzGrains *grains)
@@ -337,7 +330,6 @@ static OzStatus fill(OzReference *r, const OzScene *scene, const OzGrains *grain
     r->grains = grains;
     r->clock = oz_step_clock_begin(scene->step);
     r->count = (int)grains->count;
-    r->wall_ends = r->physics.wall_count * r->physics.ends;
     OZ_PASS(create_arrays(r));
     place_bodies(r);
     return renew_list(r);

@@ -67,11 +67,13 @@ static OzStatus check_pairs(OzReference *r)
 
 static OzStatus check_walls(OzReference *r)
 {
-    for (int64_t k = 0; k < (int64_t)r->count * r->wall_ends; k++) {
+    int touches = r->physics.touches;
+    for (int64_t k = 0; k < (int64_t)r->count * touches; k++) {
         const OzContact *contact = &r->wall_force[k].contact;
-        int i = (int)(k / r->wall_ends);
+        int i = (int)(k / touches), wall;
+        int part = oz_dialect_part(&r->physics, (int)(k % touches), &wall);
         double radius = r->shape[i].radius;
-        bool is_twin = k % r->physics.ends > 0 && !(r->shape[i].half_length > 0);
+        bool is_twin = part != OZ_WALL_TIP && !(r->shape[i].half_length > 0);
         DeepContact at = {contact->overlap, contact->rate, 0.5 * radius, radius};
         char what[WHAT] = "";
         if (!is_twin) {

@@ -15,7 +15,6 @@ struct OzReference {
     OzStepClock clock;
     bool primed; /* the forces of step 0 are known (velocity-verlet) */
     int count;
-    int wall_ends; /* of a grain, over all walls */
     OzShape *shape;
     OzBody *body;
     OzGrain *seen; /* as the forces of this step see them */
@@ -23,8 +22,8 @@ struct OzReference {
     double *position, *axis; /* 3 x count each, of body */
     OzPairList near;
     OzPairForce *pair_force;          /* of each pair of near             */
-    OzWallForce *wall_force;          /* count x walls x ends             */
-    OzVec3 *wall_history;             /* count x walls x ends             */
+    OzWallForce *wall_force;          /* count x physics.touches          */
+    OzVec3 *wall_history;             /* count x physics.touches          */
     OzWallDrive wall_drive[OZ_WALLS_MAX]; /* when the forces act          */
     OzWork work;
     int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */

@@ -226,7 +226,7 @@ static OzStatus stand_still(OzSim *sim)
 static void leave_out_walls(void *switches)
 {
     OzSwitches *s = switches;
-    s->walls = s->wall_kinds = s->wall_kinds_more = s->moving = 0;
+    s->walls = s->edged = s->wall_kinds = s->wall_kinds_more = s->moving = 0;
 }
 
 static const OzStop stops[] = {

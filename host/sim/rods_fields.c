@@ -7,6 +7,7 @@
 #define OZ_EQUAL      (s->equal)
 #define OZ_HISTORY    (s->history)
 #define OZ_WALL_COUNT (s->walls)
+#define OZ_WALL_EDGED (s->edged)
 #define OZ_MOVING     (s->moving)
 #define OZ_LEDGER     (s->ledger)
 #define OZ_LINE       (s->line)

@@ -55,7 +55,7 @@ done:
 static OzStatus find_walls(OzSim *sim, int member, OzContacts *contacts)
 {
     OzStatus status = OZ_OK;
-    int ends = contacts->physics.ends, indices = ends * contacts->physics.wall_count;
+    int indices = contacts->physics.touches;
     int *id = NULL;
     void *springs = NULL;
     double spring[3];
@@ -67,7 +67,7 @@ static OzStatus find_walls(OzSim *sim, int member, OzContacts *contacts)
                 size_t at = oz_pack_lane(oz_rods_switches(sim), slot, 3 * indices, 3 * index + c);
                 spring[c] = spring_word(sim, member, springs, at);
             }
-            OZ_TRY(oz_contacts_wall(contacts, id[slot], index / ends, index % ends, spring));
+            OZ_TRY(oz_contacts_wall(contacts, id[slot], index, spring));
         }
     }
 done:

@@ -61,11 +61,11 @@ static OzStatus look_at_pair(Look *look, OzPair pair)
 static OzStatus look_at_walls(Look *look, int64_t i)
 {
     double radius = look->grains->diameter[i] / 2;
-    const OzPhysics *physics = &look->contacts.physics;
-    for (int at = 0; at < physics->wall_count * physics->ends; at++) {
-        int wall = at / physics->ends;
-        OzStartOverlap overlap = {.a = i, .b = -1, .wall = physics->wall_order[wall]};
-        OZ_PASS(oz_contacts_wall(&look->contacts, i, wall, at % physics->ends, NULL));
+    const OzContactList *list = &look->now.contacts;
+    for (int index = 0; index < look->contacts.physics.touches; index++) {
+        OZ_PASS(oz_contacts_wall(&look->contacts, i, index, NULL));
+        int wall = list->count > 0 ? -1 - list->entry[0].b : 0;
+        OzStartOverlap overlap = {.a = i, .b = -1, .wall = wall};
         take(look, overlap, radius, look->scene->guards.overlap_stop / 2, is_read(look, i));
     }
     return OZ_OK;

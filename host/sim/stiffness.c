@@ -6,9 +6,8 @@
 #include "base/random.h"
 #include "model/calibrate.h"
 #include "model/predict.h"
-#include "scene/wall_shape.h"
+#include "sim/contacts.h"
 #include "sim/dialect.h"
-#include "sim/sides.h"
 #include "sim/sort_axis.h"
 
 #include <math.h>
@@ -74,52 +73,19 @@ static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
     return add(bed, &bed->now->scene->contact, mass, spring);
 }
 
-/* Whether a cap touches another side with edges in the place of side k (kernels/wall_joint.h). */
-static bool is_hidden(const Bed *bed, const OzWallSide *sides, int count, int k, OzVec3 point,
-                      double radius)
+static OzStatus add_walls(Bed *bed, OzContacts *contacts, int64_t i)
 {
-    OzWallDistance at[2];
-    OzVec3 from[2];
-    bool found = false;
-    for (int j = 0; j < count && oz_wall_shape_is_edged(&sides[k].shape) && !found; j++) {
-        const int both[2] = {k, j};
-        for (int n = 0; n < 2; n++) {
-            const OzWallSide *side = &sides[both[n]];
-            double shift[3];
-            oz_wall_shape_shift(&bed->now->scene->walls[side->wall],
-                                bed->now->wall_offset[side->wall], shift);
-            from[n] = oz_minus(point, oz_add(load(side->shape.point), load(shift)));
-            at[n] = oz_wall_distance(from[n], side->shape);
-        }
-        found = j != k && oz_wall_shape_is_edged(&sides[j].shape) &&
-                oz_wall_joint_hides(from[1], sides[j].shape, at[1], j < k, at[0], radius);
+    OzContactList *found = contacts->list;
+    found->count = 0;
+    for (int index = 0; index < contacts->physics.touches; index++) {
+        OZ_PASS(oz_contacts_wall(contacts, i, index, NULL));
     }
-    return found;
-}
-
-static OzStatus add_walls(Bed *bed, int64_t i)
-{
-    const OzGrains *g = bed->now->grains;
-    double radius = 0.5 * g->diameter[i];
-    OzWallSide sides[OZ_WALLS_MAX];
-    int count = oz_sides_list(sides, bed->now->scene);
-    for (int k = 0; k < count; k++) {
-        int w = sides[k].wall;
-        for (int end = 0; end < (g->length[i] > 0 ? 2 : 1); end++) {
-            OzVec3 arm = oz_scale(load(&bed->now->axis[3 * i]), (end ? -0.5 : 0.5) * g->length[i]);
-            OzVec3 point = oz_along(load(&bed->now->position[3 * i]), 1, arm);
-            const OzWall *wall = &bed->now->scene->walls[w];
-            const double at[3] = {point.x, point.y, point.z};
-            double normal[3];
-            double shift[3];
-            oz_wall_shape_shift(wall, bed->now->wall_offset[w], shift);
-            if (oz_wall_shape_side_distance(&sides[k].shape, shift, at, normal) < radius &&
-                !is_hidden(bed, sides, count, k, point, radius)) {
-                Spring spring = {.a = i, .b = -1, .normal = oz_scale(load(normal), -1)};
-                spring.arm_a = oz_along(arm, radius, spring.normal);
-                OZ_PASS(add(bed, &wall->contact, g->mass[i], spring));
-            }
-        }
+    for (int64_t k = 0; k < found->count; k++) {
+        const OzContactEntry *e = &found->entry[k];
+        OzVec3 arm = oz_minus(load(e->point), load(&bed->now->position[3 * i]));
+        Spring spring = {.a = i, .b = -1, .normal = load(e->normal), .arm_a = arm};
+        const OzWall *wall = &bed->now->scene->walls[-1 - e->b];
+        OZ_PASS(add(bed, &wall->contact, bed->now->grains->mass[i], spring));
     }
     return OZ_OK;
 }
@@ -128,15 +94,19 @@ static OzStatus find_springs(Bed *bed)
 {
     OzStatus status = OZ_OK;
     OzPairs pairs = {0};
+    OzContactList at_walls = {0};
+    OzContacts contacts;
+    OZ_TRY(oz_contacts_begin(&contacts, bed->now, &at_walls));
     OZ_TRY(oz_sort_axis_pairs(&pairs, bed->now->grains, bed->now->position, bed->now->axis, 0));
     for (int64_t k = 0; k < pairs.count; k++) {
         OZ_TRY(add_pair(bed, pairs.pair[k].a, pairs.pair[k].b));
     }
     for (int64_t a = 0; a < bed->now->count; a++) {
-        OZ_TRY(add_walls(bed, a));
+        OZ_TRY(add_walls(bed, &contacts, a));
     }
 done:
     oz_sort_axis_free(&pairs);
+    oz_contact_list_free(&at_walls);
     return status;
 }
 

@@ -1,0 +1,154 @@
+/* Where shafts touch walls with edges between their ends. Caps alone would let a rod fall through
+ * an edge that it lies across. Two points of a shaft can touch, besides its ends: the deepest one
+ * ahead of its middle and the deepest one behind, as a shaft across a narrow wall or a mouth lies
+ * on two edges; the middle is where it is nearest to the wall's own.
+ *
+ * The ends and these points share one elastic response: a push at a place of the shaft takes away
+ * overlap there by as much as the law says, and at other places in proportion to how near they are,
+ * none at the far end of the shaft. The pushes a >= 0 are those with sum_j K_ij a_j >= e_i, and
+ * equal to it where a_i > 0, of overlaps e_i at places s_i, where K_ij = 1 - |s_i - s_j| / 2. So
+ * ends do as they would alone where a shaft lies flat or in a round wall, one contact counts once
+ * wherever points meet, nothing jumps as a point comes to an end, and with a linear law forces have
+ * a potential: max over a of a.e - a.K.a / 2 (K is a triangle's, which is positive definite). */
+#ifndef OZ_KERNELS_WALL_SHAFT_H
+#define OZ_KERNELS_WALL_SHAFT_H
+
+#include "kernels/wall_joint.h"
+
+/* What of a grain touches a wall. A sphere has the first end alone. */
+enum { OZ_WALL_TIP, OZ_WALL_TAIL, OZ_WALL_AHEAD, OZ_WALL_BEHIND, OZ_WALL_PARTS };
+
+enum { OZ_WALL_SHAFT_PARTS = OZ_WALL_PARTS - OZ_WALL_AHEAD };
+
+/* Halvings until the deepest point is known to a digit of the shaft's length. */
+#if defined(OZ_HOST) || defined(OZ_DOUBLE)
+enum { OZ_WALL_SHAFT_HALVINGS = 48 };
+#else
+enum { OZ_WALL_SHAFT_HALVINGS = 22 };
+#endif
+
+/* Rounds in which the two points' pushes are fitted to each other. They are right from the start
+ * unless both points and an end touch, which happens in passing alone. */
+enum { OZ_WALL_SHAFT_ROUNDS = 6 };
+
+/* In radii: points less deep do not touch, so that rounding makes no contacts where a shaft lies
+ * flat; far below what grains rest at. */
+#define OZ_WALL_SHAFT_LEAST 1e-6
+
+/* Contacts with walls are numbered: ends at each wall, then points of shafts at each of those with
+ * edges, which are the last walls. The wall and the part of one of them. */
+OZ_INLINE int oz_wall_shaft_wall(int index, int ends, int walls, int edged)
+{
+    int at_shaft = index - ends * walls;
+    return at_shaft < 0 ? index / ends : walls - edged + at_shaft / OZ_WALL_SHAFT_PARTS;
+}
+
+OZ_INLINE int oz_wall_shaft_part(int index, int ends, int walls)
+{
+    int at_shaft = index - ends * walls;
+    return at_shaft < 0 ? index % ends : OZ_WALL_AHEAD + at_shaft % OZ_WALL_SHAFT_PARTS;
+}
+
+/* A shaft before one wall. */
+typedef struct OzWallRod {
+    OzVec3 from; /* m, the grain's centre minus the wall's point, the wall's motion included */
+    OzVec3 half_shaft; /* m                                                                */
+    real radius;       /* m                                                                */
+    real tip, tail;    /* m, the largest overlap of the end along half_shaft, and of the other one,
+                          with any wall with edges: on two that join a shaft lies as on one  */
+} OzWallRod;
+
+/* One of its two points. */
+typedef struct OzWallPoint {
+    real at;             /* half shafts from the grain's centre                           */
+    OzWallDistance wall; /* where that point stands                                       */
+    real overlap;        /* m, of that point; not positive: it does not touch              */
+    real push;           /* m, its part of the response: an overlap to the law             */
+} OzWallPoint;
+
+/* Where the overlap exceeds the line of that slope (m a half shaft) most between two places of the
+ * shaft: where it ceases to grow faster. */
+OZ_INLINE real oz_wall_shaft_deepest(OzWallRod rod, OzWallShape wall, real low, real high,
+                                     real slope)
+{
+    for (int i = 0; i < OZ_WALL_SHAFT_HALVINGS; i++) {
+        real between = REAL(0.5) * (low + high);
+        OzVec3 normal = oz_wall_distance(oz_along(rod.from, between, rod.half_shaft), wall).normal;
+        mask grows = -oz_dot(normal, rod.half_shaft) > slope;
+        low = grows ? between : low;
+        high = grows ? high : between;
+    }
+    return REAL(0.5) * (low + high);
+}
+
+/* The point ahead or behind, without its push. The line leads from the end to the middle. */
+OZ_INLINE OzWallPoint oz_wall_shaft_point(OzWallRod rod, OzWallShape wall, int ahead)
+{
+    OzWallPoint point;
+    real none = REAL(0.0);
+    real tip = oz_larger(rod.tip, none), tail = oz_larger(rod.tail, none);
+    real middle = oz_clamp_unit(oz_wall_middle(rod.from, rod.half_shaft, wall));
+    OzVec3 place = oz_along(rod.from, middle, rod.half_shaft);
+    real line = REAL(0.5) * (tip + tail + middle * (tip - tail));
+    real top = oz_larger(rod.radius - oz_wall_distance(place, wall).distance, line);
+    real room = ahead ? REAL(1.0) - middle : REAL(1.0) + middle;
+    real slope = ((ahead ? tip : tail) - top) / oz_larger(room, REAL(OZ_TINY));
+    point.at = oz_wall_shaft_deepest(rod, wall, ahead ? middle : REAL(-1.0),
+                                     ahead ? REAL(1.0) : middle, ahead ? slope : -slope);
+    point.wall = oz_wall_distance(oz_along(rod.from, point.at, rod.half_shaft), wall);
+    point.overlap = rod.radius * REAL(1 - OZ_WALL_SHAFT_LEAST) - point.wall.distance;
+    point.push = none;
+    return point;
+}
+
+/* Whether that point lies on another wall, which comes first and bears the shaft there. from: the
+ * point minus the other wall's. */
+OZ_INLINE mask oz_wall_shaft_hides(OzVec3 from, OzWallShape other, OzWallPoint point, real radius)
+{
+    OzVec3 nearest = oz_along(from, -point.wall.distance, point.wall.normal);
+    return oz_wall_distance(nearest, other).distance < REAL(OZ_WALL_JOINT) * radius;
+}
+
+/* The push at a place of the shaft of an overlap, beside both ends: the least that does with
+ * neither of them, with one or with both, as what they take over grows with their overlap (tip,
+ * tail) less what this push takes away there. */
+OZ_INLINE real oz_wall_shaft_alone(real overlap, real tip, real tail, real at)
+{
+    real least = REAL(OZ_TINY);
+    real ahead = REAL(0.5) + REAL(0.5) * at, behind = REAL(0.5) - REAL(0.5) * at;
+    real with_tip = (overlap - ahead * tip) / oz_larger(REAL(1.0) - ahead * ahead, least);
+    real with_tail = (overlap - behind * tail) / oz_larger(REAL(1.0) - behind * behind, least);
+    real with_both =
+        (overlap - ahead * tip - behind * tail) / oz_larger(REAL(2.0) * ahead * behind, least);
+    real push = oz_smaller(oz_smaller(overlap, with_tip), oz_smaller(with_tail, with_both));
+    return oz_larger(push, REAL(0.0));
+}
+
+/* How much of a push at a place of the shaft takes overlap away at another one. */
+OZ_INLINE real oz_wall_shaft_reach(real at, real other)
+{
+    return REAL(1.0) - REAL(0.5) * oz_magnitude(at - other);
+}
+
+/* Fills in the pushes of both points. */
+OZ_INLINE void oz_wall_shaft_push(OzWallRod rod, OzWallPoint *ahead, OzWallPoint *behind)
+{
+    real k = oz_wall_shaft_reach(ahead->at, behind->at), none = REAL(0.0);
+    real tip_of = oz_wall_shaft_reach(ahead->at, REAL(1.0)), tail_of = REAL(1.0) - tip_of;
+    real tip_by = oz_wall_shaft_reach(behind->at, REAL(1.0)), tail_by = REAL(1.0) - tip_by;
+    real both =
+        (ahead->overlap - k * behind->overlap) / oz_larger(REAL(1.0) - k * k, REAL(OZ_TINY));
+    real one = oz_larger(oz_smaller(ahead->overlap, both), none);
+    real other = oz_larger(behind->overlap - k * one, none);
+    for (int i = 0; i < OZ_WALL_SHAFT_ROUNDS; i++) {
+        one = oz_wall_shaft_alone(ahead->overlap - k * other, rod.tip - tip_by * other,
+                                  rod.tail - tail_by * other, ahead->at);
+        other = oz_wall_shaft_alone(behind->overlap - k * one, rod.tip - tip_of * one,
+                                    rod.tail - tail_of * one, behind->at);
+    }
+    mask is_long = oz_dot(rod.half_shaft, rod.half_shaft) > none;
+    ahead->push = is_long ? one : none;
+    behind->push = is_long ? other : none;
+}
+
+#endif
