@@ -11,7 +11,7 @@ typedef struct OzKnown {
     const char *source; /* author, year */
     const char *remark; /* what the interval is, said below the row; NULL: nothing */
     double (*value)(const OzTrialNumbers *numbers); /* of one seed, by variant; NAN: none */
-    const char *cause;  /* why ours differs, as experiments found; NULL: not known */
+    const char *cause; /* why ours differs, as experiments found; NULL: not known */
 } OzKnown;
 
 enum { OZ_VALIDATION_KNOWN = 4 };

@@ -7,7 +7,7 @@ static const double PI = 3.14159265358979323846;
 
 enum {
     HALF_OF_LOOKS = 20, /* of silo and drum, which look 40 times */
-    GAS_FROM = 10       /* of 100                              */
+    GAS_FROM = 30       /* of 100                              */
 };
 
 void oz_report_validate_looks_ball(OzTrialNumbers numbers, const OzSnapshot *now, int look)

@@ -30,7 +30,7 @@ void oz_report_validate_looks_silo(OzTrialNumbers numbers, const OzSnapshot *now
 
 /* Haff's law: 1/sqrt(T), T = <v^2>/3, grows as a straight line in time; and its slope by kinetic
  * theory, of the box walls.0, whose sides are equal. From the look on when hits have made the
- * velocities random, a tenth of all. */
+ * velocities random, three tenths of all. */
 enum {
     OZ_LOOK_GAS_COUNT,
     OZ_LOOK_GAS_TIME,    /* sums over looks: s,                                            */
