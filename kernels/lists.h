@@ -124,20 +124,10 @@ OZ_INLINE void oz_lists_sort(OzWork *w, int first, int last)
     }
 }
 
-/* Distance of a coordinate from the cells at `offset` of its own, m: 0 within. frac: where in its
- * cell. */
-OZ_INLINE scalar oz_lists_off(int offset, scalar frac, scalar cell)
-{
-    scalar off = offset > 0 ? offset - frac : offset < 0 ? frac - (offset + 1) : 0;
-    return off * cell;
-}
-
-/* One row of cells along the grid's first axis, `off2` (m^2) away across it: only as long as the
- * sphere of reach about `at` (m) is wide there. */
-OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar at, scalar off2)
+/* One row of cells along the grid's first axis, as long as `width` on both sides of `at` (m). */
+OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar at, scalar width)
 {
     scalar inverse = w->parameters->inverse_cell;
-    scalar width = sqrt(s->far * s->far - off2);
     int low = (int)floor((at - width) * inverse), high = (int)floor((at + width) * inverse);
     int start = low & (w->z.cells_along[0] - 1), cells = min(high - low + 1, w->z.cells_along[0]);
     int stop = min(start + cells, w->z.cells_along[0]), wrapped = start + cells - stop;
@@ -147,27 +137,53 @@ OZ_INLINE void oz_lists_row(OzWork *w, OzSearch *s, int row, scalar at, scalar o
     }
 }
 
-/* Candidates in the cells around. */
+OZ_INLINE scalar oz_lists_at(const OzWork *w, const OzSearch *s, int axis)
+{
+    return (scalar)s->place[w->z.axis[axis]] * OZ_NEAR_UNIT(w);
+}
+
+#if OZ_DIMENSIONS == 3
+
+/* Distance of a coordinate from the cells at `offset` of its own, m: 0 within. frac: where in its
+ * cell. */
+OZ_INLINE scalar oz_lists_off(int offset, scalar frac, scalar cell)
+{
+    scalar off = offset > 0 ? offset - frac : offset < 0 ? frac - (offset + 1) : 0;
+    return off * cell;
+}
+
+/* Candidates in the cells around, each row only as long as the sphere of reach is wide there. */
 OZ_INLINE void oz_lists_cells(OzWork *w, OzSearch *s)
 {
-    global const OzParameters *p = w->parameters;
-    scalar cell = 1 / p->inverse_cell, position[3];
-    for (int k = 0; k < 3; k++) {
-        position[k] = (scalar)s->place[w->z.axis[k]] * OZ_NEAR_UNIT(w);
-    }
-    scalar second = position[1] * p->inverse_cell, third = position[2] * p->inverse_cell;
+    scalar inverse = w->parameters->inverse_cell, cell = 1 / inverse, far2 = s->far * s->far;
+    scalar second = oz_lists_at(w, s, 1) * inverse, third = oz_lists_at(w, s, 2) * inverse;
     int at_second = (int)floor(second), at_third = (int)floor(third);
-    for (int d3 = 2 - OZ_DIMENSIONS; d3 <= OZ_DIMENSIONS - 2; d3++) {
+    for (int d3 = -1; d3 <= 1; d3++) {
         scalar off3 = oz_lists_off(d3, third - at_third, cell);
         for (int d2 = -1; d2 <= 1; d2++) {
             scalar off = oz_lists_off(d2, second - at_second, cell), off2 = off3 * off3 + off * off;
-            if (off2 < s->far * s->far) {
+            if (off2 < far2) {
                 int row = oz_cells_index(w, 0, at_second + d2, at_third + d3);
-                oz_lists_row(w, s, row, position[0], off2);
+                oz_lists_row(w, s, row, oz_lists_at(w, s, 0), sqrt(far2 - off2));
             }
         }
     }
 }
+
+#else
+
+/* Candidates in the cells around: in a plane the root that would shorten a row costs more than it
+ * saves. */
+OZ_INLINE void oz_lists_cells(OzWork *w, OzSearch *s)
+{
+    scalar inverse = w->parameters->inverse_cell, at = oz_lists_at(w, s, 1);
+    int low = (int)floor((at - s->far) * inverse), high = (int)floor((at + s->far) * inverse);
+    for (int second = low; second <= high; second++) {
+        oz_lists_row(w, s, oz_cells_index(w, 0, second, 0), oz_lists_at(w, s, 0), s->far);
+    }
+}
+
+#endif
 
 /* Candidates of a body: of a small one those in the cells around and the large ones, of a large one
  * all. */
