@@ -154,6 +154,23 @@ static void test_changed_on_the_way(void **state)
     assert_same_run("pair/seed_00002", "second", false);
 }
 
+/* A run that repeats another one goes on repeating it, also when that one is gone. */
+static void test_left_while_repeating(void **state)
+{
+    (void)state;
+    expect(0, "", "run turned --replay -o half --until 0.03 --no-video");
+    expect(2, "half repeats another run", "resume half --until 0.06 --set contact.friction=0.1");
+    assert_int_equal(system("mv turned kept"), 0);
+    expect(0, "contact.friction 0.3 -> 0.2", "resume half --until 0.06");
+    assert_same_run("kept", "half", true);
+    expect(0, "contact.friction 0.2 -> 0.1",
+           "resume half --until 0.07 --set contact.friction=0.1"); /* nothing is left to repeat */
+    expect(0, "", "run pair --replay -o pair_half --until 0.003");
+    expect(0, "gravity", "resume pair_half");
+    assert_same_run("pair/seed_00001", "pair_half/seed_00001", false);
+    assert_same_run("pair/seed_00002", "pair_half/seed_00002", false);
+}
+
 static void test_an_ensemble(void **state)
 {
     (void)state;
@@ -242,6 +259,7 @@ int main(void)
         cmocka_unit_test(test_a_later_end),
         cmocka_unit_test(test_stopped_by_a_guard),
         cmocka_unit_test(test_changed_on_the_way),
+        cmocka_unit_test(test_left_while_repeating),
         cmocka_unit_test(test_an_ensemble),
         cmocka_unit_test(test_what_is_refused),
         cmocka_unit_test(test_damaged_states),

@@ -26,7 +26,7 @@ void oz_checkpoint_head_free(OzCheckpointHead *head)
 
 OzStatus oz_checkpoint_head_state(OzCheckpointHead *head, OzStateVisit *visit)
 {
-    OZ_PASS(oz_state_enter(visit, "run", 2));
+    OZ_PASS(oz_state_enter(visit, "run", 3));
     OZ_PASS(oz_state_text(visit, "program", &head->version));
     OZ_PASS(oz_state_text(visit, "device", &head->device));
     OZ_PASS(oz_state_text(visit, "device_asked", &head->device_asked));
@@ -41,6 +41,7 @@ OzStatus oz_checkpoint_head_state(OzCheckpointHead *head, OzStateVisit *visit)
     OZ_PASS(oz_state_int(visit, "own_settings", "none", &head->own_settings));
     OZ_PASS(oz_state_bool(visit, "has_seeds", &head->has_seeds));
     OZ_PASS(oz_state_bool(visit, "no_video", &head->no_video));
+    OZ_PASS(oz_state_index(visit, "changes_taken", &head->taken, 0, INT64_MAX));
     OZ_PASS(oz_state_bool(visit, "settles", &head->settles));
     OZ_PASS(oz_state_int64(visit, "step", "step", &head->step));
     OZ_PASS(oz_state_double(visit, "time", "s", &head->time, 1));

@@ -22,7 +22,8 @@ typedef struct OzCheckpointHead {
     int threads;
     int own_settings; /* how many of the settings the ensemble began with */
     bool has_seeds, no_video;
-    bool settles; /* time 0 has not come: step and time are of settling */
+    int64_t taken; /* changes made of those of the run that is repeated */
+    bool settles;  /* time 0 has not come: step and time are of settling */
     int64_t step;
     double time; /* s */
 } OzCheckpointHead;

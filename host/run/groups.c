@@ -47,9 +47,10 @@ static OzStatus load_member(OzGroups *groups, OzOutputs *member)
     OZ_PASS(oz_members_load(&groups->plan, member->number, &member->scene, &member->grains));
     OZ_PASS(oz_from_check(&groups->plan.from, member->name, &member->scene, &member->grains));
     oz_replay_free(&groups->loaded_replay);
-    return groups->options->replay ? oz_replay_read(&groups->loaded_replay,
-                                                    groups->options->replay_folder, member->name)
-                                   : OZ_OK;
+    return groups->options->replay
+               ? oz_replay_read(&groups->loaded_replay, groups->options->replay_folder,
+                                member->name, groups->options->resumes)
+               : OZ_OK;
 }
 
 /* Whether there is nothing to do of a member: a state has it, or the run that is repeated never
@@ -61,7 +62,7 @@ static OzStatus is_left_out(const OzGroups *groups, int64_t number, bool *left_o
     *left_out = has_begun(groups, number);
     if (groups->options->replay && !*left_out) {
         OZ_TRY(oz_members_name(&groups->plan, number, &name));
-        *left_out = !oz_replay_has(groups->options->replay_folder, name);
+        *left_out = !oz_replay_has(groups->options->replay_folder, name, groups->options->resumes);
         if (*left_out) {
             oz_log_line("%s had not begun in %s", name, groups->options->replay_folder);
         }
@@ -174,6 +175,23 @@ static OzStatus take_name(OzScene *scene, const char *name)
     return oz_memory_text(&scene->name, name);
 }
 
+/* What is left to make again of the members of state k, which have it in common. */
+static OzStatus load_begun(OzGroups *groups, int k)
+{
+    OzStatus status = OZ_OK;
+    const OzCheckpointHead *head = &groups->resume->heads[k];
+    char *name = NULL;
+    if (!groups->begun) {
+        OZ_TRY(OZ_NEW(&groups->begun, groups->resume->count));
+    }
+    OZ_TRY(oz_members_name(&groups->plan, head->first, &name));
+    OZ_TRY(oz_replay_read(&groups->begun[k], groups->options->replay_folder, name, true));
+    oz_replay_go_on(&groups->begun[k], head->taken, head->step);
+done:
+    free(name);
+    return status;
+}
+
 /* Members of the next states, as many states as go side by side. */
 static OzStatus gather_begun(OzGroups *groups)
 {
@@ -182,6 +200,9 @@ static OzStatus gather_begun(OzGroups *groups)
     for (int k = resume->next;
          k < resume->count && k - resume->next < oz_groups_most_workers(groups); k++) {
         const OzCheckpointHead *head = &resume->heads[k];
+        if (groups->options->replay) {
+            OZ_PASS(load_begun(groups, k));
+        }
         for (int64_t i = 0; i < head->count; i++) {
             OzOutputs **member = &groups->members[groups->member_count];
             OZ_PASS(OZ_NEW(member, 1));
@@ -217,6 +238,10 @@ void oz_groups_free(OzGroups *groups)
 {
     oz_outputs_free(groups->loaded);
     oz_members_free(&groups->plan);
+    for (int k = 0; groups->begun && k < groups->resume->count; k++) {
+        oz_replay_free(&groups->begun[k]);
+    }
+    free(groups->begun);
     oz_replay_free(&groups->replay);
     oz_replay_free(&groups->loaded_replay);
     free(groups->members);
@@ -227,6 +252,36 @@ void oz_groups_free(OzGroups *groups)
 bool oz_groups_is_begun(const OzGroups *groups)
 {
     return groups->member_count > 0 && groups->members[0]->goes_on;
+}
+
+const OzReplay *oz_groups_replay(const OzGroups *groups, int worker)
+{
+    if (!groups->options->replay) {
+        return NULL;
+    }
+    return oz_groups_is_begun(groups) ? &groups->begun[groups->resume->next + worker]
+                                      : &groups->replay;
+}
+
+int64_t oz_groups_taken(const OzGroups *groups, int worker)
+{
+    return groups->options->replay && oz_groups_is_begun(groups)
+               ? groups->resume->heads[groups->resume->next + worker].taken
+               : 0;
+}
+
+OzStatus oz_groups_keep_changes(const OzGroups *groups, const char *folder)
+{
+    OzStatus status = OZ_OK;
+    char *name = NULL;
+    for (int64_t i = 0; groups->options->replay && i < groups->plan.count; i++) {
+        free(name);
+        OZ_TRY(oz_members_name(&groups->plan, i, &name));
+        OZ_TRY(oz_replay_keep(groups->options->replay_folder, name, folder));
+    }
+done:
+    free(name);
+    return status;
 }
 
 OzStatus oz_groups_write_tables(const OzGroups *groups, const char *folder)

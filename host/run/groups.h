@@ -21,6 +21,7 @@ typedef struct OzGroups {
     OzOutputs *loaded;   /* the next group's first, NULL at the end             */
     OzReplay replay,
         loaded_replay;    /* of a run that is repeated: the group's changes, the next one's */
+    OzReplay *begun;      /* what each of the states has of them left; NULL: no such run */
     int64_t loaded_count; /* members of the plan that were loaded or could not be */
     int64_t most;         /* that there is room for at a time; 0: not known yet  */
     OzOutcome *outcomes;  /* of each member of the plan                          */
@@ -40,6 +41,15 @@ OzStatus oz_groups_gather(OzGroups *groups);
 
 /* Whether the group in hand goes on from states, one a worker. */
 bool oz_groups_is_begun(const OzGroups *groups);
+
+/* What its worker of that number has to make again; NULL: its run repeats none. */
+const OzReplay *oz_groups_replay(const OzGroups *groups, int worker);
+
+/* Changes that the worker's state has taken of these. */
+int64_t oz_groups_taken(const OzGroups *groups, int worker);
+
+/* Puts the changes that are to be made again into the run's folder. */
+OzStatus oz_groups_keep_changes(const OzGroups *groups, const char *folder);
 
 /* Workers at a time: one a thread of a CPU; a GPU takes all members at once. */
 int64_t oz_groups_most_workers(const OzGroups *groups);

@@ -34,6 +34,7 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "state*.h5.part",
                                          "state*.h5.previous",
                                          "from/state*.h5*",
+                                         "replay/*.csv",
                                          "checkpoints/*.h5*",
                                          "latest.png",
                                          "latest.png.part",

@@ -2,6 +2,7 @@
 #include "run/replay.h"
 
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/memory.h"
 
 #include <stdio.h>
@@ -120,32 +121,99 @@ done:
     return status;
 }
 
-OzStatus oz_replay_read(OzReplay *replay, const char *folder, const char *member)
+/* Of a copy, seen from the folder that has it. */
+static OzStatus name_copy(char **name, const char *member)
+{
+    if (asprintf(name, "replay/%s.csv", member[0] ? member : "run") < 0) {
+        *name = NULL;
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a file's name");
+    }
+    return OZ_OK;
+}
+
+/* The file of a member's changes. */
+static OzStatus choose_path(char **path, const char *folder, const char *member, bool is_kept)
 {
     OzStatus status = OZ_OK;
-    char *own = NULL, *path = NULL, *text = NULL;
+    char *below = NULL;
+    if (is_kept) {
+        OZ_TRY(name_copy(&below, member));
+        OZ_TRY(oz_file_join(path, folder, below));
+    } else {
+        OZ_TRY(oz_file_join(&below, folder, member));
+        OZ_TRY(oz_file_join(path, below, "reloads.csv"));
+    }
+done:
+    free(below);
+    return status;
+}
+
+OzStatus oz_replay_read(OzReplay *replay, const char *folder, const char *member, bool is_kept)
+{
+    OzStatus status = OZ_OK;
+    char *path = NULL, *text = NULL;
     *replay = (OzReplay){0};
-    OZ_TRY(oz_file_join(&own, folder, member));
-    OZ_TRY(oz_file_join(&path, own, "reloads.csv"));
+    OZ_TRY(choose_path(&path, folder, member, is_kept));
     if (oz_file_exists(path)) {
         OZ_TRY(oz_file_read(&text, NULL, path));
         OZ_TRY(oz_replay_parse(replay, path, text));
-    } else if (!member[0]) {
+    } else if (!member[0] && !is_kept) {
         OZ_TRY(refuse_members(folder));
     }
 done:
-    free(own);
     free(path);
     free(text);
     return status;
 }
 
-bool oz_replay_has(const char *folder, const char *member)
+bool oz_replay_has(const char *folder, const char *member, bool is_kept)
 {
-    char *own = NULL;
-    bool has = !member[0] || (oz_file_join(&own, folder, member) == OZ_OK && oz_file_exists(own));
-    free(own);
+    char *place = NULL;
+    OzStatus status =
+        is_kept ? choose_path(&place, folder, member, true) : oz_file_join(&place, folder, member);
+    bool has = !member[0] || (status == OZ_OK && oz_file_exists(place));
+    free(place);
     return has;
+}
+
+OzStatus oz_replay_keep(const char *folder, const char *member, const char *own)
+{
+    OzStatus status = OZ_OK;
+    FILE *file = NULL;
+    char *below = NULL, *path = NULL, *text = NULL, *name = NULL;
+    if (!oz_replay_has(folder, member, false)) {
+        return OZ_OK;
+    }
+    OZ_TRY(oz_file_join(&below, own, "replay"));
+    OZ_TRY(oz_file_make_folder(below));
+    OZ_TRY(choose_path(&path, folder, member, false));
+    if (oz_file_exists(path)) {
+        OZ_TRY(oz_file_read(&text, NULL, path));
+    }
+    OZ_TRY(name_copy(&name, member));
+    OZ_TRY(oz_folder_create_file(&file, own, name));
+    fputs(text ? text : "", file);
+done:
+    OZ_AFTER(status, oz_folder_finish_file(file, name));
+    free(below);
+    free(path);
+    free(text);
+    free(name);
+    return status;
+}
+
+bool oz_replay_is_kept(const char *own)
+{
+    char *place = NULL;
+    bool is_kept = oz_file_join(&place, own, "replay") == OZ_OK && oz_file_exists(place);
+    free(place);
+    return is_kept;
+}
+
+bool oz_replay_go_on(OzReplay *replay, int64_t taken, int64_t step)
+{
+    replay->is_cut = replay->is_cut && (taken < replay->count || step < replay->end);
+    return replay->is_cut || taken < replay->count;
 }
 
 static bool change_agrees(const OzReplayChange *a, const OzReplayChange *b)

@@ -1,4 +1,6 @@
-/* The changes of an earlier run, from its reloads.csv, to be made again at the same steps. */
+/* The changes of an earlier run, from its reloads.csv, to be made again at the same steps. The run
+ * that makes them keeps copies in its own folder, replay/run.csv or replay/MEMBER.csv, so that it
+ * can be gone on with when the earlier one is gone. */
 #pragma once
 
 #include "base/status.h"
@@ -22,13 +24,24 @@ typedef struct OzReplay {
 } OzReplay;
 
 /* Of the run in this folder, or of its member of that name ("": a plain run); without a reloads.csv
- * nothing was changed. Refuses with OZ_ERR_INPUT, at file and line, what no run has written, and
- * the folder of several members where a plain run is asked for. The caller frees, also on failure.
+ * nothing was changed. is_kept: the folder is of the run that repeats it, and has copies. Refuses
+ * with OZ_ERR_INPUT, at file and line, what no run has written, and the folder of several members
+ * where a plain run is asked for. The caller frees, also on failure.
  */
-OzStatus oz_replay_read(OzReplay *replay, const char *folder, const char *member);
+OzStatus oz_replay_read(OzReplay *replay, const char *folder, const char *member, bool is_kept);
 
 /* Whether the member of that name had begun; a plain run had. */
-bool oz_replay_has(const char *folder, const char *member);
+bool oz_replay_has(const char *folder, const char *member, bool is_kept);
+
+/* Puts a copy for the member, if it had begun, into the folder of the run that repeats it. */
+OzStatus oz_replay_keep(const char *folder, const char *member, const char *own);
+
+/* Whether the folder is of a run that repeats another one. */
+bool oz_replay_is_kept(const char *own);
+
+/* Whether there is something to do from a step on before which so many changes have been taken. The
+ * step at which the earlier run was interrupted is no end to who goes on from there. */
+bool oz_replay_go_on(OzReplay *replay, int64_t taken, int64_t step);
 
 /* Whether both make the same changes at the same steps, and end alike. */
 bool oz_replay_agrees(const OzReplay *a, const OzReplay *b);

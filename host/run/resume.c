@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "run/from_keep.h"
+#include "run/replay.h"
 #include "run/state_file.h"
 
 #include <glob.h>
@@ -230,6 +231,30 @@ done:
     return status;
 }
 
+/* A run that repeated another one goes on doing so. A plain one that has no more to repeat takes
+ * changes as any other. */
+static OzStatus take_replay(OzResume *resume, const OzOptions *asked)
+{
+    OzOptions *options = &resume->options;
+    const OzCheckpointHead *head = &resume->heads[0];
+    OzReplay replay = {0};
+    if (!oz_replay_is_kept(asked->paths[0])) {
+        return OZ_OK;
+    }
+    OzStatus status = oz_replay_read(&replay, asked->paths[0], "", true);
+    options->replay = head->origin[0] || oz_replay_go_on(&replay, head->taken, head->step);
+    options->replay_folder = asked->paths[0];
+    oz_replay_free(&replay);
+    if (status == OZ_OK && options->replay && resume->change_count > 0) {
+        status =
+            oz_status_fail(OZ_ERR_INPUT,
+                           "%s repeats another run, whose changes it has not all made; expected "
+                           "no --set but of the end and of states",
+                           asked->paths[0]);
+    }
+    return status;
+}
+
 /* The command that the run was, with what is asked for now. */
 static OzStatus make_options(OzResume *resume, const OzOptions *asked)
 {
@@ -252,6 +277,7 @@ static OzStatus make_options(OzResume *resume, const OzOptions *asked)
             resume->changes[resume->change_count++] = setting;
         }
     }
+    OZ_PASS(take_replay(resume, asked));
     OZ_PASS(oz_from_keep_find(&resume->from, asked->paths[0]));
     options->from = resume->from;
     options->out = asked->paths[0];

@@ -107,6 +107,7 @@ static OzStatus begin_log(const Run *run)
     }
     if (!head) {
         OZ_PASS(oz_from_keep_copy(&run->groups.plan.from, run->folder));
+        OZ_PASS(oz_groups_keep_changes(&run->groups, run->folder));
     }
     return run->groups.plan.is_ensemble && !head
                ? oz_outputs_write_scene(&run->groups.plan.scene, run->folder)
@@ -209,7 +210,8 @@ static OzStatus open_workers(Run *run)
                              .serve = k == 0 ? run->serve : NULL,
                              .started = run->started,
                              .reload = run->reload,
-                             .replay = run->options->replay ? &run->groups.replay : NULL,
+                             .replay = oz_groups_replay(&run->groups, k),
+                             .taken = oz_groups_taken(&run->groups, k),
                              .first = first,
                              .pace = oz_pace_of(run->options, &run->groups.members[0]->scene),
                              .ended = &run->ended};
@@ -348,7 +350,8 @@ static void close_run(Run *run)
     free(run->folder);
 }
 
-/* What was observed, as curves. They can be drawn again, so that they are not what a run fails by. */
+/* What was observed, as curves. They can be drawn again, so that they are not what a run fails by.
+ */
 static void plot_series(const Run *run)
 {
     char why[4096];

@@ -77,6 +77,7 @@ OzStatus oz_worker_state_save(OzWorker *worker, bool kept)
     head->step = oz_sim_step(worker->sim);
     head->time = oz_sim_time(worker->sim);
     head->settles = !oz_settle_is_over(worker->sim);
+    head->taken = worker->replay ? worker->taken : 0;
     OzStatus status = oz_checkpoint_head_state(head, &visit);
     status = status == OZ_OK ? oz_worker_state_visit(worker, &visit) : status;
     if (status == OZ_OK) {
