@@ -143,9 +143,7 @@ OZ_INLINE scalar oz_lists_at(const OzWork *w, const OzSearch *s, int axis)
 }
 
 #if OZ_DIMENSIONS == 3
-
-/* Distance of a coordinate from the cells at `offset` of its own, m: 0 within. frac: where in its
- * cell. */
+/* Distance of a coordinate from the cells at `offset` of its own, m: 0 within. frac: where in its. */
 OZ_INLINE scalar oz_lists_off(int offset, scalar frac, scalar cell)
 {
     scalar off = offset > 0 ? offset - frac : offset < 0 ? frac - (offset + 1) : 0;
@@ -171,7 +169,6 @@ OZ_INLINE void oz_lists_cells(OzWork *w, OzSearch *s)
 }
 
 #else
-
 /* Candidates in the cells around: in a plane the root that would shorten a row costs more than it
  * saves. */
 OZ_INLINE void oz_lists_cells(OzWork *w, OzSearch *s)
@@ -263,8 +260,7 @@ OZ_INLINE void oz_lists_search(OzWork *w, int region)
     oz_springs_forget(w, region);
 }
 
-/* A body's skin: what it moves in `time` at its present speed, no less and no more than the bounds.
- */
+/* A body's skin: what it moves in `time` at its present speed, within the bounds. */
 OZ_INLINE real oz_lists_skin(OzPose pose, scalar time, scalar least, scalar most)
 {
     return oz_smaller(REAL(most), REAL(least) + oz_near_speed(pose) * REAL(time));

@@ -160,9 +160,9 @@ static void test_left_while_repeating(void **state)
     (void)state;
     expect(0, "", "run turned --replay -o half --until 0.03 --no-video");
     expect(2, "half repeats another run", "resume half --until 0.06 --set contact.friction=0.1");
-    assert_int_equal(system("mv turned kept"), 0);
+    assert_int_equal(system("mv turned away"), 0);
     expect(0, "contact.friction 0.3 -> 0.2", "resume half --until 0.06");
-    assert_same_run("kept", "half", true);
+    assert_same_run("away", "half", true);
     expect(0, "contact.friction 0.2 -> 0.1",
            "resume half --until 0.07 --set contact.friction=0.1"); /* nothing is left to repeat */
     expect(0, "", "run pair --replay -o pair_half --until 0.003");
