@@ -124,3 +124,47 @@ void oz_report_validate_looks_drum(OzTrialNumbers numbers, const OzSnapshot *now
     numbers[OZ_LOOK_DRUM_SLOPE] += 180 / PI * atan2(fabs(aside), down);
     numbers[OZ_LOOK_DRUM_LOOKS]++;
 }
+
+/* kg, of the grains whose centres lie between two heights; their share of all. */
+static double mass_between(const OzSnapshot *now, double low, double high, double *share)
+{
+    double mass = 0, all = 0;
+    for (int64_t i = 0; i < now->count; i++) {
+        double z = now->position[3 * i + 2];
+        all += now->grains->mass[i];
+        mass += z >= low && z < high ? now->grains->mass[i] : 0;
+    }
+    *share = mass / all;
+    return mass;
+}
+
+static void see_bed(OzTrialNumbers numbers, const OzSnapshot *now)
+{
+    const OzWall *tube = &now->scene->walls[1];
+    double size = 0, share;
+    for (int64_t i = 0; i < now->count; i++) {
+        size += now->grains->diameter[i] / (double)now->count;
+    }
+    double low = tube->point[2] + 2 * size, height = 5 * size;
+    double area = PI / 4 * tube->diameter * tube->diameter;
+    numbers[OZ_LOOK_HOPPER_SIZE] = size;
+    numbers[OZ_LOOK_HOPPER_DENSITY] =
+        mass_between(now, low, low + height, &share) / (area * height);
+}
+
+void oz_report_validate_looks_hopper(OzTrialNumbers numbers, const OzSnapshot *now, int look)
+{
+    double share, mass = mass_between(now, -INFINITY, now->scene->walls[0].point[2], &share);
+    if (look == 0) {
+        see_bed(numbers, now);
+    }
+    if (share < 0.15 || share > 0.45) {
+        return;
+    }
+    if (numbers[OZ_LOOK_HOPPER_FROM] == 0) {
+        numbers[OZ_LOOK_HOPPER_FROM] = now->time;
+        numbers[OZ_LOOK_HOPPER_BEFORE] = mass;
+    }
+    numbers[OZ_LOOK_HOPPER_TO] = now->time;
+    numbers[OZ_LOOK_HOPPER_AFTER] = mass;
+}

@@ -45,3 +45,16 @@ void oz_report_validate_looks_gas(OzTrialNumbers numbers, const OzSnapshot *now,
  * centre of mass against gravity, in the mean over the later half of the looks. */
 enum { OZ_LOOK_DRUM_SLOPE /* degrees, sum over those looks */, OZ_LOOK_DRUM_LOOKS };
 void oz_report_validate_looks_drum(OzTrialNumbers numbers, const OzSnapshot *now, int look);
+
+/* Spheres that flow out of the tube walls.1 through the cone walls.0 below it: the rate while 15 to
+ * 45 % of them flow out, and the bed's density before, five diameters of it, two above the tube's
+ * lower end. */
+enum {
+    OZ_LOOK_HOPPER_DENSITY, /* kg/m^3                                                       */
+    OZ_LOOK_HOPPER_FROM,    /* s, the first look when 15 % have flowed out                  */
+    OZ_LOOK_HOPPER_BEFORE,  /* kg, what had then                                            */
+    OZ_LOOK_HOPPER_TO,      /* s, the last look at which 45 % had not                       */
+    OZ_LOOK_HOPPER_AFTER,   /* kg, what had then                                            */
+    OZ_LOOK_HOPPER_SIZE     /* m, mean diameter of a sphere                                 */
+};
+void oz_report_validate_looks_hopper(OzTrialNumbers numbers, const OzSnapshot *now, int look);
