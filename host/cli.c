@@ -9,11 +9,7 @@
 #include <string.h>
 
 /* What options a command takes, as letters of option_rows. */
-static const struct {
-    const char *name, *arguments, *takes, *help;
-    int least_paths, most_paths;
-    const char *example;
-} command_rows[] = {
+static const OzCliCommand command_rows[] = {
     {"run", "SCENE", "oOserdtpgunmlVfSwRP",
      "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1,
      "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
@@ -179,20 +175,11 @@ static OzStatus parse_serve(OzOptions *options, const char *value)
                : OZ_OK;
 }
 
-/* One option: its letter in command_rows, its names, its value and help; how it is taken: a flag, a
- * text as it is, one that is not empty (what is wanted instead), or by a function of its own. */
-static const struct {
-    char letter;
-    const char *name, *value, *help;
-    enum { FLAG_OPTION, TEXT_OPTION, OWN_OPTION } kind;
-    size_t offset; /* in OzOptions: of a bool or a text */
-    const char *wanted;
-    OzStatus (*parse)(OzOptions *options, const char *value);
-} option_rows[] = {
-#define FLAG(member)           .kind = FLAG_OPTION, .offset = offsetof(OzOptions, member)
-#define TEXT(member)           .kind = TEXT_OPTION, .offset = offsetof(OzOptions, member)
+static const OzCliOption option_rows[] = {
+#define FLAG(member)           .kind = OZ_CLI_FLAG, .offset = offsetof(OzOptions, member)
+#define TEXT(member)           .kind = OZ_CLI_TEXT, .offset = offsetof(OzOptions, member)
 #define NAME(member, expected) TEXT(member), .wanted = expected
-#define OWN(function)          .kind = OWN_OPTION, .parse = function
+#define OWN(function)          .kind = OZ_CLI_OWN, .parse = function
     {'o', "-o", "DIR",
      "folder to write (default runs/<scene name>; of figures runs/<study name>, of draw DIR/draw, of "
      "export DIR/export, of bench and report their names)",
@@ -266,6 +253,29 @@ enum {
     OPTIONS = sizeof option_rows / sizeof option_rows[0]
 };
 
+int oz_cli_commands(const OzCliCommand **rows)
+{
+    *rows = command_rows;
+    return COMMANDS;
+}
+
+int oz_cli_options(const OzCliOption **rows)
+{
+    *rows = option_rows;
+    return OPTIONS;
+}
+
+const char *oz_cli_summary(void)
+{
+    return "granular matter computed with OpenCL, shown as a movie, with its error stated";
+}
+
+const char *oz_cli_statuses(void)
+{
+    return "0 done; 1 something failed or a guard stopped a run; 2 a scene, key or\n"
+           "option refused, of `check` also a step that `run` would refuse; 130 interrupted";
+}
+
 static int find_command(const char *name)
 {
     for (int c = 0; c < COMMANDS; c++) {
@@ -302,8 +312,7 @@ void oz_cli_help(const char *command)
 {
     int only = command ? find_command(command) : -1;
     if (only < 0) {
-        printf("orzo: granular matter computed with OpenCL, shown as a movie, with its error "
-               "stated\n\n");
+        printf("orzo: %s\n\n", oz_cli_summary());
     }
     for (int c = 0; c < COMMANDS; c++) {
         if (only < 0 || c == only) {
@@ -314,20 +323,17 @@ void oz_cli_help(const char *command)
         printf("example: %s\n", command_rows[only].example);
     }
     if (only < 0) {
-        printf(
-            "orzo --help | --version\n\n"
-            "exit status: 0 done; 1 something failed or a guard stopped a run; 2 a scene, key or\n"
-            "option refused, of `check` also a step that `run` would refuse; 130 interrupted\n");
+        printf("orzo --help | --version | --man\n\nexit status: %s\n", oz_cli_statuses());
     }
 }
 
 static OzStatus take_option(OzOptions *options, int o, const char *value)
 {
     void *member = (char *)options + option_rows[o].offset;
-    if (option_rows[o].kind == OWN_OPTION) {
+    if (option_rows[o].kind == OZ_CLI_OWN) {
         return option_rows[o].parse(options, value);
     }
-    if (option_rows[o].kind == FLAG_OPTION) {
+    if (option_rows[o].kind == OZ_CLI_FLAG) {
         *(bool *)member = true;
         return OZ_OK;
     }

@@ -5,6 +5,7 @@
 #include "draw/renderer.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { OZ_CLI_SETTINGS_MAX = 128, OZ_CLI_PATHS_MAX = 64, OZ_CLI_SEEDS_MAX = 100000 };
@@ -48,6 +49,33 @@ typedef struct OzOptions {
     double pace;                          /* simulated seconds a second; 0: the movie's */
     const char *yardstick;                        /* --yardstick                      */
 } OzOptions;
+
+/* A command, a row of the list that parsing, help and the manual page share. */
+typedef struct OzCliCommand {
+    const char *name, *arguments, *takes, *help; /* takes: its options' letters */
+    int least_paths, most_paths;
+    const char *example;
+} OzCliCommand;
+
+/* An option: its names, its value (NULL: none; in brackets: may be left out) and help; how it is
+ * taken: a flag, a text as it is, one that is not empty (what is wanted instead), or by a function
+ * of its own. */
+typedef struct OzCliOption {
+    char letter;
+    const char *name, *value, *help;
+    enum { OZ_CLI_FLAG, OZ_CLI_TEXT, OZ_CLI_OWN } kind;
+    size_t offset; /* in OzOptions: of a bool or a text */
+    const char *wanted;
+    OzStatus (*parse)(OzOptions *options, const char *value);
+} OzCliOption;
+
+/* The rows, static; returns how many. */
+int oz_cli_commands(const OzCliCommand **rows);
+int oz_cli_options(const OzCliOption **rows);
+
+/* What orzo is, and what its exit statuses say; each a line or more, without its end. */
+const char *oz_cli_summary(void);
+const char *oz_cli_statuses(void);
 
 /* Reads argv. Fails with OZ_ERR_INPUT, naming the argument and what was expected. */
 OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv);

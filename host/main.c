@@ -6,6 +6,7 @@
 #include "cli.h"
 #include "command/export_folder.h"
 #include "command/inspect.h"
+#include "command/manual.h"
 #include "command/plot_folder.h"
 #include "command/redraw.h"
 #include "compute/device.h"
@@ -113,9 +114,9 @@ static const struct {
     const char *name;
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
-    {"run", run_command},         {"resume", resume_command}, {"check", check_command},
-    {"draw", draw_command},       {"export", export_command}, {"keys", keys_command},
-    {"plot", plot_command},       {"bench", bench_command},   {"report", report_command},
+    {"run", run_command},         {"resume", resume_command},   {"check", check_command},
+    {"draw", draw_command},       {"export", export_command},   {"keys", keys_command},
+    {"plot", plot_command},       {"bench", bench_command},     {"report", report_command},
     {"figures", figures_command}, {"devices", devices_command},
 };
 
@@ -143,6 +144,9 @@ static OzStatus obey(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "--version") == 0) {
         printf("orzo %s\n", ORZO_VERSION);
         return OZ_OK;
+    }
+    if (argc > 1 && strcmp(argv[1], "--man") == 0) {
+        return oz_manual_print(stdout);
     }
     OzStatus status = oz_cli_parse(&options, argc, argv);
     if (status != OZ_OK) {
