@@ -3,128 +3,9 @@
  * walls with edges (wall_shaft.h) in the same way. OpenCL C only. */
 #pragma once
 
-#include "kernels/grains.h"
-#include "kernels/wall_drive.h"
-#include "kernels/wall_joint.h"
+#include "kernels/enclosure_side.h"
 
 #if OZ_WALL_COUNT > 0
-
-/* The forces of a step see the walls where they stand at the beginning of this step: the next one
- * where the integrator moves grains before the forces. */
-#if OZ_MOVES_BEFORE
-#define OZ_ENCLOSURE_STEP(step) ((step) + 1)
-#else
-#define OZ_ENCLOSURE_STEP(step) (step)
-#endif
-
-/* The first end at a wall with edges, and the first point of a shaft. */
-#define OZ_ENCLOSURE_SHAFT ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
-#define OZ_ENCLOSURE_EDGED (OZ_ENCLOSURE_SHAFT - (OZ_ROUND ? 1 : 2) * OZ_WALL_EDGED)
-
-/* One of the two ends of every grain, or a point of its shaft, paired with one wall: what is the
- * same for all grains in a step. */
-typedef struct OzSide {
-    int wall;
-    real sign; /* of the half-shaft that leads to the end: 1 or -1 */
-    int index; /* among all ends and points at all walls           */
-    int part;  /* OZ_WALL_TIP ...                                  */
-    int first; /* the first end: a sphere has no other             */
-    OzWallShape shape;
-    fixed_position_kind point[3]; /* the shape's                             */
-    scalar unit;
-    scalar offset, speed;   /* m, m/s of the wall along its direction: z without OZ_FREE_MOTION */
-    scalar rise, rise_rest; /* units: the offset with all its digits   */
-    scalar rate;            /* rad/s                                   */
-} OzSide;
-
-OZ_INLINE OzSide oz_enclosure_side(const OzWork *w, int index, int step)
-{
-    OzSide side;
-    int ends = OZ_ROUND ? 1 : 2;
-    side.index = index;
-    side.wall = oz_wall_shaft_wall(index, ends, OZ_WALL_COUNT, OZ_WALL_EDGED);
-    side.part = oz_wall_shaft_part(index, ends, OZ_WALL_COUNT);
-    side.first = side.part == OZ_WALL_TIP;
-    side.sign = REAL(side.first ? 1.0 : -1.0);
-    side.shape = w->parameters->wall[side.wall].shape;
-    side.shape.kind = oz_wall_kind(side.wall);
-    for (int c = 0; c < 3; c++) {
-        side.point[c] = (fixed_position_kind)side.shape.point[c];
-    }
-    side.unit = w->parameters->length_unit;
-    side.offset = side.speed = side.rise = side.rise_rest = 0;
-    if (OZ_MOVING) {
-        size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * OZ_WALL_COUNT + side.wall;
-        side.offset = w->motion[OZ_MOTION * at];
-        side.speed = w->motion[OZ_MOTION * at + OZ_M_SPEED];
-        side.rise = w->motion[OZ_MOTION * at + OZ_M_RISE];
-        side.rise_rest = w->motion[OZ_MOTION * at + OZ_M_RISE_REST];
-        side.rate = w->motion[OZ_MOTION * at + OZ_M_RATE];
-    }
-    return side;
-}
-
-/* How the side's wall moves. */
-OZ_INLINE OzWallDrive oz_enclosure_drive(const OzWork *w, const OzSide *side)
-{
-    OzWallDrive drive;
-    const OzWallParameters wall = w->parameters->wall[side->wall];
-    drive.direction =
-        oz_vec3(REAL(wall.direction[0]), REAL(wall.direction[1]), REAL(wall.direction[2]));
-    drive.axis = oz_vec3(REAL(wall.axis[0]), REAL(wall.axis[1]), REAL(wall.axis[2]));
-    drive.offset = REAL(side->offset);
-    drive.speed = REAL(side->speed);
-    drive.rate = REAL(side->rate);
-    return drive;
-}
-
-/* A place on a grain, `end` from its centre, seen from the wall's point, where that is now. */
-OZ_INLINE OzVec3 oz_enclosure_from(const OzWork *w, OzFixedPosition position_, OzVec3 end,
-                                   const OzSide *side)
-{
-    scalar unit = side->unit;
-    OzVec3 from = oz_vec3(oz_fixed_position_to_real(position_.x - side->point[0]) * unit + end.x,
-                          oz_fixed_position_to_real(position_.y - side->point[1]) * unit + end.y,
-                          oz_fixed_position_to_real(position_.z - side->point[2]) * unit + end.z -
-                              (OZ_FREE_MOTION ? 0 : side->offset));
-    if (OZ_FREE_MOTION) {
-        OzWallDrive drive = oz_enclosure_drive(w, side);
-        from = oz_along(from, -drive.offset, drive.direction);
-    }
-    return from;
-}
-
-OZ_INLINE OzWallDistance oz_enclosure_distance(const OzWork *w, OzFixedPosition position_,
-                                               OzVec3 end, const OzSide *side)
-{
-    return oz_wall_distance(oz_enclosure_from(w, position_, end, side), side->shape);
-}
-
-/* The wall's velocity where it touches a grain, arm from the grain's centre. */
-OZ_INLINE OzVec3 oz_enclosure_velocity(const OzWork *w, OzFixedPosition position_, OzVec3 arm,
-                                       const OzSide *side)
-{
-    if (!OZ_FREE_MOTION) {
-        return oz_vec3(REAL(0.0), REAL(0.0), REAL(side->speed));
-    }
-    return oz_wall_drive_velocity(oz_enclosure_drive(w, side),
-                                  oz_enclosure_from(w, position_, arm, side));
-}
-
-#if OZ_FINE
-/* The overlap of ends and a wall. */
-OZ_INLINE real oz_enclosure_fine(const OzWork *w, OzGrain grain, const OzSide *side)
-{
-    real unit = grain.radius / grain.fine.radius;
-    OzFixedPosition from = grain.position; /* of every lane the same */
-    from.x = side->point[0];
-    from.y = side->point[1];
-    from.z = side->point[2];
-    OzFine rise = {REAL(side->rise), REAL(side->rise_rest)};
-    return unit * oz_wall_overlap(oz_fine_end(grain.fine, side->sign, from), side->shape, rise,
-                                  grain.fine.radius, w->parameters->inverse_unit);
-}
-#endif
 
 /* Stops the run at overlaps that no run may go on with. Lanes outside of `counts` are not looked
  * at: they repeat an end of another lane. */
@@ -143,12 +24,12 @@ OZ_INLINE OzWallRod oz_enclosure_rod(const OzWork *w, OzGrain grain, const OzSid
                                      const OzSide *side)
 {
     OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
-    OzWallRod rod = {oz_enclosure_from(w, grain.position, none, side), grain.half_shaft,
+    OzWallRod rod = {oz_enclosure_side_from(w, grain.position, none, side), grain.half_shaft,
                      grain.radius, -grain.radius, -grain.radius};
     for (int j = OZ_ENCLOSURE_EDGED; j < OZ_ENCLOSURE_SHAFT; j++) {
         OzVec3 end = oz_scale(grain.half_shaft, sides[j].sign);
         real overlap =
-            grain.radius - oz_enclosure_distance(w, grain.position, end, &sides[j]).distance;
+            grain.radius - oz_enclosure_side_distance(w, grain.position, end, &sides[j]).distance;
         real *most = sides[j].first ? &rod.tip : &rod.tail;
         *most = oz_larger(*most, overlap);
     }
@@ -166,7 +47,7 @@ OZ_INLINE void oz_enclosure_points(const OzWork *w, OzGrain grain, const OzSide 
         for (int j = OZ_ENCLOSURE_EDGED; j < OZ_ENCLOSURE_SHAFT; j++) {
             if (sides[j].wall < sides[k].wall && sides[j].first) {
                 OzVec3 place = oz_scale(grain.half_shaft, point.at);
-                OzVec3 from = oz_enclosure_from(w, grain.position, place, &sides[j]);
+                OzVec3 from = oz_enclosure_side_from(w, grain.position, place, &sides[j]);
                 mask hides = oz_wall_shaft_hides(from, sides[j].shape, point, grain.radius);
                 point.overlap = hides ? -grain.radius : point.overlap;
             }
@@ -182,9 +63,9 @@ OZ_INLINE OzWallEnd oz_enclosure_end(const OzWork *w, OzGrain grain, const OzSid
 {
     OzWallEnd where;
     where.end = oz_scale(grain.half_shaft, side->sign);
-    where.wall = oz_enclosure_distance(w, grain.position, where.end, side);
+    where.wall = oz_enclosure_side_distance(w, grain.position, where.end, side);
 #if OZ_FINE
-    where.wall.overlap = oz_enclosure_fine(w, grain, side);
+    where.wall.overlap = oz_enclosure_side_fine(w, grain, side);
     mask near = where.wall.overlap > REAL(0.0);
 #else
     mask near = where.wall.distance < grain.radius;
@@ -211,7 +92,7 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
     if (OZ_HISTORY) {
         history = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index);
     }
-    where.wall_velocity = oz_enclosure_velocity(
+    where.wall_velocity = oz_enclosure_side_velocity(
         w, grain.position, oz_rods_wall_arm(grain, where.end, where.wall), side);
     OzWallForce found = oz_rods_wall(grain, where, w->parameters->wall[side->wall].law, &history,
                                      w->parameters->dt, oz_integrate_share());
@@ -262,11 +143,56 @@ OZ_INLINE void oz_enclosure_touch_shafts(OzWork *w, const OzSide *sides, int k, 
     oz_lanes_put(w->wall_relief, slots, 2, OZ_WALL_TAIL, tail);
 }
 
-/* The forces of picked ends of a side, or of shafts. */
-OZ_INLINE void oz_enclosure_forces(OzWork *w, const OzSide *sides, int k, const int *slots,
-                                   int count, int step)
+/* An end that touches another side in the place of this one is not picked here. Its tangential
+ * spring goes over to there, unless there is one. */
+OZ_INLINE void oz_enclosure_hand_over(OzWork *w, int slot, int from, int to)
 {
-    if (k >= OZ_ENCLOSURE_SHAFT) {
+    size_t block = (size_t)(slot / OZ_LANES) * OZ_WALL_ENDS;
+    int lane = slot % OZ_LANES;
+#if OZ_HISTORY
+    global scalar *given = (global scalar *)(w->wall_history + 3 * (block + from)) + lane;
+    global scalar *taken = (global scalar *)(w->wall_history + 3 * (block + to)) + lane;
+    int is_free = taken[0] == 0 && taken[OZ_LANES] == 0 && taken[2 * OZ_LANES] == 0;
+    is_free = is_free && (w->wall_active[block + to] >> lane) & 1;
+    for (int c = 0; c < 3; c++) {
+        taken[c * OZ_LANES] = is_free ? given[c * OZ_LANES] : taken[c * OZ_LANES];
+        given[c * OZ_LANES] = 0;
+    }
+#endif
+    w->wall_active[block + from] &= ~(1 << lane);
+}
+
+/* One block of picked ends of sides[k], which has edges: those that touch another side at the same
+ * place (wall_joint.h) are left to that. */
+OZ_INLINE void oz_enclosure_join(OzWork *w, const OzSide *sides, int k, const int *slots, int count)
+{
+    OzGrain grain = oz_work_grains(w, slots);
+    OzVec3 end = oz_scale(grain.half_shaft, sides[k].sign);
+    OzWallDistance own = oz_enclosure_side_distance(w, grain.position, end, &sides[k]);
+    int left = (int)((1u << min(count, OZ_LANES)) - 1);
+    for (int j = OZ_ENCLOSURE_EDGED; j < OZ_ENCLOSURE_SHAFT; j++) {
+        if (j != k && sides[j].first == sides[k].first) {
+            OzVec3 from = oz_enclosure_side_from(w, grain.position, end, &sides[j]);
+            OzWallDistance other = oz_wall_distance(from, sides[j].shape);
+            mask hides = oz_wall_joint_hides(from, sides[j].shape, other, j < k, own, grain.radius);
+            int bits = oz_lanes_bits(hides) & left;
+            left &= ~bits;
+            for (int l = 0; bits >> l != 0 && l < OZ_LANES; l++) {
+                if ((bits >> l) & 1) {
+                    oz_enclosure_hand_over(w, slots[l], k, j);
+                }
+            }
+        }
+    }
+}
+
+/* What is done with picked ends of a side, or shafts: joining them, or their forces. */
+OZ_INLINE void oz_enclosure_handle(OzWork *w, const OzSide *sides, int k, int joins,
+                                   const int *slots, int count, int step)
+{
+    if (joins) {
+        oz_enclosure_join(w, sides, k, slots, count);
+    } else if (k >= OZ_ENCLOSURE_SHAFT) {
         oz_enclosure_touch_shafts(w, sides, k, slots, count, step);
     } else {
         OzGrain grain = oz_work_grains(w, slots);
@@ -291,53 +217,46 @@ OZ_INLINE void oz_enclosure_part(OzWork *w, size_t index, int bits)
     w->wall_active[index] = bits;
 }
 
-/* The tangential springs of a block's ends (one bit a lane) that touch one side no more, but one
- * that it joins: those that were picked before take theirs along to where none is yet. */
-OZ_INLINE void oz_enclosure_hand_over(OzWork *w, int block, int from, int to, int bits)
+/* Picks the ends of a block at one side of a wall without edges, or of spheres at any. */
+OZ_INLINE void oz_enclosure_sieve_end(OzWork *w, const OzSide *side, OzBody body, OzVec3 half_shaft,
+                                      real near, int block)
 {
-#if OZ_HISTORY
-    size_t old = (size_t)block * OZ_WALL_ENDS + from, new = (size_t)block *OZ_WALL_ENDS + to;
-    global const scalar *given = (global const scalar *)(w->wall_history + 3 * old);
-    global scalar *taken = (global scalar *)(w->wall_history + 3 * new);
-    bits &= w->wall_active[old] & (to < from ? w->wall_active[new] : -1);
-    for (int l = 0; bits >> l != 0 && l < OZ_LANES; l++) {
-        int is_free = taken[l] == 0 && taken[OZ_LANES + l] == 0 && taken[2 * OZ_LANES + l] == 0;
-        for (int c = 0; c < 3 && is_free && (bits >> l) & 1; c++) {
-            taken[c * OZ_LANES + l] = given[c * OZ_LANES + l];
-        }
-    }
-    w->wall_active[new] |= bits; /* if the sieve does not pick them there, they are cleared */
-#endif
+    OzVec3 end = oz_scale(half_shaft, side->sign);
+    OzWallDistance at = oz_enclosure_side_distance(w, body.position, end, side);
+    oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + side->index,
+                      oz_lanes_bits(at.distance < near));
 }
 
-/* Which ends of a block touch another side with edges at the same place (wall_joint.h). */
-OZ_INLINE mask oz_enclosure_hidden(OzWork *w, const OzSide *sides, int k, int block, OzBody body,
-                                   OzVec3 end, OzWallDistance own, real radius)
-{
-    mask hidden = own.distance < REAL(0.0);
-    for (int j = OZ_ENCLOSURE_EDGED; j < OZ_ENCLOSURE_SHAFT; j++) {
-        if (j != k && sides[j].first == sides[k].first) {
-            OzVec3 from = oz_enclosure_from(w, body.position, end, &sides[j]);
-            OzWallDistance other = oz_wall_distance(from, sides[j].shape);
-            mask hides = oz_wall_joint_hides(from, sides[j].shape, other, j < k, own, radius);
-            oz_enclosure_hand_over(w, block, k, j, oz_lanes_bits(hides & !hidden));
-            hidden = hidden | hides;
-        }
-    }
-    return hidden;
-}
-
-/* The shafts of a block that may touch a side between their ends. */
-OZ_INLINE int oz_enclosure_across(const OzWork *w, const OzSide *side, OzBody body,
-                                  OzVec3 half_shaft, OzShape shape)
+/* Picks the ends and the shafts of a block at one wall with edges, whose sides are those from `tip`
+ * and from `ahead` on. A shaft may touch between its ends if they are not flush with the wall,
+ * which no point of the shaft is nearer to by more than its way from the middle or an end. */
+OZ_INLINE void oz_enclosure_sieve_rods(OzWork *w, const OzSide *tip, const OzSide *ahead,
+                                       OzBody body, OzVec3 half_shaft, OzShape shape, int block)
 {
     OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
-    OzVec3 from = oz_enclosure_from(w, body.position, none, side);
-    real near = shape.radius * REAL(1 + OZ_PAIRS_MARGIN) + shape.half_length;
-    real tip = oz_wall_flush(oz_add(from, half_shaft), side->shape);
-    real tail = oz_wall_flush(oz_minus(from, half_shaft), side->shape);
-    mask apart = !(tip * tail > REAL(0.0)) & (shape.half_length > REAL(0.0));
-    return oz_lanes_bits(apart & (oz_wall_distance(from, side->shape).distance < near));
+    real near = shape.radius * REAL(1 + OZ_PAIRS_MARGIN);
+    OzVec3 from = oz_enclosure_side_from(w, body.position, none, tip);
+    real middle = oz_wall_distance(from, tip->shape).distance - shape.half_length;
+    int at_tip = 0, at_tail = 0, across = 0;
+    if (OZ_ANY(middle < near)) {
+        OzVec3 one = oz_add(from, half_shaft), other = oz_minus(from, half_shaft);
+        real there = oz_wall_distance(one, tip->shape).distance;
+        real here = oz_wall_distance(other, tip->shape).distance;
+        at_tip = oz_lanes_bits(there < near);
+        at_tail = oz_lanes_bits(here < near);
+        across = oz_lanes_bits((shape.half_length > REAL(0.0)) &
+                               (REAL(0.5) * (middle + oz_smaller(here, there)) < near));
+        if (across != 0) {
+            real flush = oz_wall_flush(one, tip->shape) * oz_wall_flush(other, tip->shape);
+            across &= ~oz_lanes_bits(flush > REAL(0.0));
+        }
+    }
+    size_t first = (size_t)block * OZ_WALL_ENDS;
+    oz_enclosure_part(w, first + tip->index, at_tip);
+    oz_enclosure_part(w, first + tip->index + 1, at_tail);
+    for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
+        oz_enclosure_part(w, first + ahead->index + part, across);
+    }
 }
 
 /* Picks the ends of a block of grains that touch a wall, or nearly so. */
@@ -347,24 +266,16 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
     OzShape shape = oz_grains_shape(w, block);
     OzVec3 half_shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
     real near = shape.radius * REAL(1 + OZ_PAIRS_MARGIN);
-    for (int k = 0; k < OZ_ENCLOSURE_SHAFT; k++) {
-        OzVec3 end = oz_scale(half_shaft, sides[k].sign);
-        OzWallDistance at = oz_enclosure_distance(w, body.position, end, &sides[k]);
-        int bits = oz_lanes_bits(at.distance < near);
-        if (k >= OZ_ENCLOSURE_EDGED && bits != 0) {
-            bits &= ~oz_lanes_bits(
-                oz_enclosure_hidden(w, sides, k, block, body, end, at, shape.radius));
-        }
-        oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + k, bits);
+    int plain = OZ_ROUND ? OZ_ENCLOSURE_SHAFT : OZ_ENCLOSURE_EDGED;
+    for (int k = 0; k < plain; k++) {
+        oz_enclosure_sieve_end(w, &sides[k], body, half_shaft, near, block);
+    }
+    for (int wall = 0; plain + 2 * wall < OZ_ENCLOSURE_SHAFT; wall++) {
+        const OzSide *ahead = &sides[OZ_ENCLOSURE_SHAFT + OZ_WALL_SHAFT_PARTS * wall];
+        oz_enclosure_sieve_rods(w, &sides[plain + 2 * wall], ahead, body, half_shaft, shape, block);
     }
     for (int part = 0; part < (OZ_ROUND ? 0 : 2 * (OZ_WALL_EDGED > 0)); part++) {
         w->wall_relief[(size_t)block * 2 + part] = REAL(0.0);
-    }
-    for (int k = OZ_ENCLOSURE_SHAFT; k < OZ_WALL_ENDS; k += OZ_WALL_SHAFT_PARTS) {
-        int bits = oz_enclosure_across(w, &sides[k], body, half_shaft, shape);
-        for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
-            oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + k + part, bits);
-        }
     }
 #if OZ_LEDGER
     global real *words = w->wall_ledger + (size_t)block * OZ_WALL_ENDS * OZ_CONTACT_LEDGER;
@@ -374,10 +285,11 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
 #endif
 }
 
-/* Forces of a region's picked ends of one side. One side is finished for all grains of the region
+/* Handles a region's picked ends of one side. One side is finished for all grains of the region
  * before the next is begun. So a grain's forces are added in the order of walls, whichever ends
  * happen to share a block. */
-OZ_INLINE void oz_enclosure_side_region(OzWork *w, const OzSide *sides, int k, int region, int step)
+OZ_INLINE void oz_enclosure_handle_region(OzWork *w, const OzSide *sides, int k, int joins,
+                                          int region, int step)
 {
     int end = oz_work_block_end(w, region);
     OzActive active;
@@ -392,7 +304,7 @@ OZ_INLINE void oz_enclosure_side_region(OzWork *w, const OzSide *sides, int k, i
             int due = oz_active_due(&active, last);
             oz_active_fill(&active, due);
             for (int at = 0; at < due; at += OZ_LANES) {
-                oz_enclosure_forces(w, sides, k, active.item + at, active.count - at, step);
+                oz_enclosure_handle(w, sides, k, joins, active.item + at, active.count - at, step);
             }
             oz_active_drop(&active, due);
         }
@@ -403,17 +315,20 @@ OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
 {
     OzSide sides[OZ_WALL_ENDS];
     for (int k = 0; k < OZ_WALL_ENDS; k++) {
-        sides[k] = oz_enclosure_side(w, k, step);
+        sides[k] = oz_enclosure_side_of(w, k, step);
     }
     for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region);
          block++) {
         oz_enclosure_sieve(w, sides, block);
     }
+    for (int k = OZ_ENCLOSURE_EDGED; k < OZ_ENCLOSURE_SHAFT; k++) {
+        oz_enclosure_handle_region(w, sides, k, 1, region, step);
+    }
     for (int k = OZ_ENCLOSURE_SHAFT; k < OZ_WALL_ENDS; k += OZ_WALL_SHAFT_PARTS) {
-        oz_enclosure_side_region(w, sides, k, region, step);
+        oz_enclosure_handle_region(w, sides, k, 0, region, step);
     }
     for (int k = 0; k < OZ_ENCLOSURE_SHAFT; k++) {
-        oz_enclosure_side_region(w, sides, k, region, step);
+        oz_enclosure_handle_region(w, sides, k, 0, region, step);
     }
 }
 

@@ -88,8 +88,8 @@ OZ_INLINE scalar oz_ledger_wall_speed(const OzWork *w, int wall, int step)
 OZ_INLINE OzVec3 oz_ledger_wall_velocity(const OzWork *w, OzGrain grain, OzVec3 arm, int index,
                                          int step)
 {
-    OzSide side = oz_enclosure_side(w, index, step);
-    return oz_enclosure_velocity(w, grain.position, arm, &side);
+    OzSide side = oz_enclosure_side_of(w, index, step);
+    return oz_enclosure_side_velocity(w, grain.position, arm, &side);
 }
 
 OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)

@@ -1,0 +1,127 @@
+/* A wall, and what of every grain may touch it, as a step's forces see them: where they stand and
+ * how the wall moves. OpenCL C only. */
+#pragma once
+
+#include "kernels/grains.h"
+#include "kernels/wall_drive.h"
+
+#if OZ_WALL_COUNT > 0
+
+/* The forces of a step see the walls where they stand at the beginning of this step: the next one
+ * where the integrator moves grains before the forces. */
+#if OZ_MOVES_BEFORE
+#define OZ_ENCLOSURE_STEP(step) ((step) + 1)
+#else
+#define OZ_ENCLOSURE_STEP(step) (step)
+#endif
+
+/* The first end at a wall with edges, and the first point of a shaft. */
+#define OZ_ENCLOSURE_SHAFT ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
+#define OZ_ENCLOSURE_EDGED (OZ_ENCLOSURE_SHAFT - (OZ_ROUND ? 1 : 2) * OZ_WALL_EDGED)
+
+/* One of the two ends of every grain, or a point of its shaft, paired with one wall: what is the
+ * same for all grains in a step. */
+typedef struct OzSide {
+    int wall;
+    real sign; /* of the half-shaft that leads to the end: 1 or -1 */
+    int index; /* among all ends and points at all walls           */
+    int part;  /* OZ_WALL_TIP ...                                  */
+    int first; /* the first end: a sphere has no other             */
+    OzWallShape shape;
+    fixed_position_kind point[3]; /* the shape's                             */
+    scalar unit;
+    scalar offset, speed;   /* m, m/s of the wall along its direction: z without OZ_FREE_MOTION */
+    scalar rise, rise_rest; /* units: the offset with all its digits   */
+    scalar rate;            /* rad/s                                   */
+} OzSide;
+
+OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
+{
+    OzSide side;
+    int ends = OZ_ROUND ? 1 : 2;
+    side.index = index;
+    side.wall = oz_wall_shaft_wall(index, ends, OZ_WALL_COUNT, OZ_WALL_EDGED);
+    side.part = oz_wall_shaft_part(index, ends, OZ_WALL_COUNT);
+    side.first = side.part == OZ_WALL_TIP;
+    side.sign = REAL(side.first ? 1.0 : -1.0);
+    side.shape = w->parameters->wall[side.wall].shape;
+    side.shape.kind = oz_wall_kind(side.wall);
+    for (int c = 0; c < 3; c++) {
+        side.point[c] = (fixed_position_kind)side.shape.point[c];
+    }
+    side.unit = w->parameters->length_unit;
+    side.offset = side.speed = side.rise = side.rise_rest = 0;
+    if (OZ_MOVING) {
+        size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * OZ_WALL_COUNT + side.wall;
+        side.offset = w->motion[OZ_MOTION * at];
+        side.speed = w->motion[OZ_MOTION * at + OZ_M_SPEED];
+        side.rise = w->motion[OZ_MOTION * at + OZ_M_RISE];
+        side.rise_rest = w->motion[OZ_MOTION * at + OZ_M_RISE_REST];
+        side.rate = w->motion[OZ_MOTION * at + OZ_M_RATE];
+    }
+    return side;
+}
+
+/* How the side's wall moves. */
+OZ_INLINE OzWallDrive oz_enclosure_side_drive(const OzWork *w, const OzSide *side)
+{
+    OzWallDrive drive;
+    const OzWallParameters wall = w->parameters->wall[side->wall];
+    drive.direction =
+        oz_vec3(REAL(wall.direction[0]), REAL(wall.direction[1]), REAL(wall.direction[2]));
+    drive.axis = oz_vec3(REAL(wall.axis[0]), REAL(wall.axis[1]), REAL(wall.axis[2]));
+    drive.offset = REAL(side->offset);
+    drive.speed = REAL(side->speed);
+    drive.rate = REAL(side->rate);
+    return drive;
+}
+
+/* A place on a grain, `end` from its centre, seen from the wall's point, where that is now. */
+OZ_INLINE OzVec3 oz_enclosure_side_from(const OzWork *w, OzFixedPosition position_, OzVec3 end,
+                                        const OzSide *side)
+{
+    scalar unit = side->unit;
+    OzVec3 from = oz_vec3(oz_fixed_position_to_real(position_.x - side->point[0]) * unit + end.x,
+                          oz_fixed_position_to_real(position_.y - side->point[1]) * unit + end.y,
+                          oz_fixed_position_to_real(position_.z - side->point[2]) * unit + end.z -
+                              (OZ_FREE_MOTION ? 0 : side->offset));
+    if (OZ_FREE_MOTION) {
+        OzWallDrive drive = oz_enclosure_side_drive(w, side);
+        from = oz_along(from, -drive.offset, drive.direction);
+    }
+    return from;
+}
+
+OZ_INLINE OzWallDistance oz_enclosure_side_distance(const OzWork *w, OzFixedPosition position_,
+                                                    OzVec3 end, const OzSide *side)
+{
+    return oz_wall_distance(oz_enclosure_side_from(w, position_, end, side), side->shape);
+}
+
+/* The wall's velocity where it touches a grain, arm from the grain's centre. */
+OZ_INLINE OzVec3 oz_enclosure_side_velocity(const OzWork *w, OzFixedPosition position_, OzVec3 arm,
+                                            const OzSide *side)
+{
+    if (!OZ_FREE_MOTION) {
+        return oz_vec3(REAL(0.0), REAL(0.0), REAL(side->speed));
+    }
+    return oz_wall_drive_velocity(oz_enclosure_side_drive(w, side),
+                                  oz_enclosure_side_from(w, position_, arm, side));
+}
+
+#if OZ_FINE
+/* The overlap of ends and a wall. */
+OZ_INLINE real oz_enclosure_side_fine(const OzWork *w, OzGrain grain, const OzSide *side)
+{
+    real unit = grain.radius / grain.fine.radius;
+    OzFixedPosition from = grain.position; /* of every lane the same */
+    from.x = side->point[0];
+    from.y = side->point[1];
+    from.z = side->point[2];
+    OzFine rise = {REAL(side->rise), REAL(side->rise_rest)};
+    return unit * oz_wall_overlap(oz_fine_end(grain.fine, side->sign, from), side->shape, rise,
+                                  grain.fine.radius, w->parameters->inverse_unit);
+}
+#endif
+
+#endif
