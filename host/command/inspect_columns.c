@@ -73,7 +73,8 @@ static const struct {
 } reasons[] = {
     {"density", "", lacks_density, "no cylinder or no floor"},
     {"angle", "", lacks_shafts, "no shafts"},
-    {"nematic_s", "", lacks_shafts, "no shafts"},
+    {"nematic_", "", lacks_shafts, "no shafts"},
+    {"psi6", "", lacks_shafts, "no shafts"},
     {"tap", "", lacks_period, "no wall moves up and down"},
     {"", "_tap_mean", lacks_period, "no wall moves up and down"},
     {"outflow_", "", lacks_outlet, "no observe.outlet"},

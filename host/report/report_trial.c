@@ -13,7 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAME_SIZE = 128, SEED_SETTING = 32 };
+enum {
+    NAME_SIZE = 128,
+    SEED_SETTING = 32,
+    QUICK_SEEDS = 3 /* of two the 95 % interval is thirteen times their deviation */
+};
 
 /* The members of one variant. */
 typedef struct Members {
@@ -36,7 +40,7 @@ static int count_variants(const OzTrial *trial)
 
 static int count_seeds(const OzTrial *trial, const OzOptions *options)
 {
-    int count = options->quick && trial->seeds > 2 ? 2 : trial->seeds;
+    int count = options->quick && trial->seeds > QUICK_SEEDS ? QUICK_SEEDS : trial->seeds;
     if (options->has_seeds && trial->seeds > 1) {
         uint64_t asked = options->seed_last - options->seed_first + 1;
         count = asked < OZ_TRIAL_SEEDS ? (int)asked : OZ_TRIAL_SEEDS;

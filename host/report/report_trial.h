@@ -27,8 +27,9 @@ typedef struct OzTrialOutcome {
     OzTrialNumbers numbers[OZ_TRIAL_SEEDS][OZ_TRIAL_VARIANTS];
 } OzTrialOutcome;
 
-/* Seeds are the user's, else the trial's (--quick: two at most); the user's settings come after the
- * scene's and before the variant's. With a path the scene is read from there, else from the copy in
- * the program. Fails as a run does; a member that a guard stops fails with OZ_ERR_BLOWUP. */
+/* Seeds are the user's, else the trial's (--quick: three at most); the user's settings come after
+ * the scene's and before the variant's. With a path the scene is read from there, else from the
+ * copy in the program. Fails as a run does; a member that a guard stops fails with OZ_ERR_BLOWUP.
+ */
 OzStatus oz_report_trial_run(OzTrialOutcome *outcome, const OzTrial *trial, const char *path,
                              const OzOptions *options, const OzDevice *device);

@@ -77,7 +77,7 @@ static void print_row(Table *table, const OzKnown *known, int seeds, OzMoments m
     range_text(known, range, sizeof range);
     snprintf(quantity, sizeof quantity, "%s%s%s", known->quantity, known->unit[0] ? ", " : "",
              known->unit);
-    if (seeds > 1) {
+    if (m.interval > 0) {
         snprintf(ours, sizeof ours, "%.4g +- %.2g", m.mean, m.interval);
     } else {
         snprintf(ours, sizeof ours, "%.5g", m.mean);
@@ -99,14 +99,16 @@ static void print_row(Table *table, const OzKnown *known, int seeds, OzMoments m
     table->unexplained += agreement == OZ_DIFFERS && !known->cause;
 }
 
-static OzMoments moments_of(const OzKnown *known, const OzTrialOutcome *outcome)
+/* Where nothing depends on the seed one is all; of several seeds one alone says nothing of the
+ * spread. */
+static OzMoments moments_of(const OzKnown *known, const OzTrialOutcome *outcome, int seeds_meant)
 {
     double values[OZ_TRIAL_SEEDS];
     for (int s = 0; s < outcome->seeds; s++) {
         values[s] = known->value((const OzTrialNumbers *)outcome->numbers[s]);
     }
     OzMoments moments = oz_student_moments(values, outcome->seeds);
-    moments.interval = outcome->seeds > 1 ? moments.interval : 0;
+    moments.interval = seeds_meant > 1 ? moments.interval : 0;
     return moments;
 }
 
@@ -123,7 +125,8 @@ static OzStatus make(Table *table, const OzValidation *row, const char *path,
     OZ_TRY(OZ_NEW(&outcome, 1));
     OZ_TRY(oz_report_trial_run(outcome, &row->trial, path, options, device));
     for (int k = 0; k < OZ_VALIDATION_KNOWN && row->known[k].quantity; k++) {
-        print_row(table, &row->known[k], outcome->seeds, moments_of(&row->known[k], outcome));
+        print_row(table, &row->known[k], outcome->seeds,
+                  moments_of(&row->known[k], outcome, row->trial.seeds));
     }
     oz_log_line("%s: %.0f s", row->name, oz_clock_now() - start);
 done:

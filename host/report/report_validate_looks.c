@@ -4,6 +4,7 @@
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
+static const double BEVERLOO_K = 1.4; /* diameters, of spheres */
 
 enum {
     HALF_OF_LOOKS = 20, /* of silo and drum, which look 40 times */
@@ -13,8 +14,10 @@ enum {
 void oz_report_validate_looks_ball(OzTrialNumbers numbers, const OzSnapshot *now, int look)
 {
     double radius = now->grains->diameter[0] / 2, speed = now->velocity[0];
+    const double *g = now->scene->gravity;
     if (look > 0) {
-        numbers[OZ_LOOK_BALL_SPEED] = speed / (now->scene->gravity[0] * now->time);
+        numbers[OZ_LOOK_BALL_INCLINE] = -g[0] / g[2] / now->scene->contact.friction;
+        numbers[OZ_LOOK_BALL_SPEED] = speed / (g[0] * now->time);
         numbers[OZ_LOOK_BALL_SLIP] = 1 - now->angular_velocity[1] * radius / speed;
     }
 }
@@ -43,6 +46,7 @@ void oz_report_validate_looks_hit(OzTrialNumbers numbers, const OzSnapshot *now,
     numbers[OZ_LOOK_HIT_RESTITUTION] = -v[normal] / start[normal];
     numbers[OZ_LOOK_HIT_TANGENTIAL] = v[0] / start[0];
     numbers[OZ_LOOK_HIT_SPIN] = fabs(now->angular_velocity[1]);
+    numbers[OZ_LOOK_HIT_ASKED] = now->scene->contact.restitution;
     numbers[OZ_LOOK_HIT_BEFORE] = overlap;
 }
 
@@ -70,8 +74,10 @@ void oz_report_validate_looks_silo(OzTrialNumbers numbers, const OzSnapshot *now
     oz_contact_list_push_walls(&now->contacts, force, 2);
     numbers[OZ_LOOK_SILO_FLOOR] -= force[0][2];
     numbers[OZ_LOOK_SILO_LOOKS]++;
-    numbers[OZ_LOOK_SILO_WEIGHT] = -mass * now->scene->gravity[2];
-    numbers[OZ_LOOK_SILO_HEIGHT] = 2 * (centre[2] + now->wall_offset[0]); /* it goes down */
+    const OzWall *tube = &now->scene->walls[1];
+    double weight = -mass * now->scene->gravity[2];
+    double height = 2 * (centre[2] + now->wall_offset[0]); /* the floor goes down */
+    numbers[OZ_LOOK_SILO_COLUMN] = weight / height * tube->diameter / (4 * tube->contact.friction);
 }
 
 /* Kinetic theory of inelastic spheres: the rate of cooling is (1 - e^2)/3 of the rate of hits, and
@@ -147,7 +153,7 @@ static void see_bed(OzTrialNumbers numbers, const OzSnapshot *now)
     }
     double low = tube->point[2] + 2 * size, height = 5 * size;
     double area = PI / 4 * tube->diameter * tube->diameter;
-    numbers[OZ_LOOK_HOPPER_SIZE] = size;
+    numbers[OZ_LOOK_HOPPER_FREE] = now->scene->walls[0].diameters[0] - BEVERLOO_K * size;
     numbers[OZ_LOOK_HOPPER_DENSITY] =
         mass_between(now, low, low + height, &share) / (area * height);
 }

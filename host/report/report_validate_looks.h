@@ -3,9 +3,12 @@
 
 #include "report/report_trial.h"
 
-/* A ball that starts from rest: speed over g_x t, and the share of it that the touching point has,
- * at the last look. */
-enum { OZ_LOOK_BALL_SPEED, OZ_LOOK_BALL_SLIP };
+/* A ball that starts from rest, at the last look. */
+enum {
+    OZ_LOOK_BALL_SPEED,  /* over g_x t                                                      */
+    OZ_LOOK_BALL_SLIP,   /* the share of it that the touching point has                     */
+    OZ_LOOK_BALL_INCLINE /* tan(theta) over the coefficient of friction                     */
+};
 void oz_report_validate_looks_ball(OzTrialNumbers numbers, const OzSnapshot *now, int look);
 
 /* A hit of two grains, or of one and the plane z = 0, that begins at time 0. */
@@ -15,16 +18,17 @@ enum {
     OZ_LOOK_HIT_RESTITUTION, /* speed of grain 0 along the normal over that at the start   */
     OZ_LOOK_HIT_TANGENTIAL,  /* the same along the plane (x)                               */
     OZ_LOOK_HIT_SPIN,        /* rad/s, about y, without sign                               */
+    OZ_LOOK_HIT_ASKED,       /* the scene's restitution                                    */
     OZ_LOOK_HIT_BEFORE       /* on the way: m, the overlap at the last look                */
 };
 void oz_report_validate_looks_hit(OzTrialNumbers numbers, const OzSnapshot *now, int look);
 
 /* What a silo's floor (walls.0) carries, in the mean over the later half of the looks. */
 enum {
-    OZ_LOOK_SILO_FLOOR,  /* N, sum over those looks                                        */
-    OZ_LOOK_SILO_LOOKS,  /* their number                                                   */
-    OZ_LOOK_SILO_WEIGHT, /* N, of all grains                                               */
-    OZ_LOOK_SILO_HEIGHT  /* m, twice the centre of mass's above the floor                  */
+    OZ_LOOK_SILO_FLOOR, /* N, sum over those looks                                        */
+    OZ_LOOK_SILO_LOOKS, /* their number                                                   */
+    OZ_LOOK_SILO_COLUMN /* N, the weight of a height D / (4 mu) of the bed, mu the wall's friction:
+                           what the floor carries in a deep one at K = 1                  */
 };
 void oz_report_validate_looks_silo(OzTrialNumbers numbers, const OzSnapshot *now, int look);
 
@@ -55,6 +59,6 @@ enum {
     OZ_LOOK_HOPPER_BEFORE,  /* kg, what had then                                            */
     OZ_LOOK_HOPPER_TO,      /* s, the last look at which 45 % had not                       */
     OZ_LOOK_HOPPER_AFTER,   /* kg, what had then                                            */
-    OZ_LOOK_HOPPER_SIZE     /* m, mean diameter of a sphere                                 */
+    OZ_LOOK_HOPPER_FREE     /* m, D - 1.4 d of the hole                                     */
 };
 void oz_report_validate_looks_hopper(OzTrialNumbers numbers, const OzSnapshot *now, int look);
