@@ -40,7 +40,7 @@ static inline OzImage draw_states(const OzSnapshot *snapshots, int count, const 
 
 static inline double pixels_per_metre(const OzLook *look)
 {
-    OzCamera camera = oz_camera_make(look);
+    OzCamera camera = oz_camera_make(look, 0);
     return camera.scale / camera.unit;
 }
 

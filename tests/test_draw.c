@@ -17,7 +17,7 @@ static double disc_from(double distance, double radius)
 
 static double eye_distance(const OzLook *look)
 {
-    OzCamera camera = oz_camera_make(look);
+    OzCamera camera = oz_camera_make(look, 0);
     return camera.distance * camera.unit;
 }
 

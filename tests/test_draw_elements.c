@@ -260,7 +260,7 @@ static void wall_is_drawn_until_it_is_gone(void **state)
     for (int i = 0; i < 3; i++) {
         heap.snapshot.time = 0.25 * (i + 1);
         OzImage image = draw(&heap, &look);
-        OzCamera camera = oz_camera_make(&look);
+        OzCamera camera = oz_camera_make(&look, 0);
         const OzPanel *panel = &camera.panels[0];
         size_t row = (size_t)(panel->middle_y + 0.4e-3 * camera.scale / camera.unit);
         shown[i] = darkness(image.pixels + 4 * (row * SIDE + (size_t)panel->middle_x));

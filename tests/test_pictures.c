@@ -115,7 +115,7 @@ static void walls_follow_a_grain_that_jumps(void **state)
     look.view_count = 1;
     look.height_high = 5e-3; /* as of a flat bed: half the picture is left above */
     look.elevation = 0;
-    OzCamera camera = oz_camera_make(&look);
+    OzCamera camera = oz_camera_make(&look, 0);
     double scale = camera.scale / camera.unit, middle = camera.centre[2];
     int side = (int)lround(camera.panels[0].middle_x + scale * 4e-3); /* the glass's edge */
     int framed = (int)(camera.panels[0].middle_y - scale * (look.height_high - middle));
@@ -201,7 +201,7 @@ static void shadows_have_no_hard_edges(void **state)
     look.height = 1800;
     look.view_count = 1;
     look.elevation = 0.8;
-    OzCamera camera = oz_camera_make(&look);
+    OzCamera camera = oz_camera_make(&look, 0);
     double scale = camera.scale / camera.unit;
     double lowest = (3.5e-3 - camera.centre[2]) * cos(look.elevation) - 1e-3; /* of the rod */
     int column = (int)camera.panels[0].middle_x, step = 0, darkest = 255;

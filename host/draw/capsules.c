@@ -157,13 +157,14 @@ static void end_upload(Upload *upload)
     free(upload->records);
 }
 
-OzStatus oz_capsules_upload(OzCapsules *capsules, const OzBodies *bodies)
+OzStatus oz_capsules_upload(OzCapsules *capsules, const OzBodies *const bodies[2])
 {
     const OzGl *gl = capsules->gl;
     OzStatus status = OZ_OK;
-    Upload upload = {.all = bodies};
+    Upload upload = {.all = bodies[0]};
     OZ_TRY(begin_upload(&upload));
-    for (int view = 0; view < bodies->look->view_count; view++) {
+    for (int view = 0; view < bodies[0]->look->view_count; view++) {
+        upload.all = bodies[view];
         OZ_TRY(add_view(&upload, capsules, view));
     }
     gl->BindBuffer(GL_ARRAY_BUFFER, capsules->buffer);

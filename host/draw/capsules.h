@@ -23,8 +23,8 @@ typedef struct OzCapsules {
 OzStatus oz_capsules_create(OzCapsules *capsules, const OzGl *gl, const char *source_dir);
 void oz_capsules_free(OzCapsules *capsules);
 
-/* Takes over the bodies that their look's views show, in the look's colours. */
-OzStatus oz_capsules_upload(OzCapsules *capsules, const OzBodies *bodies);
+/* Takes over what each of their look's views shows of its bodies, in the look's colours. */
+OzStatus oz_capsules_upload(OzCapsules *capsules, const OzBodies *const bodies[2]);
 
 /* Draws the look's view of that number into the current viewport of the given width and height,
  * pixels; a cut view with the outlines of those before the plane over the others, if the look has

@@ -49,10 +49,11 @@ static double line_width(const Scope *scope)
     return fmax(1.0, 0.0021 * scope->look->height);
 }
 
+/* angle: from the right of the picture, so that the eye sees the front from pi to 2 pi. */
 static void on_circle(const Scope *scope, double angle, double z, double point[3])
 {
-    point[0] = scope->radius * cos(angle);
-    point[1] = scope->radius * sin(angle);
+    point[0] = scope->radius * cos(angle + scope->camera->azimuth);
+    point[1] = scope->radius * sin(angle + scope->camera->azimuth);
     point[2] = z;
 }
 
@@ -148,8 +149,10 @@ static void add_piston(OzContainer *container, const Scope *scope, double z)
 static void add_walls(OzMesh *behind, OzMesh *before, const Scope *scope, const double ends[2])
 {
     add_glass(behind, scope, false, ends);
-    for (int side = -1; side <= 1; side += 2) {
-        double foot[3] = {side * scope->radius, 0, ends[0]}, top[3] = {foot[0], 0, ends[1]};
+    for (int side = 0; side <= 1; side++) {
+        double foot[3], top[3];
+        on_circle(scope, side * PI, ends[0], foot);
+        on_circle(scope, side * PI, ends[1], top);
         oz_mesh_line(before, scope->camera, foot, top, line_width(scope), EDGE);
     }
     if (scope->view != OZ_VIEW_CUT) {

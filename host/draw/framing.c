@@ -13,6 +13,9 @@ static const double PI = 3.14159265358979323846;
  * is seen nearly straight on. */
 static const double ELEVATION = 11 * 3.14159265358979323846 / 180;
 
+/* Of a view from any side, where a scene does not say more. */
+static const double FREE = 30 * 3.14159265358979323846 / 180;
+
 /* The space that the picture must hold, m. */
 typedef struct Room {
     double low[3], high[3];
@@ -155,9 +158,9 @@ double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapsh
 {
     double height = look->height_high - look->height_low, top = look->height_high - 0.01 * height;
     /* The picture's upper edge, where the back of a wall is seen lowest, and a little more. */
-    double rise = sin(look->elevation) * look->half_width +
+    double rise = sin(fabs(camera->elevation)) * look->half_width +
                   camera->panels[0].middle_y / camera->scale * camera->unit;
-    double most = camera->centre[2] + 1.1 * rise / fmax(cos(look->elevation), 0.1);
+    double most = camera->centre[2] + 1.1 * rise / fmax(cos(camera->elevation), 0.1);
     for (int64_t i = 0; i < snapshot->count; i++) {
         double reach = 0.5 * (snapshot->grains->diameter[i] +
                               snapshot->grains->length[i] * fabs(snapshot->axis[3 * i + 2]));
@@ -187,6 +190,23 @@ static double typical_speed(const OzScene *scene, const OzSnapshot *snapshot, do
     return speed > 0 ? oz_palette_round_up(speed) : 1;
 }
 
+static void take_camera(OzLook *look, const OzMovieSettings *movie)
+{
+    look->free_azimuth = movie->has_azimuth ? movie->azimuth : FREE;
+    look->free_elevation = movie->has_elevation ? movie->elevation : FREE;
+    look->zoom = movie->zoom;
+    look->plain = movie->style == OZ_STYLE_PAPER;
+    look->no_legend = !movie->legend;
+    look->has_target = movie->has_target;
+    look->has_follow = movie->has_follow;
+    look->follow = movie->follow;
+    look->has_background = movie->has_background;
+    for (int k = 0; k < 3; k++) {
+        look->target[k] = movie->target[k];
+        look->background[k] = (float)movie->background[k];
+    }
+}
+
 static void take_settings(OzLook *look, const OzMovieSettings *movie)
 {
     if (movie->width > 0) { /* a loaded scene has them filled in, movie or not */
@@ -197,6 +217,7 @@ static void take_settings(OzLook *look, const OzMovieSettings *movie)
         look->views[1] = movie->views[1];
         look->colour = movie->colour;
         look->cut_outlines = movie->cut_outlines;
+        take_camera(look, movie);
     }
 }
 
@@ -210,7 +231,8 @@ static void frame_standing(OzLook *look, const OzScene *scene, const OzSnapshot 
     close_by_planes(&room, scene);
     look->height_low = room.low[2];
     look->height_high = fmax(room.high[2], room.low[2] + 1e-9);
-    if (isfinite(radius)) {
+    look->is_round = isfinite(radius);
+    if (look->is_round) {
         look->half_width = radius;
     } else {
         double wide = fmax(room.high[0] - room.low[0], room.high[1] - room.low[1]);

@@ -140,21 +140,23 @@ static OzStatus draw_view(OzGlDrawing *drawing, const OzBodies *bodies, int view
     return oz_gl_check(&drawing->context.gl, "drawing a view");
 }
 
-OzStatus oz_gl_drawing_views(OzGlDrawing *drawing, const OzBodies *bodies)
+OzStatus oz_gl_drawing_views(OzGlDrawing *drawing, const OzBodies *const bodies[2])
 {
-    OZ_PASS(open_drawing(drawing, bodies->look));
+    const OzLook *look = bodies[0]->look;
+    OZ_PASS(open_drawing(drawing, look));
     OZ_PASS(make_for_rods(drawing));
     OZ_PASS(oz_capsules_upload(&drawing->capsules, bodies));
     drawing->context.gl.Enable(GL_DEPTH_TEST);
-    for (int view = 0; view < bodies->look->view_count; view++) {
-        OZ_PASS(draw_view(drawing, bodies, view));
+    for (int view = 0; view < look->view_count; view++) {
+        OZ_PASS(draw_view(drawing, bodies[view], view));
+        drawing->high[view] = drawing->container.high;
     }
     return OZ_OK;
 }
 
 OzBox oz_gl_drawing_box(const OzGlDrawing *drawing, const OzBodies *bodies, int view)
 {
-    return oz_bodies_box(bodies, view, bodies->look->bare ? 0 : drawing->container.high);
+    return oz_bodies_box(bodies, view, bodies->look->bare ? 0 : drawing->high[view]);
 }
 
 OzStatus oz_gl_drawing_read(const OzGlDrawing *drawing, const OzDrawn *drawn, const OzLook *look)

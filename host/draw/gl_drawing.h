@@ -16,7 +16,8 @@ typedef struct OzGlDrawing {
     OzContext context;
     const char *source_dir; /* as in oz_embed_read; borrowed */
     OzCapsules capsules;
-    OzContainer container; /* of the view drawn last */
+    OzContainer container; /* of the view drawn last                           */
+    double high[2];        /* of each view: as far up as its container is seen */
     OzMeshGl mesh_gl;
     OzPolygons polygons;
     GLuint compose, no_vertices;
@@ -31,10 +32,10 @@ void oz_gl_drawing_free(OzGlDrawing *drawing); /* zeroed is fine */
 /* Whether a program on the processor plays the GPU. */
 bool oz_gl_drawing_is_slow(const OzGlDrawing *drawing);
 
-/* All views of rods, to be read. Fails with OZ_ERR_GRAPHICS, beyond the driver's largest picture
- * too.
+/* All views of rods, each of its bodies, to be read. Fails with OZ_ERR_GRAPHICS, beyond the
+ * driver's largest picture too.
  */
-OzStatus oz_gl_drawing_views(OzGlDrawing *drawing, const OzBodies *bodies);
+OzStatus oz_gl_drawing_views(OzGlDrawing *drawing, const OzBodies *const bodies[2]);
 
 /* What a view may have painted, after that. */
 OzBox oz_gl_drawing_box(const OzGlDrawing *drawing, const OzBodies *bodies, int view);

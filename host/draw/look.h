@@ -17,9 +17,20 @@ typedef struct OzLook {
     double height_low, height_high; /* m: the vertical range that the camera frames */
     double speed_high;              /* m/s at the top of the colour bar, for OZ_COLOUR_SPEED */
     double centre[2];               /* m: x and y at the middle of the picture */
-    double half_width;    /* m: what is framed to the left and right of the middle, and in depth */
-    double cut;           /* m: the cut view shows what lies at y above this */
-    double elevation;     /* rad: how far above the horizon the camera stands */
+    double half_width; /* m: what is framed to the left and right of the middle, and in depth */
+    double cut;        /* m: the cut view shows what lies at y above this */
+    double elevation;  /* rad: how far above the horizon the camera stands, but for: */
+    double free_azimuth, free_elevation; /* rad: of OZ_VIEW_FREE (scene_types.h) */
+    double zoom;                         /* times as large as what fits; 0: 1 */
+    double target[3]; /* m: what is in the middle of the picture, instead of what is framed's */
+    bool has_target;
+    int64_t follow; /* number of the grain that is there instead */
+    bool has_follow;
+    bool is_round;       /* what is framed is as wide from all sides           */
+    bool plain;          /* on white, no overlay                               */
+    bool no_legend;      /* the overlay does not say what colours mean         */
+    float background[3]; /* red, green, blue, 0 to 1 */
+    bool has_background;
     bool bare;            /* grains alone on white: no container, no overlay */
     bool flat;            /* seen straight on in the plane x-y, as trigrains are: height_low and
                            * height_high are of y, views and cut say nothing */

@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const float INK[3] = {0.15f, 0.17f, 0.21f};
-static const float PALE[3] = {0.38f, 0.41f, 0.47f};
+/* Text on what is light, and on what is dark. */
+static const float INK[2][3] = {{0.15f, 0.17f, 0.21f}, {0.93f, 0.94f, 0.96f}};
+static const float PALE[2][3] = {{0.38f, 0.41f, 0.47f}, {0.70f, 0.73f, 0.78f}};
 
 /* What every part needs. */
 typedef struct Page {
@@ -19,7 +20,8 @@ typedef struct Page {
     const OzSnapshot *snapshot;
     const OzLook *look;
     const OzCamera *camera;
-    double size, margin; /* pixels: the text's size, the blank border */
+    double size, margin;     /* pixels: the text's size, the blank border */
+    const float *ink, *pale; /* red, green, blue of text */
 } Page;
 
 /* The beginning of a text that fits, with an ellipsis; the size stays. */
@@ -75,7 +77,8 @@ static void fill(const Page *page, double left, double top, double right, double
 static void add_heading(const Page *page)
 {
     const OzScene *scene = page->snapshot->scene;
-    const char *title = scene->title && *scene->title ? scene->title : scene->name;
+    const char *own = scene->movie.title ? scene->movie.title : scene->title;
+    const char *title = own && *own ? own : scene->name;
     double y = page->margin + 0.9 * page->size;
     char text[96];
     int used = snprintf(text, sizeof text, "t = %.3f s", page->snapshot->time);
@@ -84,26 +87,29 @@ static void add_heading(const Page *page)
                  oz_motion_tap(scene, page->snapshot->time));
     }
     if (title) {
-        write_text(page, OZ_WEIGHT_BOLD, 1.05 * page->size, 0, page->margin, y, INK, title);
+        write_text(page, OZ_WEIGHT_BOLD, 1.05 * page->size, 0, page->margin, y, page->ink, title);
         y += 1.45 * page->size;
     }
-    write_text(page, OZ_WEIGHT_REGULAR, page->size, 0, page->margin, y, INK, text);
+    write_text(page, OZ_WEIGHT_REGULAR, page->size, 0, page->margin, y, page->ink, text);
 }
 
 static void add_captions(const Page *page)
 {
     double y = page->look->height - page->margin - 0.25 * page->size;
+    static const char *const names[] = {[OZ_VIEW_LATERAL] = "lateral view",
+                                        [OZ_VIEW_CUT] = "axial cut",
+                                        [OZ_VIEW_TOP] = "from above",
+                                        [OZ_VIEW_FREE] = ""};
     char every[48];
     if (page->look->flat) {
         snprintf(every, sizeof every, "a state every %.4g s", page->look->strobe);
-        write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, 0.5 * page->look->width, y, PALE,
-                   page->look->strobe > 0 ? every : "");
+        write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, 0.5 * page->look->width, y,
+                   page->pale, page->look->strobe > 0 ? every : "");
         return;
     }
     for (int i = 0; i < page->camera->panel_count; i++) {
-        bool cut = page->look->views[i] == OZ_VIEW_CUT;
         write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, page->camera->panels[i].middle_x,
-                   y, PALE, cut ? "axial cut" : "lateral view");
+                   y, page->pale, names[page->look->views[i]]);
     }
 }
 
@@ -112,7 +118,7 @@ static void add_news(const Page *page)
 {
     double y = page->look->height - page->margin - 2.2 * page->size;
     if (page->look->caption) {
-        write_text(page, OZ_WEIGHT_BOLD, page->size, 0.5, 0.5 * page->look->width, y, INK,
+        write_text(page, OZ_WEIGHT_BOLD, page->size, 0.5, 0.5 * page->look->width, y, page->ink,
                    page->look->caption);
     }
 }
@@ -141,11 +147,11 @@ static void add_scale_bar(const Page *page)
     double tick = 0.25 * page->size;
     char text[32];
     length_text(text, sizeof text, length);
-    fill(page, x, y - thick, x + width, y, INK);
-    fill(page, x, y - tick - thick, x + 0.6 * thick, y, INK);
-    fill(page, x + width - 0.6 * thick, y - tick - thick, x + width, y, INK);
+    fill(page, x, y - thick, x + width, y, page->ink);
+    fill(page, x, y - tick - thick, x + 0.6 * thick, y, page->ink);
+    fill(page, x + width - 0.6 * thick, y - tick - thick, x + width, y, page->ink);
     write_text(page, OZ_WEIGHT_REGULAR, 0.9 * page->size, 0.5, x + 0.5 * width,
-               y - thick - 0.55 * page->size, INK, text);
+               y - thick - 0.55 * page->size, page->ink, text);
 }
 
 /* Directions of flat grains' long axes go half around. */
@@ -205,12 +211,12 @@ static void add_colour_bar(const Page *page)
         double y = top + height * (1 - (double)i / divisions);
         char text[32];
         tick_text(page->look, (double)i / divisions, text, sizeof text);
-        fill(page, left - 0.3 * page->size, y - 0.5, left, y + 0.5, PALE);
+        fill(page, left - 0.3 * page->size, y - 0.5, left, y + 0.5, page->pale);
         write_text(page, OZ_WEIGHT_REGULAR, 0.8 * page->size, 1, left - 0.5 * page->size,
-                   y + 0.29 * page->size, INK, text);
+                   y + 0.29 * page->size, page->ink, text);
     }
-    write_text(page, OZ_WEIGHT_REGULAR, 0.85 * page->size, 1, right, top - 0.85 * page->size, INK,
-               is_long_axis(page->look) ? "long axis" : names[page->look->colour]);
+    write_text(page, OZ_WEIGHT_REGULAR, 0.85 * page->size, 1, right, top - 0.85 * page->size,
+               page->ink, is_long_axis(page->look) ? "long axis" : names[page->look->colour]);
 }
 
 static void flat_population_text(const OzPopulation *population, char *text, size_t size)
@@ -256,14 +262,18 @@ static void add_type_legend(const Page *page)
                                                                     sizeof text);
         fill(page, right - box, y, right, y + box, rgb);
         write_text(page, OZ_WEIGHT_REGULAR, 0.8 * page->size, 1, right - box - 0.5 * page->size,
-                   y + 0.72 * page->size, INK, text);
+                   y + 0.72 * page->size, page->ink, text);
     }
 }
 
 void oz_overlay_draw(const OzFont *font, OzImage *image, const OzSnapshot *snapshot,
                      const OzLook *look, const OzCamera *camera)
 {
-    Page page = {font, image, snapshot, look, camera, camera->font, 0.8 * camera->font};
+    const float *behind = oz_camera_background(look);
+    bool is_dark = 0.3f * behind[0] + 0.6f * behind[1] + 0.1f * behind[2] < 0.5f;
+    Page page = {font,         image,        snapshot,           look,
+                 camera,       camera->font, 0.8 * camera->font, INK[is_dark],
+                 PALE[is_dark]};
     if (!(page.size > 0)) {
         return;
     }
@@ -271,6 +281,9 @@ void oz_overlay_draw(const OzFont *font, OzImage *image, const OzSnapshot *snaps
     add_captions(&page);
     add_news(&page);
     add_scale_bar(&page);
+    if (look->no_legend) {
+        return;
+    }
     if (look->colour == OZ_COLOUR_TYPE) {
         add_type_legend(&page);
     } else {

@@ -28,10 +28,17 @@ typedef struct View {
     OzFinishRoom finish;
 } View;
 
+/* What a picture's views show. */
+typedef struct Shown {
+    OzCamera cameras[2];
+    OzFinish finish[2];
+    const OzBodies *bodies[2];
+} Shown;
+
 /* A view to be made in a thread of its own. */
 typedef struct ViewJob {
     OzRenderer *renderer;
-    const OzFinish *finish;
+    const Shown *shown;
     OzImage *image;
     int view;
     OzStatus status;
@@ -44,7 +51,7 @@ struct OzRenderer {
     bool has_gl;
     bool is_by_gl; /* rods; flat grains always are */
     OzGlDrawing gl;
-    OzBodies bodies;
+    OzBodies bodies[2]; /* of each view that is seen from a side of its own */
     View views[2];
     bool is_parallel; /* there are processors for both */
     OzFont font;
@@ -117,8 +124,8 @@ void oz_renderer_free(OzRenderer *renderer)
         return;
     }
     oz_gl_drawing_free(&renderer->gl);
-    oz_bodies_free(&renderer->bodies);
     for (int i = 0; i < 2; i++) {
+        oz_bodies_free(&renderer->bodies[i]);
         oz_host_drawing_free(&renderer->views[i].host);
         oz_drawn_free(&renderer->views[i].room);
         oz_finish_free(&renderer->views[i].finish);
@@ -174,17 +181,18 @@ static OzFinish choose_finish(const OzSnapshot *snapshot, const OzLook *look,
 {
     const float *colour = oz_camera_background(look);
     double radius = typical_radius(snapshot, camera);
-    double rise = camera->axes[1][1], away = -camera->axes[2][1];
+    double away[3];
+    oz_camera_away(camera, away);
     double share = camera->unit / look->half_width;
     double middle_row = look->height - camera->panels[0].middle_y;
-    OzFinish finish = {
-        .shadow = oz_shadow_make(fmin(radius * camera->scale, 0.03 * look->height),
-                                 0.5 * radius / camera->depth),
-        .darkening = look->bare ? 0 : 0.60f,
-        .fade = look->bare ? 0 : 0.45f,
-        .by_depth = (float)(share * away * 2 * camera->depth),
-        .by_row = (float)(share * rise / camera->scale),
-        .middle = (float)(-share * (away * camera->depth + rise * middle_row / camera->scale))};
+    OzFinish finish = {.shadow = oz_shadow_make(fmin(radius * camera->scale, 0.03 * look->height),
+                                                0.5 * radius / camera->depth),
+                       .darkening = look->bare ? 0 : 0.60f,
+                       .fade = look->bare ? 0 : 0.45f,
+                       .by_depth = (float)(share * -away[2] * 2 * camera->depth),
+                       .by_row = (float)(share * away[1] / camera->scale),
+                       .middle = (float)(share * (away[2] * camera->depth -
+                                                  away[1] * middle_row / camera->scale))};
     memcpy(finish.background, colour, sizeof finish.background);
     return finish;
 }
@@ -205,9 +213,10 @@ static void fill_background(OzImage *image, const OzLook *look)
     }
 }
 
-static OzStatus draw_view(OzRenderer *renderer, const OzFinish *finish, int view, OzImage *image)
+static OzStatus draw_view(OzRenderer *renderer, const Shown *shown, int view, OzImage *image)
 {
-    const OzBodies *bodies = &renderer->bodies;
+    const OzBodies *bodies = shown->bodies[view];
+    const OzFinish *finish = &shown->finish[view];
     View *own = &renderer->views[view];
     OzDrawn drawn;
     OzBox box;
@@ -225,55 +234,84 @@ static OzStatus draw_view(OzRenderer *renderer, const OzFinish *finish, int view
 static void *work_on_view(void *argument)
 {
     ViewJob *job = argument;
-    job->status = draw_view(job->renderer, job->finish, job->view, job->image);
+    job->status = draw_view(job->renderer, job->shown, job->view, job->image);
     snprintf(job->text, sizeof job->text, "%s", oz_status_text());
     return NULL;
 }
 
 /* Where processors are idle, the second view beside the first: no pixel is of both. */
-static OzStatus draw_views(OzRenderer *renderer, const OzFinish *finish, int count, OzImage *image)
+static OzStatus draw_views(OzRenderer *renderer, const Shown *shown, int count, OzImage *image)
 {
     pthread_t thread;
-    ViewJob job = {renderer, finish, image, 1, OZ_OK, ""};
+    ViewJob job = {renderer, shown, image, 1, OZ_OK, ""};
     bool beside =
         count > 1 && renderer->is_parallel && oz_thread_start(&thread, work_on_view, &job) == 0;
-    OzStatus status = draw_view(renderer, finish, 0, image);
+    OzStatus status = draw_view(renderer, shown, 0, image);
     if (beside) {
         pthread_join(thread, NULL);
         if (status == OZ_OK && job.status != OZ_OK) {
             status = oz_status_fail(job.status, "%s", job.text);
         }
     } else if (status == OZ_OK && count > 1) {
-        status = draw_view(renderer, finish, 1, image);
+        status = draw_view(renderer, shown, 1, image);
     }
     return status;
 }
 
-static OzStatus draw_standing(OzRenderer *renderer, const OzSnapshot *snapshot, const OzLook *look,
-                              const OzCamera *camera, OzImage *image)
+/* Each view's grains; one that is seen from the side of the first shares those. */
+static OzStatus take_bodies(OzRenderer *renderer, Shown *shown, const OzSnapshot *snapshot,
+                            const OzLook *look)
 {
-    OzFinish finish = choose_finish(snapshot, look, camera);
-    OZ_PASS(oz_bodies_take(&renderer->bodies, snapshot, look, camera));
+    for (int view = 0; view < look->view_count; view++) {
+        const OzCamera *camera = &shown->cameras[view];
+        bool shares = view > 0 && oz_camera_agrees(camera, &shown->cameras[0]);
+        shown->finish[view] = choose_finish(snapshot, look, camera);
+        shown->bodies[view] = &renderer->bodies[shares ? 0 : view];
+        if (!shares) {
+            OZ_PASS(oz_bodies_take(&renderer->bodies[view], snapshot, look, camera));
+        }
+    }
+    return OZ_OK;
+}
+
+static OzStatus draw_standing(OzRenderer *renderer, Shown *shown, const OzSnapshot *snapshot,
+                              const OzLook *look, OzImage *image)
+{
+    OZ_PASS(take_bodies(renderer, shown, snapshot, look));
     if (renderer->is_by_gl) {
-        OZ_PASS(oz_gl_drawing_views(&renderer->gl, &renderer->bodies));
+        OZ_PASS(oz_gl_drawing_views(&renderer->gl, shown->bodies));
     }
     fill_background(image, look);
-    return draw_views(renderer, &finish, look->view_count, image);
+    return draw_views(renderer, shown, look->view_count, image);
+}
+
+/* What the look shows of this moment. */
+static OzLook look_at(const OzLook *look, const OzSnapshot *snapshot)
+{
+    OzLook now = *look;
+    if (look->has_follow && look->follow < snapshot->count) {
+        memcpy(now.target, snapshot->position + 3 * look->follow, sizeof now.target);
+        now.has_target = true;
+    }
+    return now;
 }
 
 static OzStatus draw(OzRenderer *renderer, const OzSnapshot *snapshots, int count,
-                     const OzLook *look, OzImage *image)
+                     const OzLook *asked, OzImage *image)
 {
-    OzCamera camera = oz_camera_make(look);
+    const OzLook now = look_at(asked, &snapshots[count - 1]), *look = &now;
+    Shown shown = {
+        .cameras = {oz_camera_make(look, 0), oz_camera_make(look, look->view_count - 1)}};
     const OzSnapshot *last = &snapshots[count - 1];
     OZ_PASS(check_look(look, image));
     if (look->flat) {
         OZ_PASS(need_gl(renderer));
-        OZ_PASS(oz_gl_drawing_flat(&renderer->gl, snapshots, count, look, &camera, image));
+        OZ_PASS(
+            oz_gl_drawing_flat(&renderer->gl, snapshots, count, look, &shown.cameras[0], image));
     } else {
-        OZ_PASS(draw_standing(renderer, last, look, &camera, image));
+        OZ_PASS(draw_standing(renderer, &shown, last, look, image));
     }
-    oz_overlay_draw(&renderer->font, image, last, look, &camera);
+    oz_overlay_draw(&renderer->font, image, last, look, &shown.cameras[0]);
     return OZ_OK;
 }
 

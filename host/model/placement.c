@@ -10,6 +10,18 @@
 /* Grains between words on how far placing is: some milliseconds. */
 enum { SAY_EVERY = 1000 };
 
+/* A movie can only follow a grain that there is. */
+static OzStatus check_followed(const OzScene *scene, int64_t count)
+{
+    const OzMovieSettings *movie = &scene->movie;
+    if (!movie->has_follow || movie->follow < count) {
+        return OZ_OK;
+    }
+    return oz_status_fail(OZ_ERR_INPUT,
+                          "%s: movie.follow is %lld, a grain that is not there; expected 0 to %lld",
+                          scene->path, (long long)movie->follow, (long long)count - 1);
+}
+
 OzStatus oz_placement_create(OzPlacement *placement, const OzGrains *beds)
 {
     const OzScene *scene = placement->scene;
@@ -29,6 +41,7 @@ OzStatus oz_placement_create(OzPlacement *placement, const OzGrains *beds)
     }
     placement->first[scene->population_count] = total;
     OZ_PASS(oz_grains_check_memory(scene->path, total));
+    OZ_PASS(check_followed(scene, total));
     OZ_PASS(oz_grains_create(placement->grains, total));
     for (int p = 0; p < scene->population_count; p++) {
         for (int64_t i = placement->first[p]; i < placement->first[p + 1]; i++) {

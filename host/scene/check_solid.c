@@ -149,9 +149,30 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
     }
 }
 
+static bool has_free(const OzView *views, int count)
+{
+    return (count > 0 && views[0] == OZ_VIEW_FREE) || (count > 1 && views[1] == OZ_VIEW_FREE);
+}
+
+/* What only the view free has, and no picture shows. */
+static void check_views(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    const OzMovieSettings *movie = &scene->movie;
+    const OzSnapshotSettings *stills = &scene->snapshots;
+    bool is_shown =
+        has_free(movie->views, movie->view_count) || has_free(stills->views, stills->view_count);
+    if (!is_shown && (movie->has_azimuth || movie->has_elevation)) {
+        const char *path = movie->has_azimuth ? "movie.azimuth" : "movie.elevation";
+        oz_tree_fault(root, faults, path,
+                      "%s is of the view free, which no picture has; expected it in movie.views",
+                      path);
+    }
+}
+
 void oz_check_solid_scene(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
     check_walls(scene, root, faults);
     check_room(scene, root, faults);
     check_singles(scene, root, faults);
+    check_views(scene, root, faults);
 }

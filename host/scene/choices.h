@@ -74,7 +74,13 @@ static const char *const DAMPING_SHEARS[] = {
 static const char *const OBSERVE_AT[] = {
     [OZ_OBSERVE_MEAN] = "mean", [OZ_OBSERVE_TOP] = "top", [OZ_OBSERVE_BOTTOM] = "bottom", NULL};
 static const char *const FLAT_VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", NULL};
-static const char *const VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", [OZ_VIEW_CUT] = "cut", NULL};
+static const char *const VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral",
+                                    [OZ_VIEW_CUT] = "cut",
+                                    [OZ_VIEW_TOP] = "top",
+                                    [OZ_VIEW_FREE] = "free",
+                                    NULL};
+static const char *const STYLES[] = {
+    [OZ_STYLE_SCREEN] = "screen", [OZ_STYLE_PAPER] = "paper", NULL};
 static const char *const COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                       [OZ_COLOUR_AZIMUTH] = "azimuth",
                                       [OZ_COLOUR_SPEED] = "speed",

@@ -221,7 +221,16 @@ typedef struct OzObserve {
     bool has_outlet;
 } OzObserve;
 
-typedef enum OzView { OZ_VIEW_LATERAL, OZ_VIEW_CUT } OzView;
+typedef enum OzView {
+    OZ_VIEW_LATERAL, /* from the front, a little above the horizon */
+    OZ_VIEW_CUT,     /* the same without what stands before the middle */
+    OZ_VIEW_TOP,     /* from above                                    */
+    OZ_VIEW_FREE     /* from the movie's azimuth and elevation         */
+} OzView;
+typedef enum OzStyle {
+    OZ_STYLE_SCREEN,
+    OZ_STYLE_PAPER /* no text, on white */
+} OzStyle;
 typedef enum OzColour {
     OZ_COLOUR_ANGLE,   /* to the floor, viridis, 0..90 degrees; of trigrains the long axis'
                           direction, cyclic, 0..180 degrees                                */
@@ -261,6 +270,20 @@ typedef struct OzMovieSettings {
     bool outlines;     /* trigrains: grains' outlines are drawn                               */
     bool beams;        /* trigrains: beams are drawn                                          */
     bool captions;     /* what is changed while it runs is shown for two seconds             */
+    double azimuth;    /* rad, of OZ_VIEW_FREE: where the eye stands, from the front (-y) on,
+                        * counterclockwise as seen from above                               */
+    double elevation;  /* rad, of OZ_VIEW_FREE: above the horizon                           */
+    bool has_azimuth, has_elevation; /* else orzo's own */
+    double zoom;      /* times as large as what fits                                       */
+    double target[3]; /* m: what is in the middle of the picture                           */
+    bool has_target;
+    int64_t follow; /* number of the grain that is there instead */
+    bool has_follow;
+    OzStyle style;
+    double background[3]; /* red, green, blue, 0 to 1 */
+    bool has_background;
+    bool legend; /* what the colours mean       */
+    char *title; /* over the pictures; NULL: the scene's */
 } OzMovieSettings;
 
 typedef struct OzSnapshotSettings {

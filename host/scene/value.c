@@ -264,12 +264,12 @@ static OzStatus read_text(const OzKey *key, const OzNode *node, char **place, Oz
 OzStatus oz_value_read(const OzKey *key, const OzNode *node, void *base, OzFaults *faults)
 {
     void *place = oz_value_at(key, base);
+    if (key->write == OZ_WRITE_MARKED) {
+        *(bool *)((char *)base + key->count_offset) = true;
+    }
     switch (key->type) {
     case OZ_KEY_NUMBER:
         read_number(key, node, place, faults);
-        if (key->write == OZ_WRITE_MARKED) {
-            *(bool *)((char *)base + key->count_offset) = true;
-        }
         break;
     case OZ_KEY_INTEGER:
         read_whole(key, node, place, faults);
@@ -306,6 +306,9 @@ OzStatus oz_value_read(const OzKey *key, const OzNode *node, void *base, OzFault
 
 bool oz_value_holds(const OzKey *key, const void *base)
 {
+    if (key->write == OZ_WRITE_MARKED) {
+        return *(const bool *)((const char *)base + key->count_offset);
+    }
     switch (key->type) {
     case OZ_KEY_NUMBER:
         return *(const double *)oz_value_at(key, base) != 0;
