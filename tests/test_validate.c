@@ -7,6 +7,7 @@
 #include "report/report_validate.h"
 #include "report/report_validate_looks.h"
 #include "report/report_validate_packing.h"
+#include "report/report_validate_rows.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -97,6 +98,110 @@ static void a_hit_ends_between_looks(void **state)
     bed_free(&bed);
 }
 
+static const OzValidation *row_of(const char *name)
+{
+    const OzValidation *row = oz_report_validate_rows_all;
+    while (row->name && strcmp(row->name, name) != 0) {
+        row++;
+    }
+    assert_non_null(row->name);
+    return row;
+}
+
+/* Two grains that slow down as 1/(1 + t/tau), with tau by theory, cool at its rate. */
+static void a_gas_by_theory_cools_at_its_rate(void **state)
+{
+    (void)state;
+    const OzValidation *row = row_of("cooling");
+    const double d = 1e-3, room = 9e-3, n = 2 / pow(room, 3), share = n * PI / 6 * d * d * d;
+    const double g = (1 - share / 2) / pow(1 - share, 3) * (1 - 1.5 / 9);
+    /* tau = 6 / ((1 - e^2) times the rate of hits, 4 sqrt(pi) n d^2 g sqrt(T)) */
+    const double hits = 4 * sqrt(PI) * n * d * d * g * sqrt(0.25 / 3), tau = 6 / (0.19 * hits);
+    OzTrialNumbers numbers[OZ_TRIAL_VARIANTS] = {{0}};
+    Bed bed;
+    bed_create(&bed, 2, d, 0);
+    bed.walls[0] = (OzWall){.kind = OZ_WALL_BOX, .size = {10e-3, 10e-3, 10e-3}};
+    bed.scene.contact.restitution = 0.9;
+    for (int look = 0; look <= row->trial.looks; look++) {
+        bed.snapshot.time = 0.02 * tau * look;
+        double speed = 0.5 / (1 + bed.snapshot.time / tau);
+        bed.snapshot.velocity[0] = 0.3 + speed; /* a drift is no heat */
+        bed.snapshot.velocity[3] = 0.3 - speed;
+        row->trial.look(numbers[0], &bed.snapshot, look);
+    }
+    assert_near(row->known[0].value((const OzTrialNumbers *)numbers), 1, 1e-9); /* of the fit */
+    bed_free(&bed);
+}
+
+/* A centre of mass 30 degrees beside the vertical below the drum's axis. */
+static void a_drum_shows_its_slope(void **state)
+{
+    (void)state;
+    const OzValidation *row = row_of("drum");
+    OzTrialNumbers numbers[OZ_TRIAL_VARIANTS] = {{0}};
+    Bed bed;
+    bed_create(&bed, 1, 1e-3, 0);
+    memcpy(bed.walls[0].point, (const double[3]){1e-3, 0, 2e-3}, sizeof bed.walls[0].point);
+    bed.snapshot.position[0] = 1e-3 + 3e-3 * sin(PI / 6);
+    bed.snapshot.position[2] = 2e-3 - 3e-3 * cos(PI / 6);
+    for (int look = 0; look <= row->trial.looks; look++) {
+        row->trial.look(numbers[1], &bed.snapshot, look);
+    }
+    assert_near(row->known[0].value((const OzTrialNumbers *)numbers), 30, 1e-9);
+    bed_free(&bed);
+}
+
+/* A deep bed of which the floor carries what Janssen says for K = 0.5, and a shallow one the same.
+ */
+static void a_silo_shows_its_k(void **state)
+{
+    (void)state;
+    const OzValidation *row = row_of("silo");
+    OzTrialNumbers numbers[OZ_TRIAL_VARIANTS] = {{0}};
+    Bed bed;
+    bed_create(&bed, 1, 1e-3, 0);
+    bed.walls[1].contact.friction = 0.4;
+    bed.snapshot.position[2] = 20e-3; /* 40 mm high, over a floor that has gone down by 1 mm */
+    bed.snapshot.wall_offset[0] = 1e-3;
+    double weight = 9.81 * bed.grains.mass[0], depth = 8e-3 / (4 * 0.4 * 0.5);
+    OzContactEntry floor = {.b = -1, .push = weight * depth / 42e-3, .normal = {0, 0, -1}};
+    hand_contact(&bed.snapshot, floor);
+    for (int look = 0; look <= row->trial.looks; look++) {
+        row->trial.look(numbers[0], &bed.snapshot, look);
+        row->trial.look(numbers[1], &bed.snapshot, look);
+    }
+    assert_near(row->known[0].value((const OzTrialNumbers *)numbers), 1, 0);
+    assert_near(row->known[1].value((const OzTrialNumbers *)numbers), 0.5, 1e-12);
+    bed_free(&bed);
+}
+
+/* A row of spheres above the hole of which one falls at a time, so often that Beverloo's factor is
+ * 0.58. */
+static void a_hopper_shows_its_factor(void **state)
+{
+    (void)state;
+    enum { COUNT = 200 };
+    const OzValidation *row = row_of("hopper");
+    const double d = 1e-3, free_hole = 8e-3 - 1.4 * d;
+    OzTrialNumbers numbers[OZ_TRIAL_VARIANTS] = {{0}};
+    Bed bed;
+    bed_create(&bed, COUNT, d, 0);
+    bed.walls[0] = (OzWall){.kind = OZ_WALL_CONE, .diameters = {8e-3, 18e-3}};
+    bed.walls[1].diameter = 18e-3;
+    for (int64_t i = 0; i < COUNT; i++) { /* 10 in a millimetre: the inner five hold 50 */
+        bed.snapshot.position[3 * i + 2] = 0.1e-3 * ((double)i + 0.5);
+    }
+    double density = 50 * bed.grains.mass[0] / (PI / 4 * 18e-3 * 18e-3 * 5 * d);
+    double rate = 0.58 * density * sqrt(9.81) * pow(free_hole, 2.5) / bed.grains.mass[0];
+    for (int look = 0; look < COUNT; look++) {
+        bed.snapshot.time = look / rate;
+        row->trial.look(numbers[0], &bed.snapshot, look);
+        bed.snapshot.position[3 * look + 2] = -1;
+    }
+    assert_near(row->known[0].value((const OzTrialNumbers *)numbers), 0.58, 1e-9);
+    bed_free(&bed);
+}
+
 /* The same start with less friction slides where 7/2 mu is passed. */
 static void the_incline_agrees_and_another_friction_does_not(void **state)
 {
@@ -114,6 +219,10 @@ int main(void)
         cmocka_unit_test(verdicts_come_from_intervals),
         cmocka_unit_test(a_crystal_has_its_density_and_twelve_contacts),
         cmocka_unit_test(a_hit_ends_between_looks),
+        cmocka_unit_test(a_gas_by_theory_cools_at_its_rate),
+        cmocka_unit_test(a_drum_shows_its_slope),
+        cmocka_unit_test(a_silo_shows_its_k),
+        cmocka_unit_test(a_hopper_shows_its_factor),
         cmocka_unit_test(the_incline_agrees_and_another_friction_does_not),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);
