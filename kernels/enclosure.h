@@ -36,25 +36,34 @@ OZ_INLINE OzWallRod oz_enclosure_rod(const OzWork *w, OzGrain grain, const OzSid
     return rod;
 }
 
-/* The points of shafts at a wall, sides[k] and the next; those that touch another wall there, which
- * comes first, are none. */
-OZ_INLINE void oz_enclosure_points(const OzWork *w, OzGrain grain, const OzSide *sides, int k,
-                                   OzWallPoint points[OZ_WALL_SHAFT_PARTS])
+/* Leaves out a point of shafts at the wall of sides[k] that touches another wall there, which comes
+ * first. */
+OZ_INLINE void oz_enclosure_hide(const OzWork *w, OzGrain grain, const OzSide *sides, int k,
+                                 OzWallPoint *point)
+{
+    OzVec3 place = oz_scale(grain.half_shaft, point->at);
+    for (int j = OZ_ENCLOSURE_EDGED; j < OZ_ENCLOSURE_SHAFT; j++) {
+        if (sides[j].wall < sides[k].wall && sides[j].first) {
+            OzVec3 from = oz_enclosure_side_from(w, grain.position, place, &sides[j]);
+            mask hides = oz_wall_shaft_hides(from, sides[j].shape, *point, grain.radius);
+            point->overlap = hides ? -grain.radius : point->overlap;
+        }
+    }
+}
+
+/* The points of shafts at a wall, sides[k] and the next. Answers whether any touches. */
+OZ_INLINE int oz_enclosure_points(const OzWork *w, OzGrain grain, const OzSide *sides, int k,
+                                  OzWallPoint points[OZ_WALL_SHAFT_PARTS])
 {
     OzWallRod rod = oz_enclosure_rod(w, grain, sides, &sides[k]);
-    for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
-        OzWallPoint point = oz_wall_shaft_point(rod, sides[k].shape, part == 0);
-        for (int j = OZ_ENCLOSURE_EDGED; j < OZ_ENCLOSURE_SHAFT; j++) {
-            if (sides[j].wall < sides[k].wall && sides[j].first) {
-                OzVec3 place = oz_scale(grain.half_shaft, point.at);
-                OzVec3 from = oz_enclosure_side_from(w, grain.position, place, &sides[j]);
-                mask hides = oz_wall_shaft_hides(from, sides[j].shape, point, grain.radius);
-                point.overlap = hides ? -grain.radius : point.overlap;
-            }
-        }
-        points[part] = point;
+    oz_wall_shaft_points(rod, sides[k].shape, points);
+    int touches = OZ_ANY(oz_larger(points[0].overlap, points[1].overlap) > REAL(0.0));
+    if (touches) {
+        oz_enclosure_hide(w, grain, sides, k, &points[0]);
+        oz_enclosure_hide(w, grain, sides, k, &points[1]);
+        oz_wall_shaft_push(rod, points);
     }
-    oz_wall_shaft_push(rod, &points[0], &points[1]);
+    return touches;
 }
 
 /* Where one block of picked ends stands against their side. The wall's velocity is left open. */
@@ -118,14 +127,26 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
 #endif
 }
 
-/* The same of both points of picked shafts at the wall of sides[k] and the next; notes what they
- * relieve the ends of. */
+/* Picked shafts of which none touches have no springs. */
+OZ_INLINE void oz_enclosure_forget(OzWork *w, const int *slots, int k)
+{
+    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    for (int part = 0; part < OZ_WALL_SHAFT_PARTS && OZ_HISTORY; part++) {
+        oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * (k + part), none);
+    }
+}
+
+/* Both points of picked shafts at the wall of sides[k] and the next; notes what they relieve the
+ * ends of. */
 OZ_INLINE void oz_enclosure_touch_shafts(OzWork *w, const OzSide *sides, int k, const int *slots,
                                          int count, int step)
 {
     OzGrain grain = oz_work_grains(w, slots);
     OzWallPoint points[OZ_WALL_SHAFT_PARTS];
-    oz_enclosure_points(w, grain, sides, k, points);
+    if (!oz_enclosure_points(w, grain, sides, k, points)) {
+        oz_enclosure_forget(w, slots, k);
+        return;
+    }
     real tip = oz_lanes_fetch(w->wall_relief, slots, 2, OZ_WALL_TIP);
     real tail = oz_lanes_fetch(w->wall_relief, slots, 2, OZ_WALL_TAIL);
     for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {

@@ -20,16 +20,17 @@ enum { OZ_WALL_TIP, OZ_WALL_TAIL, OZ_WALL_AHEAD, OZ_WALL_BEHIND, OZ_WALL_PARTS }
 
 enum { OZ_WALL_SHAFT_PARTS = OZ_WALL_PARTS - OZ_WALL_AHEAD };
 
-/* Halvings until the deepest point is known to a digit of the shaft's length. */
+/* Halvings until the deepest point is known. Overlap is stationary there: an error of 1e-5 or 1e-8
+ * of the shaft leaves it right to every digit. */
 #if defined(OZ_HOST) || defined(OZ_DOUBLE)
-enum { OZ_WALL_SHAFT_HALVINGS = 48 };
+enum { OZ_WALL_SHAFT_HALVINGS = 26 };
 #else
-enum { OZ_WALL_SHAFT_HALVINGS = 22 };
+enum { OZ_WALL_SHAFT_HALVINGS = 16 };
 #endif
 
 /* Rounds in which the two points' pushes are fitted to each other. They are right from the start
  * unless both points and an end touch, which happens in passing alone. */
-enum { OZ_WALL_SHAFT_ROUNDS = 6 };
+enum { OZ_WALL_SHAFT_ROUNDS = 4 };
 
 /* In radii: points less deep do not touch, so that rounding makes no contacts where a shaft lies
  * flat; far below what grains rest at. */
@@ -66,39 +67,47 @@ typedef struct OzWallPoint {
     real push;           /* m, its part of the response: an overlap to the law             */
 } OzWallPoint;
 
-/* Where the overlap exceeds the line of that slope (m a half shaft) most between two places of the
- * shaft: where it ceases to grow faster. */
-OZ_INLINE real oz_wall_shaft_deepest(OzWallRod rod, OzWallShape wall, real low, real high,
-                                     real slope)
+/* Where a shaft's overlap exceeds a line of that slope (m a half shaft) most lies between low and
+ * low
+ * + width, where it ceases to grow faster: the beginning of that half. */
+OZ_INLINE real oz_wall_shaft_narrow(OzWallRod rod, OzWallShape wall, real low, real width,
+                                    real slope)
 {
-    for (int i = 0; i < OZ_WALL_SHAFT_HALVINGS; i++) {
-        real between = REAL(0.5) * (low + high);
-        OzVec3 normal = oz_wall_distance(oz_along(rod.from, between, rod.half_shaft), wall).normal;
-        mask grows = -oz_dot(normal, rod.half_shaft) > slope;
-        low = grows ? between : low;
-        high = grows ? high : between;
-    }
-    return REAL(0.5) * (low + high);
+    real between = low + REAL(0.5) * width;
+    OzVec3 normal = oz_wall_distance(oz_along(rod.from, between, rod.half_shaft), wall).normal;
+    return -oz_dot(normal, rod.half_shaft) > slope ? between : low;
 }
 
-/* The point ahead or behind, without its push. The line leads from the end to the middle. */
-OZ_INLINE OzWallPoint oz_wall_shaft_point(OzWallRod rod, OzWallShape wall, int ahead)
+/* Both points without their pushes: [0] ahead, [1] behind. The line leads from the end to the
+ * middle. */
+OZ_INLINE void oz_wall_shaft_points(OzWallRod rod, OzWallShape wall, OzWallPoint *points)
 {
-    OzWallPoint point;
-    real none = REAL(0.0);
+    real none = REAL(0.0), low[2], width[2], slope[2];
     real tip = oz_larger(rod.tip, none), tail = oz_larger(rod.tail, none);
     real middle = oz_clamp_unit(oz_wall_middle(rod.from, rod.half_shaft, wall));
     OzVec3 place = oz_along(rod.from, middle, rod.half_shaft);
     real line = REAL(0.5) * (tip + tail + middle * (tip - tail));
     real top = oz_larger(rod.radius - oz_wall_distance(place, wall).distance, line);
-    real room = ahead ? REAL(1.0) - middle : REAL(1.0) + middle;
-    real slope = ((ahead ? tip : tail) - top) / oz_larger(room, REAL(OZ_TINY));
-    point.at = oz_wall_shaft_deepest(rod, wall, ahead ? middle : REAL(-1.0),
-                                     ahead ? REAL(1.0) : middle, ahead ? slope : -slope);
-    point.wall = oz_wall_distance(oz_along(rod.from, point.at, rod.half_shaft), wall);
-    point.overlap = rod.radius * REAL(1 - OZ_WALL_SHAFT_LEAST) - point.wall.distance;
-    point.push = none;
-    return point;
+    low[0] = middle;
+    low[1] = REAL(-1.0);
+    width[0] = REAL(1.0) - middle;
+    width[1] = REAL(1.0) + middle;
+    slope[0] = (tip - top) / oz_larger(width[0], REAL(OZ_TINY));
+    slope[1] = (top - tail) / oz_larger(width[1], REAL(OZ_TINY));
+    for (int i = 0; i < OZ_WALL_SHAFT_HALVINGS; i++) {
+        for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
+            low[part] = oz_wall_shaft_narrow(rod, wall, low[part], width[part], slope[part]);
+            width[part] = REAL(0.5) * width[part];
+        }
+    }
+    for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
+        OzWallPoint *point = &points[part];
+        point->at = low[part] + REAL(0.5) * width[part];
+        place = oz_along(rod.from, point->at, rod.half_shaft);
+        point->wall = oz_wall_distance(place, wall);
+        point->overlap = rod.radius * REAL(1 - OZ_WALL_SHAFT_LEAST) - point->wall.distance;
+        point->push = none;
+    }
 }
 
 /* Whether that point lies on another wall, which comes first and bears the shaft there. from: the
@@ -131,8 +140,9 @@ OZ_INLINE real oz_wall_shaft_reach(real at, real other)
 }
 
 /* Fills in the pushes of both points. */
-OZ_INLINE void oz_wall_shaft_push(OzWallRod rod, OzWallPoint *ahead, OzWallPoint *behind)
+OZ_INLINE void oz_wall_shaft_push(OzWallRod rod, OzWallPoint *points)
 {
+    OzWallPoint *ahead = &points[0], *behind = &points[1];
     real k = oz_wall_shaft_reach(ahead->at, behind->at), none = REAL(0.0);
     real tip_of = oz_wall_shaft_reach(ahead->at, REAL(1.0)), tail_of = REAL(1.0) - tip_of;
     real tip_by = oz_wall_shaft_reach(behind->at, REAL(1.0)), tail_by = REAL(1.0) - tip_by;

@@ -42,6 +42,10 @@ static void expect_rest(const char *walls, double x, double y, const Rest rests[
         int k = fabs(e->point[0] - rests[1].x) < fabs(e->point[0] - rests[0].x);
         assert_within(e->point[0], rests[k].x, 1e-3 * R);
         found[k] += e->push / weight;
+        for (int64_t j = 0; j < i; j++) { /* where walls join one bears the rod */
+            const OzContactEntry *o = &rig.now.contacts.entry[j];
+            assert_true(o->b == e->b || fabs(o->point[0] - e->point[0]) > R);
+        }
     }
     assert_within(found[0], rests[0].share, 1e-3);
     assert_within(found[1], rests[1].share, 1e-3);

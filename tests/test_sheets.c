@@ -53,7 +53,7 @@ static void a_sphere_lies_on_edges(void **state)
                 "  - {kind: plane, normal: [-1, 0, 0], point: [4.7e-3, 0, 0]}\n",
                 4.2e-3, 0.2e-3, 1);
     /* the mouth of a tube and a plane */
-    expect_edge("  - {kind: cylinder, diameter: 8e-3, point: [0, 0, -5e-3], length: 5e-3}\n"
+    expect_edge("  - {kind: cylinder, diameter: 8e-3, axis: [0, 0, -1], length: 5e-3}\n"
                 "  - {kind: plane, normal: [-1, 0, 0], point: [4.7e-3, 0, 0]}\n",
                 4.2e-3, 0.2e-3, 1);
 }

@@ -94,6 +94,19 @@ OZ_INLINE int oz_dialect_hider(const OzPhysics *physics, int w, int end_index, O
     return -1;
 }
 
+/* Whether a shaft may touch kernel wall w between its ends: as the kernels' sieve. */
+OZ_INLINE bool oz_dialect_is_across(const OzPhysics *physics, int w, OzGrain grain,
+                                    OzWallDrive drive)
+{
+    OzWallShape shape = physics->parameters.wall[w].shape;
+    OzVec3 from = oz_dialect_from(physics, w, grain.position, oz_vec3(0, 0, 0), drive);
+    double half = sqrt(oz_dot(grain.half_shaft, grain.half_shaft));
+    return half > 0 && oz_wall_distance(from, shape).distance < grain.radius + half &&
+           !(oz_wall_flush(oz_add(from, grain.half_shaft), shape) *
+                 oz_wall_flush(oz_minus(from, grain.half_shaft), shape) >
+             0);
+}
+
 /* The points of a shaft at kernel wall w; those that another wall bears, which comes first, are
  * none. */
 OZ_INLINE void oz_dialect_points(const OzPhysics *physics, int w, OzGrain grain,
@@ -101,6 +114,13 @@ OZ_INLINE void oz_dialect_points(const OzPhysics *physics, int w, OzGrain grain,
 {
     const OzWallParameters *walls = physics->parameters.wall;
     OzVec3 none = oz_vec3(0, 0, 0);
+    if (!oz_dialect_is_across(physics, w, grain, drives[w])) {
+        for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
+            OzWallDistance at = oz_dialect_wall(physics, w, grain.position, none, drives[w]);
+            points[part] = (OzWallPoint){.wall = at, .overlap = -grain.radius};
+        }
+        return;
+    }
     OzWallRod rod = {oz_dialect_from(physics, w, grain.position, none, drives[w]), grain.half_shaft,
                      grain.radius, -grain.radius, -grain.radius};
     int first = physics->wall_count - physics->edged;
@@ -113,8 +133,8 @@ OZ_INLINE void oz_dialect_points(const OzPhysics *physics, int w, OzGrain grain,
         rod.tip = fmax(rod.tip, grain.radius - ahead.distance);
         rod.tail = fmax(rod.tail, grain.radius - behind.distance);
     }
+    oz_wall_shaft_points(rod, walls[w].shape, points);
     for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
-        points[part] = oz_wall_shaft_point(rod, walls[w].shape, part == 0);
         OzVec3 place = oz_scale(grain.half_shaft, points[part].at);
         for (int other = first; other < w; other++) {
             OzVec3 from = oz_dialect_from(physics, other, grain.position, place, drives[other]);
@@ -123,7 +143,7 @@ OZ_INLINE void oz_dialect_points(const OzPhysics *physics, int w, OzGrain grain,
             }
         }
     }
-    oz_wall_shaft_push(rod, &points[0], &points[1]);
+    oz_wall_shaft_push(rod, points);
 }
 
 /* The overlap that an end at a wall with edges is relieved of by the shaft's points. */
@@ -162,10 +182,12 @@ OZ_INLINE OzWallEnd oz_dialect_end(const OzPhysics *physics, int w, int part, Oz
         at.end = oz_scale(grain.half_shaft, part == OZ_WALL_TIP ? 1 : -1);
         at.wall = oz_dialect_wall(physics, w, grain.position, at.end, drives[w]);
         /* a sphere touches once, not with two coincident ends */
+        left = grain.radius - at.wall.distance;
         at.present = (part == OZ_WALL_TIP || oz_dot(at.end, at.end) > 0) &&
-                     oz_dialect_hider(physics, w, part, grain, drives) < 0;
-        left = grain.radius - at.wall.distance -
-               (physics->switches.round ? 0 : oz_dialect_relief(physics, w, part, grain, drives));
+                     (left <= 0 || oz_dialect_hider(physics, w, part, grain, drives) < 0);
+        if (left > 0 && !physics->switches.round) {
+            left -= oz_dialect_relief(physics, w, part, grain, drives);
+        }
     }
     if (w >= physics->wall_count - physics->edged) {
         at.present &= left > 0;
