@@ -241,7 +241,7 @@ const OzValidation oz_report_validate_rows_all[] = {
                {{"contact.friction=0.1", "walls.0.contact.friction=0.5"},
                 {"contact.friction=0.5", "walls.0.contact.friction=0.5"}},
                oz_report_validate_looks_drum},
-     .known = {{"slope in a slow drum, friction 0.5", "degrees", 20.9, 28,
+     .known = {{"angle of repose in a slow drum, friction 0.5", "degrees", 20.9, 28,
                 "Jop et al. 2006; GDR MiDi 2004", "glass beads, at rest to in a thin flow",
                 drum_slope},
                {"what it is more than with friction 0.1", "degrees", 1, 15, "Zhou et al. 2001",
@@ -259,8 +259,7 @@ const OzValidation oz_report_validate_rows_all[] = {
                 beverloo_factor},
                {"power of D - 1.4 d", "", 2.35, 2.7, "Beverloo et al. 1961: 2.5",
                 "2.35 to 2.7 for k from 1.2 to 1.7 in place of 1.4", beverloo_power}}},
-    {"repose",
-     .lacks = "needs a rough floor: spheres roll off a smooth one; the drum above has a slope",
+    {"repose", .lacks = "needs a rough floor: spheres roll off a smooth one",
      .known = {{.quantity = "angle of repose of a poured heap"}}},
     {NULL},
 };
