@@ -122,7 +122,7 @@ static void add_piston(OzContainer *container, const Scope *scope, double z)
 {
     double low = scope->look->height_low;
     bool cut = scope->view == OZ_VIEW_CUT;
-    if (z <= low) {
+    if (z <= low || scope->view == OZ_VIEW_TOP) { /* from above its top hides it */
         return;
     }
     for (int i = 0; i < (cut ? 1 : SEGMENTS / 2); i++) {
@@ -161,14 +161,15 @@ static void add_walls(OzMesh *behind, OzMesh *before, const Scope *scope, const 
 }
 
 /* Up to what is framed it stays the same from picture to picture; grains that fly higher lengthen
- * it. */
+ * it. From above all of it is seen from within, behind the grains. */
 static void add_cylinder(OzContainer *container, const Scope *scope)
 {
     double framed = scope->look->height_high;
     double low = scope->look->height_low, high = fmax(scope->top, framed);
     OzMesh *meshes = container->meshes;
+    bool within = scope->view == OZ_VIEW_TOP;
     OzMesh *behind = &meshes[OZ_CONTAINER_GLASS_BEHIND],
-           *before = &meshes[OZ_CONTAINER_GLASS_BEFORE];
+           *before = &meshes[within ? OZ_CONTAINER_GLASS_BEHIND : OZ_CONTAINER_GLASS_BEFORE];
     OzMesh *end_behind = &meshes[OZ_CONTAINER_END_BEHIND];
     OzMesh *end_before = &meshes[OZ_CONTAINER_END_BEFORE];
     add_walls(behind, before, scope, (const double[2]){low, framed});
