@@ -162,6 +162,7 @@ static void physics_is_refused_by_name(void **state)
     (void)state;
     expect(2, "contact.friction, walls.1.diameter: frames that are stored cannot be changed",
            "draw run -o none --set contact.friction=0.1 --set title=x --set walls.1.diameter=9e-3");
+    expect(2, "frames.bin has no contacts", "draw run -o none --set movie.chains=true");
     expect(2, "nothing to draw", "draw run -o none --set movie=false --set 'snapshots.times=[]'");
     assert_false(is_there("none"));
 }

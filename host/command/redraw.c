@@ -158,9 +158,23 @@ static void show_progress(const Redraw *r, int64_t count, int64_t total)
     oz_log_progress("frame %lld of %lld, %.0f s left", (long long)count, (long long)total, left);
 }
 
+/* Frames without contacts would be drawn as if nothing touched. */
+static OzStatus check_contacts(const Redraw *r)
+{
+    if (r->snapshot.has_contacts || !oz_scene_shows_contacts(&r->scene)) {
+        return OZ_OK;
+    }
+    return oz_status_fail(
+        OZ_ERR_INPUT,
+        "%s has no contacts, of which these pictures show something; expected the "
+        "frames of a run with movie.chains, or coloured by force or coordination",
+        r->frames_path);
+}
+
 static OzStatus draw_frame(Redraw *r, const OzRedrawFrame *frame)
 {
-    OzStatus status = oz_pictures_add(r->pictures, &r->snapshot, frame->purpose);
+    OzStatus status = check_contacts(r);
+    status = status == OZ_OK ? oz_pictures_add(r->pictures, &r->snapshot, frame->purpose) : status;
     for (int64_t i = 1; status == OZ_OK && i < frame->repeats; i++) {
         status = oz_pictures_repeat(r->pictures);
     }

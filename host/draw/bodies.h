@@ -3,6 +3,7 @@
 #pragma once
 
 #include "draw/camera.h"
+#include "draw/pressed.h"
 #include "model/local_order.h"
 
 /* A rod or sphere in view coordinates. */
@@ -21,9 +22,10 @@ typedef struct OzBodies {
     double inward[3],
         offset;      /* the cut: its normal into the half that is kept, distance along it */
     OzBody *bodies;  /* nearest first, those of equal depth in the snapshot's order       */
-    int64_t *grains; /* of each, which grain of the snapshot it is                        */
+    int64_t *grains; /* of each, which grain of the snapshot it is; from its count on, a chain */
     int64_t count, capacity;
     OzLocalOrder order;     /* for OZ_COLOUR_ORDER alone */
+    OzPressed pressed;      /* for what shows contacts   */
     OzBody *unsorted;       /* on the way */
     double low[2], high[2]; /* view coordinates x and y that they may reach */
 } OzBodies;
@@ -33,6 +35,9 @@ OzStatus oz_bodies_take(OzBodies *bodies, const OzSnapshot *snapshot, const OzLo
                         const OzCamera *camera);
 
 void oz_bodies_free(OzBodies *bodies); /* zeroed is fine */
+
+/* The colour of the k-th. */
+void oz_bodies_colour(const OzBodies *bodies, int64_t k, float rgb[3]);
 
 /* The side of the k-th in a view of this kind; in one that cuts nothing all are behind. */
 OzSide oz_bodies_side(const OzBodies *bodies, OzView view, int64_t k);

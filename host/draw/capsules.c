@@ -116,11 +116,10 @@ static OzStatus add_records(Upload *upload, OzSide side)
         upload->record_capacity = 2 * wanted;
     }
     for (int64_t k = 0; k < count; k++) {
-        int64_t seen = upload->seen[side][k], grain = upload->all->grains[seen];
+        int64_t seen = upload->seen[side][k];
         Record *record = &upload->records[upload->record_count++];
         *record = (Record){.body = upload->all->bodies[seen]};
-        oz_palette_grain(upload->all->snapshot, upload->all->look, upload->all->order.crystal,
-                         grain, record->colour);
+        oz_bodies_colour(upload->all, seen, record->colour);
     }
     return OZ_OK;
 }

@@ -3,6 +3,7 @@
 
 #include "draw/palette.h"
 #include "draw/plane.h"
+#include "draw/pressed.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -192,6 +193,7 @@ static double typical_speed(const OzScene *scene, const OzSnapshot *snapshot, do
 
 static void take_camera(OzLook *look, const OzMovieSettings *movie)
 {
+    look->chains = movie->chains;
     look->free_azimuth = movie->has_azimuth ? movie->azimuth : FREE;
     look->free_elevation = movie->has_elevation ? movie->elevation : FREE;
     look->zoom = movie->zoom;
@@ -259,6 +261,7 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
     } else {
         frame_standing(&look, scene, snapshot);
     }
+    look.force_high = oz_pressed_scale(snapshot, &look);
     return look;
 }
 
@@ -286,6 +289,7 @@ void oz_framing_keep(OzLook *look, const OzLook *framed)
     look->half_width = framed->half_width;
     look->cut = framed->cut;
     look->speed_high = framed->speed_high;
+    look->force_high = framed->force_high;
 }
 
 OzStatus oz_framing_state(OzLook *look, OzStateVisit *visit)
@@ -295,5 +299,6 @@ OzStatus oz_framing_state(OzLook *look, OzStateVisit *visit)
     OZ_PASS(oz_state_double(visit, "centre", "m", look->centre, 2));
     OZ_PASS(oz_state_double(visit, "half_width", "m", &look->half_width, 1));
     OZ_PASS(oz_state_double(visit, "cut", "m", &look->cut, 1));
+    OZ_PASS(oz_state_double(visit, "force_high", "N", &look->force_high, 1));
     return oz_state_double(visit, "speed_high", "m/s", &look->speed_high, 1);
 }

@@ -188,6 +188,7 @@ static OzStatus draw_flat(OzGlDrawing *drawing, const OzSnapshot *snapshots, int
         double age = count > 1 ? (double)(count - 1 - i) / (count - 1) : 0;
         oz_polygons_add_grains(polygons, &snapshots[i], look, camera, 1 - (1 - faintest) * age);
     }
+    oz_polygons_add_chains(polygons, &snapshots[count - 1], look, camera);
     return oz_polygons_draw(polygons, look, camera, size[0], size[1]);
 }
 

@@ -16,6 +16,8 @@ typedef struct OzLook {
     OzColour colour;
     double height_low, height_high; /* m: the vertical range that the camera frames */
     double speed_high;              /* m/s at the top of the colour bar, for OZ_COLOUR_SPEED */
+    double force_high;              /* N, the same for OZ_COLOUR_FORCE, and the scale of chains */
+    bool chains;                    /* forces as lines; rods and spheres thin */
     double centre[2];               /* m: x and y at the middle of the picture */
     double half_width; /* m: what is framed to the left and right of the middle, and in depth */
     double cut;        /* m: the cut view shows what lies at y above this */

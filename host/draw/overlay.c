@@ -3,6 +3,7 @@
 
 #include "draw/framing.h"
 #include "draw/palette.h"
+#include "draw/pressed.h"
 #include "model/motion.h"
 
 #include <math.h>
@@ -187,6 +188,12 @@ static void tick_text(const OzLook *look, double share, char *text, size_t size)
     case OZ_COLOUR_ORDER:
         snprintf(text, size, "%.3g", share);
         break;
+    case OZ_COLOUR_FORCE:
+        snprintf(text, size, "%.3g", look->force_high * share);
+        break;
+    case OZ_COLOUR_COORDINATION:
+        snprintf(text, size, "%.3g", OZ_PRESSED_CONTACTS * share);
+        break;
     default:
         snprintf(text, size, "%.3g", look->speed_high * share);
     }
@@ -197,7 +204,8 @@ static void add_colour_bar(const Page *page)
     static const char *const names[] = {
         [OZ_COLOUR_ANGLE] = "angle to floor", [OZ_COLOUR_AZIMUTH] = "azimuth",
         [OZ_COLOUR_SPEED] = "speed (m/s)",    [OZ_COLOUR_GREY] = "speed (m/s)",
-        [OZ_COLOUR_TURNED] = "turned by",     [OZ_COLOUR_ORDER] = "local order"};
+        [OZ_COLOUR_TURNED] = "turned by",     [OZ_COLOUR_ORDER] = "local order",
+        [OZ_COLOUR_FORCE] = "pushed (N)",     [OZ_COLOUR_COORDINATION] = "contacts"};
     double right = page->look->width - page->margin, width = 0.85 * page->size;
     double height = fmin(0.45 * page->look->height, 14 * page->size);
     double top = 0.5 * (page->look->height - height), left = right - width;

@@ -92,7 +92,7 @@ void oz_palette_grey(double x, float rgb[3])
     rgb[0] = rgb[1] = rgb[2] = (float)(0.15 + 0.75 * fmin(fmax(x, 0), 1));
 }
 
-void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const double *crystal,
+void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const double *share,
                       int64_t i, float rgb[3])
 {
     const double *axis = &snapshot->axis[3 * i], *v = &snapshot->velocity[3 * i];
@@ -111,6 +111,10 @@ void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const doub
     case OZ_COLOUR_TURNED:
         oz_palette_cyclic(turn_share(snapshot, i), rgb);
         return;
+    case OZ_COLOUR_FORCE:
+    case OZ_COLOUR_COORDINATION:
+        oz_palette_viridis(share[i], rgb);
+        return;
     case OZ_COLOUR_ANGLE:
     case OZ_COLOUR_AZIMUTH:
     case OZ_COLOUR_ORDER:
@@ -121,7 +125,7 @@ void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const doub
     } else if (sphere) {
         mix(GREY, GREY, 0, rgb);
     } else if (look->colour == OZ_COLOUR_ORDER) {
-        oz_palette_viridis(crystal[i], rgb);
+        oz_palette_viridis(share[i], rgb);
     } else if (look->colour == OZ_COLOUR_ANGLE) {
         angle_colour(axis, rgb);
     } else {

@@ -17,8 +17,9 @@ void oz_palette_cyclic(double x, float rgb[3]);
 void oz_palette_type(int row, float rgb[3]);
 
 /* The colour of grain i; a grain without the quantity (the angle of a sphere, or of a square) is
- * grey. crystal: of every grain (model/local_order.h), for OZ_COLOUR_ORDER; else NULL will do. */
-void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const double *crystal,
+ * grey. share: of every grain, 0 to 1, for OZ_COLOUR_ORDER (crystal of model/local_order.h),
+ * _FORCE and _COORDINATION (draw/pressed.h); else NULL will do. */
+void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const double *share,
                       int64_t i, float rgb[3]);
 
 /* Where a scale ends that begins at 0: the smallest of 1, 2, 5 times a power of ten that is at

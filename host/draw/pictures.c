@@ -386,7 +386,7 @@ static OzStatus scene_state(OzPictures *pictures, const OzScene *scene, const Oz
 OzStatus oz_pictures_state(OzPictures *pictures, const OzSnapshot *now, OzStateVisit *visit)
 {
     OZ_PASS(scene_state(pictures, now->scene, visit));
-    OZ_PASS(oz_state_enter(visit, "pictures", 3));
+    OZ_PASS(oz_state_enter(visit, "pictures", 4));
     OZ_PASS(oz_state_bool(visit, "has_frame", &pictures->has_frame));
     OZ_PASS(oz_framing_state(&pictures->frame, visit));
     OZ_PASS(caption_state(pictures, visit));

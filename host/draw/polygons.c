@@ -65,6 +65,7 @@ void oz_polygons_free(OzPolygons *polygons)
         polygons->gl->DeleteVertexArrays(1, &polygons->vertices);
     }
     free(polygons->corners);
+    oz_pressed_free(&polygons->pressed);
     memset(polygons, 0, sizeof *polygons);
 }
 
@@ -286,9 +287,11 @@ void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, co
     const OzElements *elements = snapshot->grains->elements;
     Element element = {.snapshot = snapshot, .camera = camera, .rgba = {0, 0, 0, (float)presence}};
     int64_t next = 0;
-    for (int64_t g = 0; g < elements->grain_count; g++) {
+    OzStatus status = oz_pressed_find(&polygons->pressed, snapshot, look);
+    polygons->status = polygons->status == OZ_OK ? status : polygons->status;
+    for (int64_t g = 0; polygons->status == OZ_OK && g < elements->grain_count; g++) {
         float rgb[3];
-        oz_palette_grain(snapshot, look, NULL, g, rgb);
+        oz_palette_grain(snapshot, look, polygons->pressed.share, g, rgb);
         choose_ink(rgb, element.ink);
         for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
             float shade = is_mark(elements, g, i) ? 0.6f : 1.0f;
@@ -302,6 +305,22 @@ void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, co
     }
     if (look->beams) {
         add_beams(polygons, snapshot, camera, presence);
+    }
+}
+
+void oz_polygons_add_chains(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
+                            const OzCamera *camera)
+{
+    static const float rgba[4] = {0.70f, 0.13f, 0.10f, 0.85f};
+    double pixels = 0;
+    for (int64_t g = 0; g < snapshot->count; g++) {
+        pixels += snapshot->grains->diameter[g] / (double)snapshot->count;
+    }
+    pixels *= camera->scale / camera->unit;
+    for (int64_t i = 0; i < polygons->pressed.chain_count; i++) {
+        const OzChain *chain = &polygons->pressed.chains[i];
+        add_line(polygons, camera, chain->from, chain->to,
+                 fmax(pixels * oz_pressed_width(chain, look), line_width(camera)), rgba);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "draw/camera.h"
 #include "draw/gl.h"
+#include "draw/pressed.h"
 
 #include <stddef.h>
 
@@ -20,7 +21,8 @@ typedef struct OzPolygons {
     GLuint program, vertices, buffer;
     OzPolygonCorner *corners; /* three for each triangle           */
     size_t count, capacity;
-    OzStatus status; /* remembers that memory ran out */
+    OzPressed pressed; /* of the state added last       */
+    OzStatus status;   /* remembers that memory ran out */
 } OzPolygons;
 
 /* Needs a current context; polygons is zeroed or filled, ready for oz_polygons_free. */
@@ -39,6 +41,10 @@ void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, con
  * disc has a line along a radius, so that turning is seen. */
 void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
                             const OzCamera *camera, double presence);
+
+/* The chains of the state whose grains were added last, if the look has them. */
+void oz_polygons_add_chains(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
+                            const OzCamera *camera);
 
 /* Draws what was added into the current viewport of the given width and height, pixels. */
 OzStatus oz_polygons_draw(const OzPolygons *polygons, const OzLook *look, const OzCamera *camera,

@@ -189,9 +189,7 @@ OZ_WIDE static bool is_open(const OzRaster *raster, const Stroke *stroke, const 
 
 static void take_colour(const OzRaster *raster, Stroke *stroke, int64_t k)
 {
-    const OzBodies *bodies = raster->bodies;
-    oz_palette_grain(bodies->snapshot, bodies->look, bodies->order.crystal, bodies->grains[k],
-                     stroke->body.rgb);
+    oz_bodies_colour(raster->bodies, k, stroke->body.rgb);
 }
 
 static void draw_body(OzRaster *raster, int64_t k, DrawRow *draw_row)

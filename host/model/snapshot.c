@@ -76,6 +76,15 @@ static void copy_elements(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy->element_ledger = snapshot->element_ledger;
 }
 
+static OzStatus copy_contacts(OzSnapshot *copy, const OzSnapshot *snapshot)
+{
+    copy->has_contacts = snapshot->has_contacts;
+    for (int64_t i = 0; copy->has_contacts && i < snapshot->contacts.count; i++) {
+        OZ_PASS(oz_contact_list_add(&copy->contacts, &snapshot->contacts.entry[i]));
+    }
+    return OZ_OK;
+}
+
 OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
 {
     int64_t count = snapshot->count, walls = snapshot->scene->wall_count;
@@ -93,7 +102,7 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy->has_ledger = snapshot->has_ledger;
     copy->ledger = snapshot->ledger;
     copy_elements(copy, snapshot);
-    return OZ_OK;
+    return oz_scene_shows_contacts(snapshot->scene) ? copy_contacts(copy, snapshot) : OZ_OK;
 }
 
 void oz_snapshot_move_walls(OzSnapshot *snapshot)

@@ -66,8 +66,8 @@ typedef struct OzSnapshot {
 OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const OzGrains *grains);
 void oz_snapshot_free(OzSnapshot *snapshot);
 
-/* A snapshot of its own with the same state, for pictures: without contacts. scene and grains stay
- * borrowed. Frees as above. */
+/* A snapshot of its own with the same state, for pictures: without contacts where the scene's
+ * pictures show nothing of them. scene and grains stay borrowed. Frees as above. */
 OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot);
 
 /* Fills wall_offset and wall_velocity for snapshot->time. */

@@ -164,7 +164,8 @@ static void pack_contact(OzBytes *at, const OzContactEntry *e)
 
 OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose)
 {
-    bool has_contacts = (purpose & OZ_FRAME_EXPORT) && snapshot->has_contacts;
+    bool is_wanted = (purpose & OZ_FRAME_EXPORT) || oz_scene_shows_contacts(snapshot->scene);
+    bool has_contacts = is_wanted && snapshot->has_contacts;
     int64_t contacts = has_contacts ? snapshot->contacts.count : -1;
     uint64_t bytes =
         frames->frame_bytes + (has_contacts ? (size_t)contacts * OZ_FRAMES_CONTACT : 0);

@@ -47,7 +47,7 @@ OzStatus oz_frames_go_on(OzFrames **frames, const char *path, const OzScene *sce
 OzStatus oz_frames_state(OzFrames *frames, OzStateVisit *visit);
 
 /* Appends one frame and flushes, so that a crash later leaves it whole. Contacts are kept of frames
- * for OZ_FRAME_EXPORT. */
+ * for OZ_FRAME_EXPORT, and where the snapshot's scene shows them in pictures. */
 OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose);
 
 OzStatus

@@ -172,6 +172,13 @@ static int due_with(const OzSchedule *s, int due)
            (exports && (due & leads) ? OZ_DUE_EXPORT : 0);
 }
 
+/* Pictures of contacts need them. */
+static int due_with_pictures(const OzSchedule *s, int due)
+{
+    bool is_drawn = due & (OZ_DUE_MOVIE | OZ_DUE_SNAPSHOT | OZ_DUE_STROBE);
+    return is_drawn && oz_scene_shows_contacts(s->scene) ? OZ_DUE_SHOWN : 0;
+}
+
 bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
 {
     int64_t next = next_step(s);
@@ -194,6 +201,7 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
         *due |= OZ_DUE_SNAPSHOT;
         s->snapshots++;
     }
+    *due |= due_with_pictures(s, *due);
     return true;
 }
 

@@ -19,7 +19,9 @@ enum {
     OZ_DUE_CHECKPOINT = 32, /* a state to be kept */
     OZ_DUE_CONTACTS = 64,
     OZ_DUE_EXPORT = 128,
-    OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS | OZ_DUE_EXPORT /* what needs the snapshot's contacts */
+    OZ_DUE_SHOWN = 256, /* contacts in pictures */
+    OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS | OZ_DUE_EXPORT |
+                    OZ_DUE_SHOWN /* what needs the snapshot's contacts */
 };
 
 /* Events of one kind: event `count` is next, at from + count x interval. */

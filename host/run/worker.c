@@ -86,7 +86,8 @@ static OzStatus show_glance(OzWorker *worker)
     if (now < worker->glance_after || !oz_glances_wait(&first->glances)) {
         return OZ_OK;
     }
-    OzStatus status = oz_read_snapshot_snapshot(worker->sim, 0, &first->now, false);
+    OzStatus status = oz_read_snapshot_snapshot(worker->sim, 0, &first->now,
+                                                oz_scene_shows_contacts(&first->scene));
     if (status == OZ_OK) {
         status = oz_glances_show(&first->glances, &first->now);
     }

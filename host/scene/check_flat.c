@@ -3,6 +3,7 @@
 #include "scene/check_flat.h"
 
 #include "scene/check_motion.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -117,5 +118,10 @@ void oz_check_flat_scene(OzScene *scene, OzNode *root, OzFaults *faults)
         oz_tree_fault(root, faults, "beams.substeps",
                       "beams.substeps is %lld; expected 1, or integrator velocity-verlet",
                       (long long)scene->beams.substeps);
+    }
+    if (scene->snapshots.strobe > 0 && oz_scene_shows_contacts(scene)) {
+        oz_tree_fault(root, faults, "snapshots.strobe",
+                      "snapshots.strobe of pictures that show contacts, which its states do not "
+                      "keep; expected another colour, and no movie.chains");
     }
 }

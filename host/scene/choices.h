@@ -40,20 +40,18 @@ static const char *const RESTITUTIONS_AT[] = {
     [OZ_RESTITUTION_CENTRE] = "centre", [OZ_RESTITUTION_CONTACT] = "contact", NULL};
 static const char *const CALIBRATIONS[] = {
     [OZ_CALIBRATION_NONE] = "none", [OZ_CALIBRATION_DISCRETE] = "discrete", NULL};
-#define OZ_CHOICES_WALL(NAME, name, choice, fine, edged)      choice,
-#define OZ_CHOICES_NO_WALL(NAME, name, choice, fine, edged)   "",
-#define OZ_CHOICES_COMPOUND(NAME, name, choice)        choice,
-#define OZ_CHOICES_NO_COMPOUND(NAME, name, choice)     "",
-#define OZ_CHOICES_FLAT_WALL(NAME, name, choice, rank) choice,
+#define OZ_CHOICES_WALL(NAME, name, choice, fine, edged)    choice,
+#define OZ_CHOICES_NO_WALL(NAME, name, choice, fine, edged) "",
+#define OZ_CHOICES_COMPOUND(NAME, name, choice)             choice,
+#define OZ_CHOICES_NO_COMPOUND(NAME, name, choice)          "",
+#define OZ_CHOICES_FLAT_WALL(NAME, name, choice, rank)      choice,
 static const char *const WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_WALL)
                                              OZ_COMPOUND_WALLS(OZ_CHOICES_COMPOUND) NULL};
-static const char *const ENDS[] = {
-    [OZ_ENDS_OPEN] = "open", [OZ_ENDS_CLOSED] = "closed", NULL};
+static const char *const ENDS[] = {[OZ_ENDS_OPEN] = "open", [OZ_ENDS_CLOSED] = "closed", NULL};
 static const char *const WALL_SIDES[] = {
     [OZ_SIDE_INSIDE] = "inside", [OZ_SIDE_OUTSIDE] = "outside", NULL};
-static const char *const FLAT_WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_NO_WALL)
-                                                  OZ_COMPOUND_WALLS(OZ_CHOICES_NO_COMPOUND)
-                                                  OZ_TRIGRAINS_WALLS(OZ_CHOICES_FLAT_WALL) NULL};
+static const char *const FLAT_WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_NO_WALL) OZ_COMPOUND_WALLS(
+    OZ_CHOICES_NO_COMPOUND) OZ_TRIGRAINS_WALLS(OZ_CHOICES_FLAT_WALL) NULL};
 static const char *const GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
                                           [OZ_GRAINS_LATTICE] = "lattice",
                                           [OZ_GRAINS_SINGLE] = "single",
@@ -88,6 +86,8 @@ static const char *const COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                       "",
                                       "",
                                       [OZ_COLOUR_ORDER] = "order",
+                                      [OZ_COLOUR_FORCE] = "force",
+                                      [OZ_COLOUR_COORDINATION] = "coordination",
                                       NULL};
 static const char *const FLAT_COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                            "",
@@ -95,4 +95,7 @@ static const char *const FLAT_COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                            [OZ_COLOUR_TYPE] = "type",
                                            [OZ_COLOUR_GREY] = "grey",
                                            [OZ_COLOUR_TURNED] = "turned",
+                                           "",
+                                           [OZ_COLOUR_FORCE] = "force",
+                                           [OZ_COLOUR_COORDINATION] = "coordination",
                                            NULL};

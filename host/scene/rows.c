@@ -327,6 +327,9 @@ static const OzKey KEYS[] = {
     {"movie.outlines", OF(BOOL), AT(movie.outlines), DEFAULT("true"), FLAT,
      .help = "grains' outlines are drawn"},
     {"movie.beams", OF(BOOL), AT(movie.beams), DEFAULT("false"), FLAT, .help = "beams are drawn"},
+    {"movie.chains", OF(BOOL), AT(movie.chains), DEFAULT("false"),
+     .help = "forces are drawn as lines between grains, the wider the larger; rods and spheres are "
+             "drawn thin then"},
     {"movie.captions", OF(BOOL), AT(movie.captions), DEFAULT("true"),
      .help = "what is changed while it runs is shown for two seconds"},
     {"movie.azimuth", NUMBER(-360, 360, "degrees"), AT(movie.azimuth), DEGREES, SOLID,
@@ -334,8 +337,8 @@ static const OzKey KEYS[] = {
      .fallback_help = "30",
      .help = "of the view free: where one looks from, counted from the front (-y) counterclockwise "
              "as seen from above"},
-    {"movie.elevation", NUMBER(-90, 90, "degrees"), AT(movie.elevation), DEGREES,
-     SOLID, .count_offset = offsetof(OzScene, movie.has_elevation), .write = OZ_WRITE_MARKED,
+    {"movie.elevation", NUMBER(-90, 90, "degrees"), AT(movie.elevation), DEGREES, SOLID,
+     .count_offset = offsetof(OzScene, movie.has_elevation), .write = OZ_WRITE_MARKED,
      .fallback_help = "30", .help = "of the view free: above the horizon"},
     {"movie.zoom", NUMBER(1e-3, 1e4, ""), AT(movie.zoom), DEFAULT("1"),
      .help = "times as large as what fits the picture"},

@@ -412,3 +412,14 @@ void oz_scene_free(OzScene *scene)
     free(scene->name);
     *scene = (OzScene){0};
 }
+
+static bool is_of_contacts(OzColour colour)
+{
+    return colour == OZ_COLOUR_FORCE || colour == OZ_COLOUR_COORDINATION;
+}
+
+bool oz_scene_shows_contacts(const OzScene *scene)
+{
+    return scene->movie.chains || is_of_contacts(scene->movie.colour) ||
+           is_of_contacts(scene->snapshots.colour);
+}

@@ -37,3 +37,6 @@ OzStatus oz_scene_copy(OzScene *copy, const OzScene *scene);
 
 /* Frees what scene owns and zeroes it; a zeroed scene is fine. */
 void oz_scene_free(OzScene *scene);
+
+/* Whether pictures show something of contacts. */
+bool oz_scene_shows_contacts(const OzScene *scene);

@@ -232,14 +232,16 @@ typedef enum OzStyle {
     OZ_STYLE_PAPER /* no text, on white */
 } OzStyle;
 typedef enum OzColour {
-    OZ_COLOUR_ANGLE,   /* to the floor, viridis, 0..90 degrees; of trigrains the long axis'
-                          direction, cyclic, 0..180 degrees                                */
-    OZ_COLOUR_AZIMUTH, /* cyclic, on twice the angle                                       */
-    OZ_COLOUR_SPEED,   /* viridis, 0 to the scene's typical speed                          */
-    OZ_COLOUR_TYPE,    /* one colour for each population                                   */
-    OZ_COLOUR_GREY,    /* speed in greys: the faster, the lighter                          */
-    OZ_COLOUR_TURNED,  /* trigrains: how far since the start, cyclic, 0..360 degrees       */
-    OZ_COLOUR_ORDER    /* rods: local order (model/local_order.h), viridis, 0..1           */
+    OZ_COLOUR_ANGLE,       /* to the floor, viridis, 0..90 degrees; of trigrains the long axis'
+                              direction, cyclic, 0..180 degrees                                */
+    OZ_COLOUR_AZIMUTH,     /* cyclic, on twice the angle                                       */
+    OZ_COLOUR_SPEED,       /* viridis, 0 to the scene's typical speed                          */
+    OZ_COLOUR_TYPE,        /* one colour for each population                                   */
+    OZ_COLOUR_GREY,        /* speed in greys: the faster, the lighter                          */
+    OZ_COLOUR_TURNED,      /* trigrains: how far since the start, cyclic, 0..360 degrees       */
+    OZ_COLOUR_ORDER,       /* rods: local order (model/local_order.h), viridis, 0..1           */
+    OZ_COLOUR_FORCE,       /* sum of what contacts push it with, viridis, 0 to the bed's scale */
+    OZ_COLOUR_COORDINATION /* grains and walls that it touches, viridis, 0..12             */
 } OzColour;
 
 /* THE list of formats that a run's frames are exported to, X(NAME, name, choice):
@@ -283,6 +285,7 @@ typedef struct OzMovieSettings {
     double background[3]; /* red, green, blue, 0 to 1 */
     bool has_background;
     bool legend; /* what the colours mean       */
+    bool chains; /* forces are drawn as lines between grains, the wider the larger */
     char *title; /* over the pictures; NULL: the scene's */
 } OzMovieSettings;
 
