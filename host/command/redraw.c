@@ -118,6 +118,19 @@ static OzStatus open_frames(Redraw *r)
     return status == OZ_OK ? oz_snapshot_create(&r->snapshot, &r->scene, &r->grains) : status;
 }
 
+/* Frames without contacts would be drawn as if nothing touched. */
+static OzStatus check_contacts(const Redraw *r)
+{
+    if (r->snapshot.has_contacts || !oz_scene_shows_contacts(&r->scene)) {
+        return OZ_OK;
+    }
+    return oz_status_fail(
+        OZ_ERR_INPUT,
+        "%s has no contacts, of which these pictures show something; expected the "
+        "frames of a run with movie.chains, or coloured by force or coordination",
+        r->frames_path);
+}
+
 static OzStatus make_plan(Redraw *r)
 {
     int purpose = 0;
@@ -127,6 +140,9 @@ static OzStatus make_plan(Redraw *r)
         OZ_PASS(oz_frame_reader_next(r->frames, &r->snapshot, &purpose, &more));
         if (!more) {
             break;
+        }
+        if (r->plan.count == 0) {
+            OZ_PASS(check_contacts(r));
         }
         OZ_PASS(oz_redraw_plan_note(&r->plan, r->snapshot.time, purpose));
     }
@@ -156,19 +172,6 @@ static void show_progress(const Redraw *r, int64_t count, int64_t total)
 {
     double left = (oz_clock_now() - r->started) * (double)(total - count) / (double)count;
     oz_log_progress("frame %lld of %lld, %.0f s left", (long long)count, (long long)total, left);
-}
-
-/* Frames without contacts would be drawn as if nothing touched. */
-static OzStatus check_contacts(const Redraw *r)
-{
-    if (r->snapshot.has_contacts || !oz_scene_shows_contacts(&r->scene)) {
-        return OZ_OK;
-    }
-    return oz_status_fail(
-        OZ_ERR_INPUT,
-        "%s has no contacts, of which these pictures show something; expected the "
-        "frames of a run with movie.chains, or coloured by force or coordination",
-        r->frames_path);
 }
 
 static OzStatus draw_frame(Redraw *r, const OzRedrawFrame *frame)

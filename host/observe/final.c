@@ -84,7 +84,8 @@ static void write_flat_rows(const OzSnapshot *snapshot, FILE *file)
             mass += elements->mass[i];
         }
         fprintf(file, "%lld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%.17g,%.17g\n", (long long)g,
-                x[0], x[1], turned, v[0], v[1], snapshot->angular_velocity[3 * g + 2],
+                x[0], x[1], turned, v[0], v[1],
+                snapshot->angular_velocity[3 * g + 2],
                 (long long)(elements->first[g + 1] - elements->first[g]),
                 oz_elements_body_area(elements, g), mass);
     }

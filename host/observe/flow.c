@@ -54,8 +54,8 @@ static void see_fall(OzFlow *flow)
 
 static OzStatus keep_sample(OzFlow *flow)
 {
-    OZ_PASS(
-        OZ_ROOM(&flow->samples, &flow->sample_capacity, flow->sample_count + 1, "inclinations"));
+    OZ_PASS(OZ_ROOM(&flow->samples, &flow->sample_capacity, flow->sample_count + 1,
+                    "inclinations"));
     flow->samples[flow->sample_count++] = (OzFlowSample){flow->surface, flow->centre};
     return OZ_OK;
 }

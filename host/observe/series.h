@@ -39,8 +39,8 @@ OzStatus oz_series_take(OzSeries *series);
  * empty otherwise. energy_residual counts from the first row written. */
 OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot);
 
-/* The cells of the last row (NAN: empty; none written yet: 0), owned by the series, and their
- * count; and a cell's name in the header. */
+/* The cells of the last row (NAN: empty; none written yet: 0), owned by the series, and their count;
+ * and a cell's name in the header. */
 int oz_series_row(const OzSeries *series, const double **cells);
 void oz_series_name(const OzSeries *series, int cell, char name[OZ_COLUMN_NAME]);
 
