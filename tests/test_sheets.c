@@ -2,6 +2,8 @@
  * on the device beside it. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
+#include "export/surface.h"
+
 /* A sphere of 1 mm in walls of its own. */
 #define ONE                                                                                        \
     "model: rods\nprecision: double\ngravity: [%g, %g, %g]\ntime: {step: 2e-6, duration: 10}\n"    \
@@ -163,6 +165,43 @@ static void random_grains_are_put_inside(void **state)
     rig_close(&rig);
 }
 
+/* Exported surfaces: areas by Newell's sum over corners. Round ones have 64 corners around, and 0.2
+ * % less than circles. */
+static void surfaces_are_as_large_as_walls(void **state)
+{
+    (void)state;
+    Rig rig;
+    OzSurface surface = {0};
+    double area[5] = {0};
+    const double pi = 3.14159265358979323846,
+                 right[] = {pi * (1e-3 + 3e-3) * sqrt(13) * 1e-3, 2 * pi * 3e-3 * 5e-3, 8e-6, 8e-6,
+                            pi * 9e-6};
+    rig_open(&rig, hopper);
+    rig_start(&rig);
+    must(oz_surface_add_walls(&surface, &rig.now));
+    for (int64_t cell = 0, first = 0; cell < surface.cell_count; first = surface.ends[cell++]) {
+        double sum[3] = {0};
+        for (int64_t c = first; c < surface.ends[cell]; c++) {
+            int64_t next = c + 1 < surface.ends[cell] ? c + 1 : first;
+            double a[3], b[3], product[3];
+            for (int k = 0; k < 3; k++) {
+                a[k] = (double)surface.points[3 * surface.corners[c] + k];
+                b[k] = (double)surface.points[3 * surface.corners[next] + k];
+            }
+            cross3(a, b, product);
+            for (int k = 0; k < 3; k++) {
+                sum[k] += product[k] / 2;
+            }
+        }
+        area[surface.owner[cell]] += sqrt(dot3(sum, sum));
+    }
+    for (int w = 0; w < 5; w++) {
+        assert_within(area[w], right[w], 3e-3 * right[w]);
+    }
+    oz_surface_free(&surface);
+    rig_close(&rig);
+}
+
 static double farthest(const double *a, const double *b, int64_t count)
 {
     double far = 0;
@@ -257,6 +296,7 @@ int main(void)
         cmocka_unit_test(joints_are_not_felt),
         cmocka_unit_test(a_rim_gives_back),
         cmocka_unit_test(random_grains_are_put_inside),
+        cmocka_unit_test(surfaces_are_as_large_as_walls),
         cmocka_unit_test(the_device_does_as_the_reference),
         cmocka_unit_test(springs_go_over_joints),
     };

@@ -41,8 +41,10 @@ static double fastest_start(const OzScene *scene, const OzGrains *grains)
     for (int w = 0; w < scene->wall_count; w++) {
         double offset, speed;
         oz_motion_offset(&scene->walls[w].motion, 0, &offset, &speed);
-        fastest = fmax(fastest, fabs(speed) + fabs(oz_motion_rate(&scene->walls[w].motion)) *
-                                                  scene->walls[w].diameter / 2);
+        const OzWall *wall = &scene->walls[w];
+        double widest = fmax(wall->diameter, fmax(wall->diameters[0], wall->diameters[1]));
+        double rim = fabs(oz_motion_rate(&wall->motion)) * widest / 2;
+        fastest = fmax(fastest, fabs(speed) + rim);
     }
     return fastest;
 }
