@@ -39,6 +39,8 @@ static void a_run_is_drawn(void **state)
     expect(0, "run/plot.svg", "plot run kinetic speed_max contact_count");
     assert_int_equal(count_of("run/plot.svg", curve), 3);
     assert_true(contains("run/plot.svg", "kinetic, J") && contains("run/plot.svg", "time, s"));
+    expect(0, "run/plot.svg", "plot run deep_count"); /* which stays 0 */
+    assert_false(contains("said", "Warning"));
     char *png = read_file("run/plot.png", NULL);
     assert_memory_equal(png, "\x89PNG", 4);
     free(png);

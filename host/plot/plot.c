@@ -8,6 +8,7 @@
 #include "observe/series.h"
 #include "plot/plot_table.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -179,9 +180,23 @@ static void send_mean(const Work *work, FILE *gnuplot, const char *name, const c
     }
 }
 
+/* gnuplot finds a range for any curve but one that stays the same, of which it complains. */
+static void send_range(const Work *work, FILE *gnuplot, const char *name)
+{
+    int column = oz_cells_find(&work->table.cells, name);
+    double low = column < 0 ? NAN : work->table.low[column];
+    double half = fmax(fabs(low) / 10, 1e-6);
+    if (column >= 0 && low == work->table.high[column]) {
+        fprintf(gnuplot, "set yrange [%.9g:%.9g]\n", low - half, low + half);
+    } else {
+        fputs("set yrange [*:*]\n", gnuplot);
+    }
+}
+
 static void send_panel(const Work *work, FILE *gnuplot, const char *name)
 {
     send_label(gnuplot, "ylabel", name);
+    send_range(work, gnuplot, name);
     fputs("plot ", gnuplot);
     if (!work->is_ensemble) {
         send_text(gnuplot, work->path);

@@ -7,7 +7,8 @@
 
 typedef struct OzPlotTable {
     OzCells cells;
-    bool *has_value;    /* owned: any row of the column has a number */
+    bool *has_value;    /* owned: any row of the column has a number    */
+    double *low, *high; /* owned: the least and the greatest of them    */
     const char **first; /* owned: each different text of the first column, in order, in cells */
     int first_count;
 } OzPlotTable;
