@@ -125,6 +125,25 @@ static void test_drums_go_on_from_their_angle(void **state)
     ASSERT_NEAR(oz_motion_turn(&again.wall.motion, 4), 1);
 }
 
+/* 0.5 m/s along a line, between 2 and 5 s, and without an end. */
+static void test_goes_on_between_two_times(void **state)
+{
+    (void)state;
+    Floor floor = {
+        .wall.motion = {.present = true, .velocity = {0.3, 0, -0.4}, .from = 2, .until = 5}};
+    static const double times[] = {-1, 0, 2, 3, 5, 9}, ways[] = {0, 0, 0, 0.5, 1.5, 1.5};
+    static const double speeds[] = {0, 0, 0.5, 0.5, 0, 0};
+    double speed = 0;
+    for (int i = 0; i < 6; i++) {
+        ASSERT_NEAR(offset_at(&floor, times[i], &speed), ways[i]);
+        ASSERT_NEAR(speed, speeds[i]);
+    }
+    floor.wall.motion.until = 0;
+    ASSERT_NEAR(offset_at(&floor, 9, &speed), 3.5);
+    ASSERT_NEAR(speed, 0.5);
+    ASSERT_NEAR(oz_motion_speed(&floor.wall.motion), 0.5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -132,6 +151,7 @@ int main(void)
         cmocka_unit_test(test_unchanged_stays),
         cmocka_unit_test(test_changes_follow_each_other),
         cmocka_unit_test(test_drums_go_on_from_their_angle),
+        cmocka_unit_test(test_goes_on_between_two_times),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

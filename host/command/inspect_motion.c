@@ -21,6 +21,18 @@ static void print_shaken(FILE *file, int w, const OzScene *scene)
     fprintf(file, " at %g Hz: %.4g times gravity\n", motion->frequency, motion->acceleration_ratio);
 }
 
+static void print_steady(FILE *file, int w, const OzMotion *motion)
+{
+    const double *v = motion->velocity;
+    fprintf(file, "wall %d             goes on at [%.4g, %.4g, %.4g] m/s from %g s", w, v[0], v[1],
+            v[2], motion->from);
+    if (motion->until > 0) {
+        fprintf(file, " until %g s, by %.4g m", motion->until,
+                oz_motion_speed(motion) * (motion->until - motion->from));
+    }
+    fputc('\n', file);
+}
+
 static void print_turning(FILE *file, int w, const OzScene *scene)
 {
     const OzWall *wall = &scene->walls[w];
@@ -42,6 +54,9 @@ void oz_inspect_motion_print(FILE *file, const OzScene *scene)
         const OzMotion *motion = &scene->walls[w].motion;
         if (motion->present && motion->frequency > 0) {
             print_shaken(file, w, scene);
+        }
+        if (motion->present && motion->frequency == 0 && oz_motion_speed(motion) > 0) {
+            print_steady(file, w, motion);
         }
         if (motion->present && motion->angular_velocity != 0) {
             print_turning(file, w, scene);

@@ -4,6 +4,7 @@
 #include "draw/palette.h"
 #include "draw/plane.h"
 #include "draw/pressed.h"
+#include "model/motion.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -176,10 +177,7 @@ static double typical_speed(const OzScene *scene, const OzSnapshot *snapshot, do
 {
     double speed = 0;
     for (int w = 0; w < scene->wall_count; w++) {
-        const OzMotion *motion = &scene->walls[w].motion;
-        if (motion->present) {
-            speed = fmax(speed, 2.5 * PI * motion->frequency * motion->amplitude);
-        }
+        speed = fmax(speed, 1.25 * oz_motion_speed(&scene->walls[w].motion));
     }
     if (!(speed > 0)) {
         speed = sqrt(2 * height * fabs(scene->gravity[2]));
@@ -261,7 +259,8 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
     } else {
         frame_standing(&look, scene, snapshot);
     }
-    look.force_high = oz_pressed_scale(snapshot, &look);
+    look.force_high =
+        scene->movie.force_scale > 0 ? scene->movie.force_scale : oz_pressed_scale(snapshot, &look);
     return look;
 }
 

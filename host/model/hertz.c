@@ -2,15 +2,15 @@
  */
 #include "model/hertz.h"
 
+#include "model/motion.h"
+
 #include <math.h>
 
 static double fastest_wall(const OzScene *scene)
 {
     double fastest = 0;
     for (int w = 0; w < scene->wall_count; w++) {
-        const OzMotion *motion = &scene->walls[w].motion;
-        double rate = 2 * 3.14159265358979323846 * motion->frequency;
-        fastest = fmax(fastest, motion->present ? motion->amplitude * rate : 0);
+        fastest = fmax(fastest, oz_motion_speed(&scene->walls[w].motion));
     }
     return fastest;
 }

@@ -28,6 +28,12 @@ static double frequency_of(const OzMotion *motion, const OzShake *shake)
     return shake == &motion->before ? shake->frequency : motion->frequency;
 }
 
+static double steady_speed(const OzMotion *motion)
+{
+    const double *v = motion->velocity;
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
 void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity)
 {
     const OzShake *shake = shake_at(motion, time);
@@ -35,6 +41,18 @@ void oz_motion_offset(const OzMotion *motion, double time, double *offset, doubl
     double rate = 2 * PI * frequency_of(motion, shake), phase = rate * (time - shake->since);
     *offset = motion->present ? amplitude * sin(phase) : 0;
     *velocity = motion->present ? amplitude * rate * cos(phase) : 0;
+    double speed = motion->present ? steady_speed(motion) : 0;
+    if (speed > 0) {
+        double end = motion->until > 0 ? motion->until : INFINITY;
+        *offset = speed * (fmin(fmax(time, motion->from), fmax(end, motion->from)) - motion->from);
+        *velocity = time >= motion->from && time < end ? speed : 0;
+    }
+}
+
+double oz_motion_speed(const OzMotion *motion)
+{
+    double shaken = 2 * PI * motion->frequency * motion->amplitude;
+    return motion->present ? fmax(shaken, steady_speed(motion)) : 0;
 }
 
 void oz_motion_direction(const OzMotion *motion, double direction[3])

@@ -11,7 +11,10 @@
 /* Offset (m, upwards) and velocity (m/s) at a time, s. */
 void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity);
 
-/* The unit vector along which it is shaken. */
+/* Its greatest speed without its turning, m/s. */
+double oz_motion_speed(const OzMotion *motion);
+
+/* The unit vector along which it is shaken, or goes on. */
 void oz_motion_direction(const OzMotion *motion, double direction[3]);
 
 /* Whether it is anything else than up and down. */

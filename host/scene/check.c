@@ -75,6 +75,9 @@ static void derive_axes(Checker *checker, OzWall *wall, int i)
 {
     bool is_axial = wall->kind == OZ_WALL_CYLINDER || wall->kind == OZ_WALL_CONE;
     const double *own = is_axial ? wall->axis : wall->normal;
+    if (length_of(wall->motion.velocity) > 0) { /* which says the direction */
+        memcpy(wall->motion.direction, wall->motion.velocity, sizeof wall->motion.direction);
+    }
     make_unit(checker, wall->motion.direction, "walls", i, "motion.direction");
     if (wall->kind == OZ_WALL_SPHERE) {
         make_unit(checker, wall->motion.axis, "walls", i, "motion.axis");

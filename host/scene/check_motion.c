@@ -1,6 +1,8 @@
 /* Checks of walls' motion. */
 #include "scene/check_motion.h"
 
+#include "scene/wall_shape.h"
+
 /* A fault at a key of the wall's motion, or at the motion itself (name: ""). */
 #define FAULT(name, ...)                                                                           \
     do {                                                                                           \
@@ -26,6 +28,33 @@ static bool is_written(OzNode *root, int index, const char *name)
     return oz_tree_at(root, path) != NULL;
 }
 
+static bool goes_on(const OzMotion *motion)
+{
+    return motion->velocity[0] != 0 || motion->velocity[1] != 0 || motion->velocity[2] != 0;
+}
+
+/* A wall that goes on goes along one line, and has an end after its start. Upright cylinders hold
+ * pictures and the room for grains in place. */
+static void check_steady(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
+{
+    const OzMotion *motion = &wall->motion;
+    const double *v = motion->velocity;
+    if (goes_on(motion) && motion->frequency > 0) {
+        FAULT(".velocity", "a wall that is shaken has a velocity, too; expected one of the two");
+    }
+    if (goes_on(motion) && oz_wall_shape_is_upright(wall) && (v[0] != 0 || v[1] != 0)) {
+        FAULT(".velocity", "an upright cylinder goes sideways; expected another wall");
+    }
+    if (!goes_on(motion) && (motion->from > 0 || motion->until > 0)) {
+        FAULT(motion->from > 0 ? ".from" : ".until",
+              "a wall without a velocity starts or stops; expected motion.velocity with it");
+    }
+    if (motion->until > 0 && motion->until <= motion->from) {
+        FAULT(".until", "a wall stops at %g s and starts at %g s; expected a later end",
+              motion->until, motion->from);
+    }
+}
+
 void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
 {
     const OzMotion *motion = &wall->motion;
@@ -40,10 +69,11 @@ void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults 
     } else if (!shaken && has_frequency) {
         FAULT(".frequency",
               "a wall has a frequency alone; expected acceleration_ratio or amplitude with it");
-    } else if (!shaken && !is_written(root, index, "angular_velocity")) {
-        FAULT("", "motion says nothing; expected angular_velocity, or frequency with "
+    } else if (!shaken && !is_written(root, index, "angular_velocity") && !goes_on(motion)) {
+        FAULT("", "motion says nothing; expected velocity, angular_velocity, or frequency with "
                   "acceleration_ratio or amplitude");
     }
+    check_steady(wall, index, root, faults);
     bool is_square = wall->kind == OZ_WALL_BOX || wall->kind == OZ_WALL_RECTANGLE;
     if (is_square && motion->angular_velocity != 0) {
         FAULT(".angular_velocity",

@@ -132,6 +132,30 @@ static void check_sizes(const OzWall *wall, int i, OzNode *root, OzFaults *fault
     }
 }
 
+/* In float a wall's way has 24 bits, and grains at it must be told to a ten-thousandth of their
+ * diameters. */
+static void check_way(const OzScene *scene, int i, OzNode *root, OzFaults *faults)
+{
+    const OzMotion *motion = &scene->walls[i].motion;
+    const double *v = motion->velocity, bits = 16777216, share = 1e-4;
+    double end = motion->until > 0 ? fmin(motion->until, scene->duration) : scene->duration;
+    double way = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) * fmax(end - motion->from, 0);
+    double least = INFINITY;
+    char path[64];
+    for (int p = 0; p < scene->population_count; p++) {
+        double diameter = scene->populations[p].diameter.low;
+        least = diameter > 0 ? fmin(least, diameter) : least;
+    }
+    if (scene->precision == OZ_PRECISION_FLOAT && motion->present && way > bits * share * least) {
+        snprintf(path, sizeof path, "walls.%d.motion.velocity", i);
+        oz_tree_fault(
+            root, faults, path,
+            "a wall goes %.3g m, of which float tells %.2g m; expected precision: double, "
+            "or motion.until",
+            way, way / bits);
+    }
+}
+
 /* Each wall's own values. */
 static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
@@ -140,6 +164,7 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
         char path[64];
         oz_check_motion_wall(wall, i, root, faults);
         check_outside(scene, i, root, faults);
+        check_way(scene, i, root, faults);
         snprintf(path, sizeof path, "walls.%d.ends", i);
         if (wall->kind == OZ_WALL_CYLINDER && wall->length == 0 && wall->ends == OZ_ENDS_CLOSED) {
             oz_tree_fault(root, faults, path,

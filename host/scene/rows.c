@@ -330,6 +330,9 @@ static const OzKey KEYS[] = {
     {"movie.chains", OF(BOOL), AT(movie.chains), DEFAULT("false"),
      .help = "forces are drawn as lines between grains, the wider the larger; rods and spheres are "
              "drawn thin then"},
+    {"movie.force_scale", NUMBER(1e-30, 1e30, "N"), AT(movie.force_scale),
+     .write = OZ_WRITE_NONZERO, .fallback_help = "what presses a grain on the floor of such a bed",
+     .help = "the top of colours by force, and the force of the widest chains"},
     {"movie.captions", OF(BOOL), AT(movie.captions), DEFAULT("true"),
      .help = "what is changed while it runs is shown for two seconds"},
     {"movie.azimuth", NUMBER(-360, 360, "degrees"), AT(movie.azimuth), DEGREES, SOLID,

@@ -85,6 +85,9 @@ typedef struct OzMotion {
     double angular_velocity;   /* rad/s: trigrains about the wall's point; rods about its axis  */
     double direction[3];       /* rods: a unit vector, along which it is shaken; zero: upwards   */
     double axis[3];            /* rods: a unit vector along the axis through the wall's point    */
+    double velocity[3];        /* rods, m/s: it goes on so between `from` and `until`; then
+                                * direction is along it                                          */
+    double from, until;        /* s; until 0: for ever */
     OzShake shake;  /* since when it is shaken so (amplitude and frequency are those above);
                      * zero in a scene as loaded                                                */
     OzShake before; /* how it is shaken until then                                              */
@@ -284,9 +287,10 @@ typedef struct OzMovieSettings {
     OzStyle style;
     double background[3]; /* red, green, blue, 0 to 1 */
     bool has_background;
-    bool legend; /* what the colours mean       */
-    bool chains; /* forces are drawn as lines between grains, the wider the larger */
-    char *title; /* over the pictures; NULL: the scene's */
+    bool legend;        /* what the colours mean       */
+    double force_scale; /* N, at the top of colours by force; 0: by the bed's weight */
+    bool chains;        /* forces are drawn as lines between grains, the wider the larger */
+    char *title;        /* over the pictures; NULL: the scene's */
 } OzMovieSettings;
 
 typedef struct OzSnapshotSettings {

@@ -1,6 +1,7 @@
 /* One grain against one large triangle. */
 #include "sim/trial.h"
 
+#include "model/motion.h"
 #include "sim/element_reference.h"
 
 #include <math.h>
@@ -204,8 +205,7 @@ double oz_trial_speed(const OzScene *scene, const OzGrains *grains)
         speed = fmax(speed, hypot(v[0], v[1]));
     }
     for (int w = 0; w < scene->wall_count; w++) {
-        const OzMotion *motion = &scene->walls[w].motion;
-        speed = fmax(speed, motion->present ? 2 * PI * motion->frequency * motion->amplitude : 0);
+        speed = fmax(speed, oz_motion_speed(&scene->walls[w].motion));
     }
     return p->count > p->free_count ? fmax(speed, sqrt(2 * gravity * fall)) : speed;
 }
