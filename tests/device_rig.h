@@ -87,6 +87,16 @@ static inline void throw_grains(OzGrains *grains, double speed, double rate)
     }
 }
 
+/* The largest difference of any of so many numbers. */
+static inline double farthest(const double *a, const double *b, int64_t count)
+{
+    double far = 0;
+    for (int64_t i = 0; i < count; i++) {
+        far = fmax(far, fabs(a[i] - b[i]));
+    }
+    return far;
+}
+
 static inline void assert_same_bits(const OzSnapshot *a, const OzSnapshot *b)
 {
     size_t three = 3 * (size_t)a->count * sizeof(double);

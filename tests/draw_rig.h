@@ -28,6 +28,13 @@ static inline int begin_drawing(void **state)
     return 0;
 }
 
+static inline int end_drawing(void **state)
+{
+    (void)state;
+    oz_renderer_free(renderer);
+    return remove_folder((const char *const[]){NULL});
+}
+
 static inline OzImage draw_states(const OzSnapshot *snapshots, int count, const OzLook *look)
 {
     OzImage image;

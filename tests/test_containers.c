@@ -174,15 +174,6 @@ static const char crowd[] =
     " ends: closed, motion: {angular_velocity: 40}}\n"
     "  - {kind: sphere, diameter: 7e-3, motion: {angular_velocity: -30, axis: [1, 1, 0]}}\n";
 
-static double farthest(const double *a, const double *b, int64_t count)
-{
-    double far = 0;
-    for (int64_t i = 0; i < count; i++) {
-        far = fmax(far, fabs(a[i] - b[i]));
-    }
-    return far;
-}
-
 enum { STEPS = 200 };
 
 /* After 200 steps with hits rounding has grown a thousandfold; a wrong term shows in the first

@@ -36,15 +36,6 @@ static const char overlap_grid[] =
 #define VERLET "observe: {ledger: true}\nintegrator: velocity-verlet\n" CONTACT "friction: 0.4}"
 #define SMOOTH CONTACT "friction: 0}"
 
-static double farthest(const double *a, const double *b, int64_t count)
-{
-    double far = 0;
-    for (int64_t i = 0; i < count; i++) {
-        far = fmax(far, fabs(a[i] - b[i]));
-    }
-    return far;
-}
-
 static void assert_close(double a, double b, double part)
 {
     if (!(fabs(a - b) <= part * fmax(fabs(a), fabs(b)))) {

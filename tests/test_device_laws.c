@@ -26,15 +26,6 @@ static const char box[] =
     "  - {kind: lattice, diameter: 0.5e-3, aspect: 2, cells: [5, 5, 1],"                           \
     " spacing: [0.501e-3, 0.501e-3, 2e-3], position: [-1e-3, -1e-3, 5.2e-3]}"
 
-static double farthest(const double *a, const double *b, int64_t count)
-{
-    double far = 0;
-    for (int64_t i = 0; i < count; i++) {
-        far = fmax(far, fabs(a[i] - b[i]));
-    }
-    return far;
-}
-
 static void assert_close(const char *what, double a, double b, double part)
 {
     if (!(fabs(a - b) <= part * fmax(fabs(a), fabs(b)))) {

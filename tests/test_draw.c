@@ -196,13 +196,6 @@ static void outline_of_a_grain_before_the_cut_is_a_ring(void **state)
     bed_free(&bed);
 }
 
-static int end(void **state)
-{
-    (void)state;
-    oz_renderer_free(renderer);
-    return remove_folder((const char *const[]){NULL});
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -217,5 +210,5 @@ int main(void)
         cmocka_unit_test(nearer_rod_hides_the_other),
         cmocka_unit_test(depth_is_exact_within_a_pixel),
     };
-    return cmocka_run_group_tests(tests, begin_drawing, end);
+    return cmocka_run_group_tests(tests, begin_drawing, end_drawing);
 }

@@ -164,13 +164,6 @@ static void outlines_are_smoother_than_with_four_samples(void **state)
     oz_image_free(&large);
 }
 
-static int end(void **state)
-{
-    (void)state;
-    oz_renderer_free(renderer);
-    return remove_folder((const char *const[]){NULL});
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -178,5 +171,5 @@ int main(void)
         cmocka_unit_test(only_the_part_that_is_kept_hides),
         cmocka_unit_test(outlines_are_smoother_than_with_four_samples),
     };
-    return cmocka_run_group_tests(tests, begin_drawing, end);
+    return cmocka_run_group_tests(tests, begin_drawing, end_drawing);
 }

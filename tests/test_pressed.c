@@ -130,13 +130,6 @@ static void the_scale_is_that_of_the_weight(void **state)
     bed_free(&bed);
 }
 
-static int end(void **state)
-{
-    (void)state;
-    oz_renderer_free(renderer);
-    return remove_folder((const char *const[]){NULL});
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -145,5 +138,5 @@ int main(void)
         cmocka_unit_test(a_chain_is_a_tube_between_thin_grains),
         cmocka_unit_test(the_scale_is_that_of_the_weight),
     };
-    return cmocka_run_group_tests(tests, begin_drawing, end);
+    return cmocka_run_group_tests(tests, begin_drawing, end_drawing);
 }

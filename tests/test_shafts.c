@@ -196,15 +196,6 @@ static const char hopper[] =
     " size: [6e-3, 1e-3]}\n"
     "  - {kind: disc, diameter: 2e-3, motion: {angular_velocity: 100}}\n";
 
-static double farthest(const double *a, const double *b, int64_t count)
-{
-    double far = 0;
-    for (int64_t i = 0; i < count; i++) {
-        far = fmax(far, fabs(a[i] - b[i]));
-    }
-    return far;
-}
-
 enum { STEPS = 250 };
 
 static void the_device_does_as_the_reference(void **state)

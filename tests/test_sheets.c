@@ -202,15 +202,6 @@ static void surfaces_are_as_large_as_walls(void **state)
     rig_close(&rig);
 }
 
-static double farthest(const double *a, const double *b, int64_t count)
-{
-    double far = 0;
-    for (int64_t i = 0; i < count; i++) {
-        far = fmax(far, fabs(a[i] - b[i]));
-    }
-    return far;
-}
-
 enum { STEPS = 250, LONG = 6000 };
 
 /* None leaks, at the joints of cone and tube, tube and lid, cone and floor or between the tiles: a

@@ -169,13 +169,6 @@ static void paper_is_white_and_without_text(void **state)
     bed_free(&bed);
 }
 
-static int end(void **state)
-{
-    (void)state;
-    oz_renderer_free(renderer);
-    return remove_folder((const char *const[]){NULL});
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,5 +178,5 @@ int main(void)
         cmocka_unit_test(two_views_are_of_two_sides),
         cmocka_unit_test(paper_is_white_and_without_text),
     };
-    return cmocka_run_group_tests(tests, begin_drawing, end);
+    return cmocka_run_group_tests(tests, begin_drawing, end_drawing);
 }
