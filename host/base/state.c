@@ -131,7 +131,7 @@ OzStatus oz_state_enter(OzStateVisit *visit, const char *name, int32_t version)
     if (status == OZ_OK && version != own) {
         status = oz_status_fail(OZ_ERR_INPUT,
                                 "state: %s is of version %" PRId32 "; expected version %" PRId32
-                                ", as this orzo writes it",
+                                ", as this orzo writes it: another one wrote the state",
                                 visit->path, version, own);
     }
     return status;

@@ -127,7 +127,7 @@ static OzStatus check_contacts(const Redraw *r)
     return oz_status_fail(
         OZ_ERR_INPUT,
         "%s has no contacts, of which these pictures show something; expected the "
-        "frames of a run with movie.chains, or coloured by force or coordination",
+        "frames of a run that was told so (orzo run SCENE --set movie.chains=true)",
         r->frames_path);
 }
 

@@ -143,6 +143,17 @@ static bool joins(const OzGroups *groups, const OzOutputs *member)
            oz_batch_fit_agrees(groups->device, &a, &b);
 }
 
+/* A scene's end comes first. */
+static void warn_of_end(const OzGroups *groups)
+{
+    double end = groups->members[0]->scene.duration, until = groups->options->until;
+    if (until > end * (1 + 1e-9)) {
+        oz_log_line("warning: --until %.9g s lies beyond the scene's end, %.9g s, where it ends; "
+                    "expected --set time.duration=%.9g, or time.taps",
+                    until, end, until);
+    }
+}
+
 /* The loaded member and those after it that can join it; the one that cannot begins the next group.
  */
 static OzStatus gather_new(OzGroups *groups)
@@ -154,6 +165,7 @@ static OzStatus gather_new(OzGroups *groups)
     groups->replay = groups->loaded_replay;
     groups->loaded_replay = (OzReplay){0};
     groups->schedule = oz_schedule_create(&groups->members[0]->scene, groups->options->until);
+    warn_of_end(groups);
     OZ_PASS(load_next(groups, &groups->loaded));
     while (groups->loaded && groups->member_count < groups->most && joins(groups, groups->loaded)) {
         groups->members[groups->member_count++] = groups->loaded;
@@ -216,6 +228,7 @@ static OzStatus gather_begun(OzGroups *groups)
         }
     }
     groups->schedule = oz_schedule_create(&groups->members[0]->scene, groups->options->until);
+    warn_of_end(groups);
     return OZ_OK;
 }
 

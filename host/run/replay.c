@@ -202,6 +202,22 @@ done:
     return status;
 }
 
+OzStatus oz_replay_choose_folder(char **out, const char *asked, const char *folder)
+{
+    size_t length = strlen(folder);
+    if (asked) {
+        return oz_memory_text(out, asked);
+    }
+    while (length > 1 && folder[length - 1] == '/') {
+        length--;
+    }
+    if (asprintf(out, "%.*s_again", (int)length, folder) < 0) {
+        *out = NULL;
+        return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a folder's name");
+    }
+    return OZ_OK;
+}
+
 bool oz_replay_is_kept(const char *own)
 {
     char *place = NULL;

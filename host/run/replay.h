@@ -36,6 +36,10 @@ bool oz_replay_has(const char *folder, const char *member, bool is_kept);
 /* Puts a copy for the member, if it had begun, into the folder of the run that repeats it. */
 OzStatus oz_replay_keep(const char *folder, const char *member, const char *own);
 
+/* Where the run in a folder is made again: as asked, or (NULL) beside it, in FOLDER_again. The
+ * caller frees *out. */
+OzStatus oz_replay_choose_folder(char **out, const char *asked, const char *folder);
+
 /* Whether the folder is of a run that repeats another one. */
 bool oz_replay_is_kept(const char *own);
 

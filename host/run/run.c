@@ -12,6 +12,7 @@
 #include "run/from_keep.h"
 #include "run/groups.h"
 #include "run/pace.h"
+#include "run/replay.h"
 #include "run/swap.h"
 #include "run/watch.h"
 #include "run/worker_state.h"
@@ -404,11 +405,13 @@ static OzStatus repeat_run(const OzOptions *asked)
 {
     OzStatus status = OZ_OK;
     OzOptions options = *asked;
-    char *scene = NULL, *from = NULL;
+    char *scene = NULL, *from = NULL, *out = NULL;
     OZ_TRY(oz_resume_take_seeds(&options, asked->paths[0]));
     OZ_TRY(oz_from_keep_find(&from, asked->paths[0]));
     OZ_TRY(oz_file_join(&scene, asked->paths[0], "scene.yaml"));
+    OZ_TRY(oz_replay_choose_folder(&out, asked->out, asked->paths[0]));
     options.replay_folder = asked->paths[0];
+    options.out = out;
     options.from = from;
     options.paths[0] = scene;
 done:
@@ -419,6 +422,7 @@ done:
     }
     free(from);
     free(scene);
+    free(out);
     return status;
 }
 

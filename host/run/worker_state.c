@@ -43,6 +43,10 @@ static OzStatus check_taken(const OzWorker *worker, const char *device)
                               "the state was made by %s and this is %s; expected the same device",
                               device, worker->device->name);
     }
+    if (step == last && !settles) {
+        oz_log_line("the run is at its end, %.9g s: no step is left to make",
+                    oz_sim_time(worker->sim));
+    }
     if (step > last && !settles) {
         return oz_status_fail(OZ_ERR_INPUT,
                               "the run is at %.9g s already (step %lld), beyond the end asked for, "
