@@ -2,6 +2,8 @@
  * GL back-ends against each other. Never runs a simulation. */
 #include "draw_bed.h"
 
+#include "draw/framing.h"
+
 #include <png.h>
 #include <sys/stat.h>
 
@@ -302,6 +304,26 @@ static int end(void **state)
     return remove_folder((const char *const[]){"picture.png", "describe.txt", NULL});
 }
 
+/* All grey would say nothing. */
+static void spheres_show_speed_in_the_place_of_an_angle(void **state)
+{
+    (void)state;
+    for (int has_rod = 0; has_rod < 2; has_rod++) {
+        Bed bed;
+        bed_create(&bed, 2, 1e-3, 0);
+        bed.grains.length[1] = has_rod * 1e-3;
+        bed.scene.movie = (OzMovieSettings){
+            .width = 640, .height = 480, .view_count = 1, .colour = OZ_COLOUR_ANGLE};
+        bed.scene.snapshots.width = bed.scene.snapshots.height = 100;
+        OzLook look = oz_renderer_look(&bed.scene, &bed.snapshot);
+        OzLook still = oz_framing_still(&bed.scene, &look);
+        OzColour expected = has_rod ? OZ_COLOUR_ANGLE : OZ_COLOUR_SPEED;
+        assert_int_equal(look.colour, expected);
+        assert_int_equal(still.colour, expected);
+        bed_free(&bed);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +336,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(long_title_is_shortened_and_stays_readable),
         cmocka_unit_test(shadows_have_no_hard_edges),
         cmocka_unit_test(look_frames_the_bed_and_its_walls),
+        cmocka_unit_test(spheres_show_speed_in_the_place_of_an_angle),
         cmocka_unit_test(impossible_sizes_are_refused),
         cmocka_unit_test(png_gives_the_pixels_back),
     };

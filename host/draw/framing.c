@@ -207,7 +207,23 @@ static void take_camera(OzLook *look, const OzMovieSettings *movie)
     }
 }
 
-static void take_settings(OzLook *look, const OzMovieSettings *movie)
+static bool has_rods(const OzSnapshot *snapshot)
+{
+    bool has = false;
+    for (int64_t i = 0; i < snapshot->count && !has; i++) {
+        has = snapshot->grains->length[i] > 0;
+    }
+    return has;
+}
+
+/* Spheres have no angle to show. */
+static OzColour shown_colour(OzColour asked, const OzSnapshot *snapshot)
+{
+    bool is_empty = asked == OZ_COLOUR_ANGLE && !snapshot->grains->elements && !has_rods(snapshot);
+    return is_empty ? OZ_COLOUR_SPEED : asked;
+}
+
+static void take_settings(OzLook *look, const OzMovieSettings *movie, const OzSnapshot *snapshot)
 {
     if (movie->width > 0) { /* a loaded scene has them filled in, movie or not */
         look->width = movie->width;
@@ -215,7 +231,7 @@ static void take_settings(OzLook *look, const OzMovieSettings *movie)
         look->view_count = movie->view_count;
         look->views[0] = movie->views[0];
         look->views[1] = movie->views[1];
-        look->colour = movie->colour;
+        look->colour = shown_colour(movie->colour, snapshot);
         look->cut_outlines = movie->cut_outlines;
         take_camera(look, movie);
     }
@@ -253,7 +269,7 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
                    .view_count = 2,
                    .colour = flat ? OZ_COLOUR_SPEED : OZ_COLOUR_ANGLE,
                    .elevation = ELEVATION};
-    take_settings(&look, &scene->movie);
+    take_settings(&look, &scene->movie, snapshot);
     if (flat) {
         oz_plane_frame(&look, scene, snapshot);
     } else {
@@ -271,7 +287,7 @@ OzLook oz_framing_still(const OzScene *scene, const OzLook *movie)
     if (stills->width > 0) {
         look.width = stills->width;
         look.height = stills->height;
-        look.colour = stills->colour;
+        look.colour = stills->colour == scene->movie.colour ? movie->colour : stills->colour;
         look.view_count = look.flat ? 1 : stills->view_count;
         look.views[0] = stills->views[0];
         look.views[1] = stills->views[1];

@@ -316,8 +316,8 @@ static const OzKey KEYS[] = {
      AT(movie.views), .count_offset = offsetof(OzScene, movie.view_count), DEFAULT("[lateral]"),
      FLAT, .help = "there is one"},
     {"movie.colour", CHOICE(COLOURS), AT(movie.colour), DEFAULT("angle"), SOLID,
-     .help = "what a grain's colour shows; order is how far its neighbours stand around it as in a "
-             "crystal, upright in a hexagon"},
+     .help = "what a grain's colour shows; angle of spheres alone: speed; order is how far its "
+             "neighbours stand around it as in a crystal, upright in a hexagon"},
     {"movie.colour", CHOICE(FLAT_COLOURS), AT(movie.colour), DEFAULT("speed"), FLAT,
      .help =
          "what a grain's colour shows; angle is its long axis' direction, turned how far it has "
