@@ -124,6 +124,8 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
     oz_pairs_note(w->wall_ledger, slots, OZ_WALL_ENDS * OZ_CONTACT_LEDGER,
                   side->index * OZ_CONTACT_LEDGER, found.contact, found.parts, found.parts.force,
                   found.arm);
+    oz_lanes_put(w->wall_ledger, slots, OZ_WALL_ENDS * OZ_CONTACT_LEDGER,
+                 side->index * OZ_CONTACT_LEDGER + OZ_CONTACT_LEDGER - 1, found.parts.energy);
 #endif
 }
 

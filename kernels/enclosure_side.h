@@ -33,6 +33,7 @@ typedef struct OzSide {
     scalar offset, speed;   /* m, m/s of the wall along its direction: z without OZ_FREE_MOTION */
     scalar rise, rise_rest; /* units: the offset with all its digits   */
     scalar rate;            /* rad/s                                   */
+    int gate;               /* OZ_GATE_ bits; with OZ_MOVING only      */
 } OzSide;
 
 OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
@@ -58,6 +59,8 @@ OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
         side.rise = w->motion[OZ_MOTION * at + OZ_M_RISE];
         side.rise_rest = w->motion[OZ_MOTION * at + OZ_M_RISE_REST];
         side.rate = w->motion[OZ_MOTION * at + OZ_M_RATE];
+        side.gate = OZ_GATED ? (int)w->motion[OZ_MOTION * at + OZ_M_GATE] : 0;
+        side.shape.gone = side.gate & OZ_GATE_GONE;
     }
     return side;
 }

@@ -16,7 +16,7 @@
 
 /* The ledger has a grain's sums of energy, J, by id, of contacts in which it is the first; this is
  * a contact's words for them (see ledger.h). */
-enum { OZ_CONTACT_LEDGER = 15 };
+enum { OZ_CONTACT_LEDGER = 16 };
 
 /* A slot's words in the spare array, where a re-sort puts grains in their new order. */
 #define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + 1)

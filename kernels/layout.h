@@ -76,8 +76,12 @@ enum { OZ_F_FORCE = 0, OZ_F_TORQUE = 4, OZ_PAIR_FORCE = 8, OZ_PAIR_TORQUE = 4 };
 enum { OZ_SPRING = 4 };
 
 /* Words of a wall's motion at one step: displacement and velocity along its direction; the
- * displacement in units, whole ones and the rest; the rate at which it turns. */
-enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_M_RATE, OZ_MOTION };
+ * displacement in units, whole ones and the rest; the rate at which it turns; bits that say whether
+ * the wall is there. */
+enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_M_RATE, OZ_M_GATE, OZ_MOTION };
+
+/* A wall is not there at a step, was not there at the one before, will not be at the next. */
+enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };
 
 /* Words of a slot's load: force and torque, each with one word to spare. */
 enum { OZ_LOAD = 8 };

@@ -92,6 +92,28 @@ OZ_INLINE OzVec3 oz_ledger_wall_velocity(const OzWork *w, OzGrain grain, OzVec3 
     return oz_enclosure_side_velocity(w, grain.position, arm, &side);
 }
 
+#if OZ_GATED
+/* A wall that comes into a grain puts in what the contact stores, and one that goes takes away what
+ * is left of it where its forces end: after this step, or where grains move first in the middle of
+ * the next. */
+OZ_INLINE void oz_ledger_gate(OzWork *w, const int *slots, int bits, int index, OzVec3 after,
+                              global const real *words, int step)
+{
+    int gate = oz_enclosure_side_of(w, index, step).gate;
+    real energy = words[OZ_CONTACT_LEDGER - 1];
+    OzVec3 force = oz_minus(oz_work_load3(words + 9), oz_work_load3(words + 3));
+    force = oz_minus(force, oz_work_load3(words));
+    real given = oz_dot(force, oz_ledger_mean(words, after)) *
+                 REAL(w->parameters->dt * (OZ_MOVES_BEFORE ? 0.5 : 1.0));
+    if (gate & OZ_GATE_COMES) {
+        oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, energy, 1.0);
+    }
+    if (gate & OZ_GATE_GOES) {
+        oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, given - energy, 1.0);
+    }
+}
+#endif
+
 OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
 {
     int begin = oz_work_region_begin(w, region) / OZ_LANES;
@@ -124,6 +146,9 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
             oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, words[11], mean * w->parameters->dt);
 #endif
             oz_ledger_add(w, slots, bits, words, after);
+#if OZ_GATED
+            oz_ledger_gate(w, slots, bits, index, after, words, step);
+#endif
         }
     }
 }

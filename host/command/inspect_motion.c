@@ -48,10 +48,25 @@ static void print_turning(FILE *file, int w, const OzScene *scene)
     fputc('\n', file);
 }
 
+static void print_times(FILE *file, int w, const OzWall *wall)
+{
+    fprintf(file, "wall %d             is there", w);
+    if (wall->since > 0) {
+        fprintf(file, " from %g s on", wall->since);
+    }
+    if (wall->until > 0) {
+        fprintf(file, " until %g s", wall->until);
+    }
+    fputc('\n', file);
+}
+
 void oz_inspect_motion_print(FILE *file, const OzScene *scene)
 {
     for (int w = 0; w < scene->wall_count; w++) {
         const OzMotion *motion = &scene->walls[w].motion;
+        if (scene->walls[w].since > 0 || scene->walls[w].until > 0) {
+            print_times(file, w, &scene->walls[w]);
+        }
         if (motion->present && motion->frequency > 0) {
             print_shaken(file, w, scene);
         }

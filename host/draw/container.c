@@ -274,7 +274,8 @@ static void clip_to_scene(Polygon *polygon, const Scope *scope, int row)
         clip(polygon, point, (const double[3]){0, 0, side});
     }
     for (int w = 0; w < scene->wall_count; w++) {
-        if (w != row && scene->walls[w].kind == OZ_WALL_PLANE) {
+        if (w != row && scene->walls[w].kind == OZ_WALL_PLANE &&
+            oz_snapshot_has_wall(scope->snapshot, w)) {
             double point[3];
             wall_point(scope, w, point);
             clip(polygon, point, scene->walls[w].normal);
@@ -384,12 +385,17 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
                    .view = view,
                    .radius = isfinite(radius) ? radius : 0,
                    .top = oz_framing_top(look, camera, snapshot)};
+    bool has_cylinder = false;
     OzStatus status = OZ_OK;
     for (int i = 0; i < OZ_CONTAINER_COUNT; i++) {
         oz_mesh_clear(&container->meshes[i]);
     }
     for (int w = 0; w < snapshot->scene->wall_count; w++) {
         const OzWall *wall = &snapshot->scene->walls[w];
+        if (!oz_snapshot_has_wall(snapshot, w)) {
+            continue;
+        }
+        has_cylinder |= oz_wall_shape_is_upright(wall);
         if (wall->kind == OZ_WALL_PLANE) {
             add_plane(container, &scope, w);
         } else if (oz_wall_shape_is_sheet(wall)) {
@@ -398,7 +404,7 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
             add_lines(container, &scope, w);
         }
     }
-    if (scope.radius > 0) {
+    if (has_cylinder) {
         add_cylinder(container, &scope);
     }
     container->high = 0;

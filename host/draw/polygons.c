@@ -219,12 +219,6 @@ static void choose_ink(const float rgb[3], float ink[3])
     }
 }
 
-static bool wall_is_gone(const OzSnapshot *snapshot, int64_t wall)
-{
-    double until = snapshot->scene->walls[wall].until;
-    return until > 0 && snapshot->time >= until;
-}
-
 /* Lines along the outer edges of a wall's element, to both sides. */
 static void add_edges(OzPolygons *polygons, const Element *element)
 {
@@ -255,7 +249,7 @@ void oz_polygons_add_walls(OzPolygons *polygons, const OzSnapshot *snapshot, con
         for (int64_t i = elements->free_count; i < elements->count; i++) {
             element.index = i;
             element.edges = fill ? 0 : edges_of(elements, i, &next);
-            if (!wall_is_gone(snapshot, elements->body[i] - elements->grain_count)) {
+            if (oz_snapshot_has_wall(snapshot, elements->body[i] - elements->grain_count)) {
                 (fill ? add_element : add_edges)(polygons, &element);
             }
         }

@@ -2,7 +2,6 @@
 #include "export/surface.h"
 
 #include "base/memory.h"
-#include "model/wall_motion.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -60,7 +59,7 @@ static OzStatus add_flat_walls(OzSurface *s, const OzSnapshot *now)
     const OzElements *elements = now->grains->elements;
     for (int64_t i = elements->free_count; i < elements->count; i++) {
         int64_t wall = elements->body[i] - elements->grain_count;
-        if (oz_wall_motion_present(&now->scene->walls[wall], now->time, false)) {
+        if (oz_snapshot_has_wall(now, wall)) {
             OZ_PASS(add_element(s, now, i, wall));
         }
     }
@@ -260,7 +259,9 @@ OzStatus oz_surface_add_walls(OzSurface *s, const OzSnapshot *now)
         return add_flat_walls(s, now);
     }
     for (int w = 0; w < now->scene->wall_count; w++) {
-        OZ_PASS(add_wall(s, now, &ball, w));
+        if (oz_snapshot_has_wall(now, w)) {
+            OZ_PASS(add_wall(s, now, &ball, w));
+        }
     }
     return OZ_OK;
 }

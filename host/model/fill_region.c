@@ -211,7 +211,8 @@ static void bound_by_walls(OzFillRegion *fill_region, bool are_sheets)
     for (int w = 0; w < scene->wall_count; w++) {
         const OzWall *wall = &scene->walls[w];
         bool is_sheet = wall->kind == OZ_WALL_RECTANGLE || wall->kind == OZ_WALL_DISC;
-        if (wall->side == OZ_SIDE_INSIDE && is_sheet == are_sheets) {
+        bool comes_later = wall->since > 0;
+        if (wall->side == OZ_SIDE_INSIDE && is_sheet == are_sheets && !comes_later) {
             bounds[wall->kind](fill_region, wall);
         }
     }
@@ -298,7 +299,7 @@ static bool is_enclosed(const OzFillRegion *fill_region, const double point[3])
     bool found = fill_region->vessels == 0 || point[2] > fill_region->open_above;
     for (int w = 0; w < fill_region->scene->wall_count && !found; w++) {
         const OzWall *wall = &fill_region->scene->walls[w];
-        found = is_vessel(wall) && vessel_holds(wall, point);
+        found = !(wall->since > 0) && is_vessel(wall) && vessel_holds(wall, point);
     }
     return found;
 }
@@ -336,7 +337,8 @@ bool oz_fill_region_holds(const OzFillRegion *fill_region, const OzCapsule *caps
     }
     bool holds = is_enclosed(fill_region, ends[0]) && is_enclosed(fill_region, ends[1]);
     for (int w = 0; w < fill_region->scene->wall_count && holds; w++) {
-        holds = shaft_is_free(&fill_region->scene->walls[w], capsule);
+        const OzWall *wall = &fill_region->scene->walls[w];
+        holds = wall->since > 0 || shaft_is_free(wall, capsule);
     }
     return holds;
 }

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "model/motion.h"
+#include "model/wall_motion.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -98,6 +99,7 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy_words(copy->wall_velocity, snapshot->wall_velocity, walls);
     copy->step = snapshot->step;
     copy->time = snapshot->time;
+    copy->settling = snapshot->settling;
     copy->deep_count = snapshot->deep_count;
     copy->has_ledger = snapshot->has_ledger;
     copy->ledger = snapshot->ledger;
@@ -112,6 +114,12 @@ void oz_snapshot_move_walls(OzSnapshot *snapshot)
         oz_motion_offset(&scene->walls[w].motion, snapshot->time, &snapshot->wall_offset[w],
                          &snapshot->wall_velocity[w]);
     }
+}
+
+bool oz_snapshot_has_wall(const OzSnapshot *snapshot, int64_t wall)
+{
+    return oz_wall_motion_present(&snapshot->scene->walls[wall], snapshot->time,
+                                  snapshot->settling);
 }
 
 /* Sums of a grain's elements: mass, first moments of position and velocity, turn. */

@@ -40,6 +40,7 @@ typedef struct OzSnapshot {
     const OzGrains *grains;   /* borrowed: geometry, mass, population; not its start state    */
     int64_t step;             /* 0 at the settled bed                                         */
     double time;              /* s                                                            */
+    bool settling;            /* walls are as at time 0: none has been taken away             */
     int64_t count;            /* grains->count                                                */
     double *position;         /* 3 x count                                                    */
     double *quaternion;       /* 4 x count, w x y z                                           */
@@ -72,6 +73,9 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot);
 
 /* Fills wall_offset and wall_velocity for snapshot->time. */
 void oz_snapshot_move_walls(OzSnapshot *snapshot);
+
+/* Whether a wall is there at the snapshot's time. */
+bool oz_snapshot_has_wall(const OzSnapshot *snapshot, int64_t wall);
 
 /* Fills position, velocity, spin, quaternion and axis of grains from their elements: centre of
  * mass, its velocity, angular momentum about it over moment of inertia, and the mean turn of the

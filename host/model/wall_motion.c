@@ -5,9 +5,18 @@
 
 #include <math.h>
 
+/* A step that lies there to rounding lies there: steps are told apart up to the thousand-millionth.
+ */
+static bool has_reached(double time, double mark)
+{
+    const double rounding = 1e-12;
+    return time >= mark * (1 - rounding);
+}
+
 bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest)
 {
-    return at_rest || wall->until <= 0 || time < wall->until;
+    bool has_come = wall->since <= 0 || (!at_rest && has_reached(time, wall->since));
+    return has_come && (at_rest || wall->until <= 0 || !has_reached(time, wall->until));
 }
 
 OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest)

@@ -1,5 +1,5 @@
-/* Where the walls of trigrains are at a time: bodies of elements that move as a whole, up and down
- * or about their point, until they are taken away. */
+/* Whether a wall is there at a time, and where those of trigrains are: bodies of elements that move
+ * as a whole, up and down or about their point. */
 #pragma once
 
 #include "model/elements.h"
@@ -12,7 +12,8 @@ typedef struct OzWallPose {
     double turn, angular_velocity; /* rad, rad/s about the wall's point at rest */
 } OzWallPose;
 
-/* Whether the wall has not been taken away yet; at rest (while settling) none has. */
+/* Whether the wall has come and not been taken away yet; at rest (while settling) all are there
+ * that do not come later. */
 bool oz_wall_motion_present(const OzWall *wall, double time, bool at_rest);
 
 /* At rest: where it was built, without speed. */

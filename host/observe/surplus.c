@@ -18,7 +18,8 @@ static bool is_known(const OzSnapshot *snapshot)
         return false;
     }
     for (int w = 0; w < snapshot->scene->wall_count && !snapshot->has_ledger; w++) {
-        if (snapshot->scene->walls[w].motion.present) {
+        const OzWall *wall = &snapshot->scene->walls[w];
+        if (wall->motion.present || wall->since > 0) {
             return false;
         }
     }

@@ -126,7 +126,7 @@ static bool has_movable_clock(const OzScene *scene)
         const OzWall *wall = &scene->walls[w];
         const OzMotion *motion = &wall->motion;
         bool other = motion->frequency > 0 && fabs(motion->frequency * scene->period - 1) > 1e-9;
-        if (wall->until > 0 ||
+        if (wall->since > 0 || wall->until > 0 ||
             (motion->present && (other || motion->angular_velocity != 0 ||
                                  (motion->frequency == 0 && oz_motion_speed(motion) > 0)))) {
             return false;

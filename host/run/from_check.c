@@ -113,7 +113,8 @@ static OzStatus check_walls(const OzFromMember *from, const OzScene *scene)
         bool smooth = then->kind == OZ_WALL_DRUM && then->tooth_count == 0;
         double turn = fmod(fabs(pose.turn), 2 * 3.14159265358979323846);
         double jump = fabs(pose.rise) + (smooth ? 0 : turn * fmax(then->diameter, then->width));
-        bool gone = !oz_wall_motion_present(then, time, false);
+        bool begins = oz_wall_motion_present(&scene->walls[w], 0, true);
+        bool gone = begins && !oz_wall_motion_present(then, time, false);
         if (!(jump <= 0.005 * smallest) || gone) {
             return oz_status_fail(
                 OZ_ERR_INPUT,

@@ -15,7 +15,7 @@ static double cylinder_of(const OzScene *scene)
     double least = INFINITY;
     for (int i = 0; i < scene->wall_count; i++) {
         const OzWall *wall = &scene->walls[i];
-        if (oz_wall_shape_is_upright(wall) && wall->diameter > 0) {
+        if (oz_wall_shape_is_upright(wall) && wall->diameter > 0 && !(wall->since > 0)) {
             least = fmin(least, wall->diameter);
         }
     }
@@ -28,9 +28,12 @@ static double height_of(const OzScene *scene)
     double floor = -INFINITY, ceiling = INFINITY;
     for (int i = 0; i < scene->wall_count; i++) {
         const OzWall *wall = &scene->walls[i];
-        if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == 1) {
+        if (wall->kind != OZ_WALL_PLANE || wall->since > 0) {
+            continue;
+        }
+        if (wall->normal[2] == 1) {
             floor = fmax(floor, wall->point[2]);
-        } else if (wall->kind == OZ_WALL_PLANE && wall->normal[2] == -1) {
+        } else if (wall->normal[2] == -1) {
             ceiling = fmin(ceiling, wall->point[2]);
         }
     }
@@ -83,8 +86,9 @@ static void check_singles(const OzScene *scene, OzNode *root, OzFaults *faults)
         bool known =
             scene->populations[i].kind == OZ_GRAINS_SINGLE && oz_tree_at(root, path) != NULL;
         for (int j = 0; known && j < scene->wall_count; j++) {
-            if (oz_wall_shape_distance(&scene->walls[j], 0, scene->populations[i].position, NULL) <
-                0) {
+            const OzWall *wall = &scene->walls[j];
+            if (!(wall->since > 0) &&
+                oz_wall_shape_distance(wall, 0, scene->populations[i].position, NULL) < 0) {
                 oz_tree_fault(root, faults, path,
                               "%s lies behind walls.%d; expected it on the free side", path, j);
             }
@@ -156,6 +160,16 @@ static void check_way(const OzScene *scene, int i, OzNode *root, OzFaults *fault
     }
 }
 
+static void check_times(const OzWall *wall, int i, OzNode *root, OzFaults *faults)
+{
+    char path[64];
+    snprintf(path, sizeof path, "walls.%d.until", i);
+    if (wall->until > 0 && !(wall->until > wall->since)) {
+        oz_tree_fault(root, faults, path, "%s is %g s; expected later than its from, %g s", path,
+                      wall->until, wall->since);
+    }
+}
+
 /* Each wall's own values. */
 static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
@@ -171,6 +185,7 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
                           "closed ends of an endless cylinder; expected a length with it");
         }
         check_sizes(wall, i, root, faults);
+        check_times(wall, i, root, faults);
     }
 }
 

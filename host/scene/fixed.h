@@ -5,6 +5,7 @@
 #define GRAINS_MADE   FIXED("grains are made before the first step")
 #define WALLS_MADE                                                                                 \
     FIXED("walls are made before the first step, and one that jumped would throw grains")
+#define COMES     FIXED("walls come and go at the times of the start")
 #define SETTLED   FIXED("grains settle by what it is at the start")
 #define TAP_MEANS FIXED("tap means have begun with it")
 #define COLUMNS   FIXED("the run's files have been begun with it")

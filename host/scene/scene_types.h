@@ -117,6 +117,7 @@ typedef struct OzWall {
     int64_t tooth_count;   /* floor, hopper's slopes, drum; 0: smooth                    */
     double tooth_depth;    /* m                                                          */
     double thickness;      /* m, of what walls of triangles are made; 0: chosen by orzo  */
+    double since;          /* s, key `from` of rods' walls: it is there from this time on */
     double until;          /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;
     OzContactValues contact; /* the scene's, with this wall's own values put over them  */

@@ -6,6 +6,7 @@
 
 #define OZ_WALL_KINDS      0x3fffffff /* the host knows them all */
 #define OZ_WALL_KINDS_MORE 0x3fffffff
+#define OZ_GATED           0 /* where a wall is, whether there or not */
 
 #include "kernels/wall.h"
 

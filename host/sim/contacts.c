@@ -2,12 +2,14 @@
 #include "sim/contacts.h"
 
 #include "sim/dialect.h"
+#include "sim/gates.h"
 #include "model/motion.h"
 
 OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzContactList *list)
 {
     *contacts = (OzContacts){.snapshot = snapshot, .list = list};
     OZ_PASS(oz_physics_derive(&contacts->physics, snapshot->scene, snapshot->grains));
+    oz_gates_set(&contacts->physics, snapshot->scene, snapshot->time, snapshot->settling);
     contacts->share = contacts->physics.share;
     if (contacts->physics.switches.moves_before) {
         contacts->physics.share -=

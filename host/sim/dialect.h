@@ -17,6 +17,7 @@
 #define OZ_LINE             oz_host_switches_now.rods.line
 #define OZ_SMOOTH           oz_host_switches_now.rods.smooth
 #define OZ_AT_CONTACT       oz_host_switches_now.rods.at_contact
+#define OZ_GATED            oz_host_switches_now.rods.gated
 #define OZ_WALL_EDGED       oz_host_switches_now.rods.edged
 #define OZ_WALL_KINDS       0x3fffffff /* the host knows them all */
 #define OZ_WALL_KINDS_MORE  0x3fffffff

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "sim/dialect.h"
+#include "sim/gates.h"
 #include "sim/part_elements.h"
 #include "sim/sort_axis.h"
 #include "sim/start.h"
@@ -88,6 +89,7 @@ static OzStatus open_rods(Rods *r, OzGrains *grains, const OzScene *scene)
 {
     *r = (Rods){.grains = grains};
     OZ_PASS(oz_physics_derive(&r->physics, scene, grains));
+    oz_gates_set(&r->physics, scene, 0, true);
     OZ_PASS(OZ_NEW(&r->axis, 3 * grains->count));
     for (int64_t i = 0; i < grains->count; i++) {
         oz_grains_axis(&grains->quaternion[4 * i], &r->axis[3 * i]);

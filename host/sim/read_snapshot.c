@@ -11,6 +11,7 @@ OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot,
 {
     snapshot->step = sim->batch.reached[member];
     snapshot->time = oz_batch_time(&sim->batch, member, snapshot->step);
+    snapshot->settling = sim->batch.walls_still;
     snapshot->deep_count = sim->batch.deep_count[member];
     snapshot->has_contacts = false;
     snapshot->contacts.count = 0;

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "model/motion.h"
 #include "sim/contacts.h"
+#include "sim/gates.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -98,6 +99,7 @@ static void move_before(OzReference *r, double dt)
     for (int w = 0; w < r->physics.wall_count; w++) {
         r->wall_drive[w] = drive_at(r, w, force_time);
     }
+    oz_gates_set(&r->physics, r->scene, force_time, false);
 }
 
 static void touch_pairs(OzReference *r, double dt)
@@ -201,6 +203,22 @@ static void note_pairs(OzReference *r, double dt)
     }
 }
 
+/* As kernels/ledger.h. */
+static void note_gate(OzReference *r, int wall, const OzWallForce *f, OzVec3 after, double dt)
+{
+    int64_t step = r->step + (OZ_MOVES_BEFORE && dt > 0);
+    double times[3];
+    for (int k = 0; k < 3; k++) {
+        times[k] = oz_step_clock_time(&r->clock, dt > 0 ? step + k - 1 : step);
+    }
+    int gate = oz_gates_bits(&r->scene->walls[r->physics.wall_order[wall]], times, false);
+    OzVec3 force = oz_minus(f->parts.force, oz_add(f->parts.spring, f->parts.dashpot));
+    OzVec3 mean = oz_scale(oz_add(f->contact.velocity, after), 0.5);
+    double given = oz_dot(force, mean) * dt * (OZ_MOVES_BEFORE ? 0.5 : 1);
+    r->work.walls += gate & OZ_GATE_COMES ? f->parts.energy : 0;
+    r->work.walls -= gate & OZ_GATE_GOES ? f->parts.energy - given : 0;
+}
+
 static void note_wall(OzReference *r, int i, int index, double dt)
 {
     const OzWallForce *f = &r->wall_force[(int64_t)i * r->physics.touches + index];
@@ -212,8 +230,9 @@ static void note_wall(OzReference *r, int i, int index, double dt)
         OzVec3 before =
             oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, r->wall_drive[wall]);
         OzVec3 after = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, drive);
-        oz_ledger_note(&r->work, f->contact, f->parts,
-                       oz_minus(oz_grain_velocity_at(now, f->arm), after), dt);
+        OzVec3 left = oz_minus(oz_grain_velocity_at(now, f->arm), after);
+        oz_ledger_note(&r->work, f->contact, f->parts, left, dt);
+        note_gate(r, wall, f, left, dt);
         oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
     }
 }

@@ -5,6 +5,7 @@
 #include "model/motion.h"
 #include "sim/advice.h"
 #include "sim/constants.h"
+#include "sim/gates.h"
 #include "sim/host_lists.h"
 #include "sim/launch.h"
 #include "sim/pack.h"
@@ -168,11 +169,18 @@ OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
     size_t count = OZ_MOTION * (size_t)(steps + 1) * (size_t)walls;
     double *motion = NULL;
     OZ_TRY(OZ_NEW(&motion, count));
-    for (int k = 0; k < (sim->batch.walls_still ? 0 : steps + 1); k++) {
-        double time = oz_batch_time(&sim->batch, member, p->dt > 0 ? first + k : first);
+    for (int k = 0; k < steps + 1; k++) {
+        double times[3];
+        for (int i = 0; i < 3; i++) {
+            times[i] = oz_batch_time(&sim->batch, member, p->dt > 0 ? first + k + i - 1 : first);
+        }
         for (int w = 0; w < walls; w++) {
             double *words = motion + OZ_MOTION * ((size_t)k * (size_t)walls + (size_t)w);
-            put_motion(words, &scene->walls[oz_rods_own(sim)->wall_order[w]].motion, time, p);
+            const OzWall *wall = &scene->walls[oz_rods_own(sim)->wall_order[w]];
+            if (!sim->batch.walls_still) {
+                put_motion(words, &wall->motion, times[1], p);
+            }
+            words[OZ_M_GATE] = oz_gates_bits(wall, times, sim->batch.walls_still);
         }
     }
     OZ_TRY(oz_arrays_write_scalars(&sim->arrays, OZ_FIELD_motion, member, motion, count));
@@ -226,7 +234,7 @@ static OzStatus stand_still(OzSim *sim)
 static void leave_out_walls(void *switches)
 {
     OzSwitches *s = switches;
-    s->walls = s->edged = s->wall_kinds = s->wall_kinds_more = s->moving = 0;
+    s->walls = s->edged = s->wall_kinds = s->wall_kinds_more = s->moving = s->gated = 0;
 }
 
 static const OzStop stops[] = {

@@ -3,6 +3,7 @@
 
 #include "model/contact.h"
 #include "model/motion.h"
+#include "sim/gates.h"
 #include "sim/resolution.h"
 #include "sim/sides.h"
 
@@ -70,7 +71,8 @@ static void derive_friction(OzSwitches *s, const OzScene *scene)
         const OzContactValues *values = &scene->walls[w].contact;
         s->friction |= values->friction > 0;
         s->history |= values->friction > 0 && has_spring(values, scene);
-        s->moving |= scene->walls[w].motion.present;
+        s->gated |= oz_gates_has(&scene->walls[w]);
+        s->moving |= scene->walls[w].motion.present || s->gated;
         s->free_motion |= oz_motion_is_free(&scene->walls[w].motion);
     }
 }

@@ -35,6 +35,7 @@
     X(WALL_KINDS_MORE, wall_kinds_more, NULL)                                                      \
     X(MOVING, moving, "moving walls")                                                              \
     X(FREE_MOTION, free_motion, "walls that turn or move otherwise than up and down")              \
+    X(GATED, gated, "walls that come or go")                                                       \
     X(ALL_PAIRS, all_pairs, NULL)
 
 typedef struct OzSwitches {
