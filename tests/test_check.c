@@ -105,6 +105,7 @@ static void test_verdict_comes_first(void **state)
     static const char *const order[] = {"\nverdict\n  restitution      0.5 asked, ",
                                         "\n  stable           yes: ",
                                         "\n  resolution       float tells overlaps of ",
+                                        "\n  grains           30, 0.001 to 0.001 m wide, ",
                                         "\n  cost             2000 steps at ",
                                         "\n  movie            5 pictures of 320 x 240 at ",
                                         "\n  in all           about ",

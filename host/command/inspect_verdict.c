@@ -269,6 +269,21 @@ static void print_missed(FILE *file, const OzScene *scene)
     }
 }
 
+/* What was meant is seen by size and mass best. */
+static void print_grains(FILE *file, const OzGrains *grains)
+{
+    const double large = 0.5; /* m: rarer in a scene than millimetres that were not converted */
+    double low = INFINITY, high = 0, mass = 0;
+    for (int64_t i = 0; i < grains->count; i++) {
+        low = fmin(low, grains->diameter[i]);
+        high = fmax(high, grains->diameter[i]);
+        mass += grains->mass[i];
+    }
+    fprintf(file, "  grains           %lld, %.3g to %.3g m wide, %.3g kg together%s\n",
+            (long long)grains->count, low, high, mass,
+            high > large ? "; lengths are metres: were millimetres meant?" : "");
+}
+
 OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
 {
     bool flat = verdict->scene->model == OZ_MODEL_TRIGRAINS;
@@ -278,6 +293,7 @@ OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
     }
     if (verdict->grains->count > 0) {
         OZ_PASS(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
+        print_grains(file, verdict->grains);
     }
     OZ_PASS(print_cost(file, verdict));
     if (verdict->grains->count > 0) {
