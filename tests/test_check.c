@@ -98,6 +98,19 @@ static const char *said_line(const char *begin)
     return line;
 }
 
+static void test_what_is_open_is_said(void **state)
+{
+    (void)state;
+    write_file("open.yaml", "model: rods\ntime: {step: 1e-5, duration: 1e-3}\n"
+                            "contact: {contact_time: 6e-4, restitution: 0.5}\n"
+                            "grains: [{kind: random, count: 3, diameter: 1e-3}]\n"
+                            "walls: [{kind: plane}, {kind: cylinder, diameter: 9e-3}]\n");
+    expect(0, "verdict", "check open.yaml");
+    assert_false(contains("said", "container"));
+    expect(0, "level planes alone: nothing holds grains sideways",
+           "check open.yaml --set walls.1=false");
+}
+
 /* What a person came for stands above everything else; switches and memory only when asked for. */
 static void test_verdict_comes_first(void **state)
 {
@@ -348,6 +361,7 @@ int main(void)
         cmocka_unit_test(test_check_refuses_deep_starts),
         cmocka_unit_test(test_check_is_short),
         cmocka_unit_test(test_verdict_comes_first),
+        cmocka_unit_test(test_what_is_open_is_said),
         cmocka_unit_test(test_cost_is_what_a_run_takes),
         cmocka_unit_test(test_resolution),
         cmocka_unit_test(test_empty_columns),

@@ -284,6 +284,30 @@ static void print_grains(FILE *file, const OzGrains *grains)
             high > large ? "; lengths are metres: were millimetres meant?" : "");
 }
 
+/* Whether all walls of rods are planes across gravity, or there are none. */
+static bool is_open(const OzScene *scene)
+{
+    const double *g = scene->gravity;
+    double gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    bool open = gravity > 0;
+    for (int w = 0; w < scene->wall_count && open; w++) {
+        const double *n = scene->walls[w].normal;
+        double along = fabs(n[0] * g[0] + n[1] * g[1] + n[2] * g[2]);
+        open = scene->walls[w].kind == OZ_WALL_PLANE && along > (1 - 1e-9) * gravity;
+    }
+    return open;
+}
+
+/* Rods and spheres, whose walls hold what lies between them; trigrains' say what they are. */
+static void print_container(FILE *file, const OzVerdict *verdict)
+{
+    if (verdict->grains->count > 1 && is_open(verdict->scene)) {
+        fprintf(file, "  container        %s: nothing holds grains sideways%s\n",
+                verdict->scene->wall_count ? "level planes alone" : "none",
+                verdict->scene->wall_count ? "" : " or from below");
+    }
+}
+
 OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
 {
     bool flat = verdict->scene->model == OZ_MODEL_TRIGRAINS;
@@ -294,6 +318,9 @@ OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
     if (verdict->grains->count > 0) {
         OZ_PASS(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
         print_grains(file, verdict->grains);
+        if (!flat) {
+            print_container(file, verdict);
+        }
     }
     OZ_PASS(print_cost(file, verdict));
     if (verdict->grains->count > 0) {
