@@ -46,6 +46,9 @@ static void test_settled_dice(void **state)
     expect(0, "", "run dice.yaml -o dice_branch --from dice_rest --set settle=false");
     assert_true(same_files("dice/series.csv", "dice_branch/series.csv"));
     assert_true(same_files("dice/final.csv", "dice_branch/final.csv"));
+    expect(0, "", "run dice.yaml -o dice_gone --until 0.0005 --set walls.0.until=2e-4");
+    expect(2, "walls.0 is gone in dice_gone/state.h5, and is there at the start",
+           "run dice.yaml -o bad --from dice_gone --set settle=false");
 }
 
 /* Every member begins with the bed: the first is the run alone, and none is like another. */

@@ -115,12 +115,18 @@ static OzStatus check_walls(const OzFromMember *from, const OzScene *scene)
         double jump = fabs(pose.rise) + (smooth ? 0 : turn * fmax(then->diameter, then->width));
         bool begins = oz_wall_motion_present(&scene->walls[w], 0, true);
         bool gone = begins && !oz_wall_motion_present(then, time, false);
-        if (!(jump <= 0.005 * smallest) || gone) {
+        if (gone) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "%s: walls.%d is gone in %s, and is there at the start; expected "
+                                  "a state of a time when it is there (--from DIR@time=T)",
+                                  scene->path, w, from->file->path);
+        }
+        if (!(jump <= 0.005 * smallest)) {
             return oz_status_fail(
                 OZ_ERR_INPUT,
-                "%s: walls.%d %s in %s, and begins where it was built; expected a state at whole "
-                "periods (--from DIR@tap=N) or of walls at rest",
-                scene->path, w, gone ? "is gone" : "stands elsewhere", from->file->path);
+                "%s: walls.%d stands elsewhere in %s, and begins where it was built; expected a "
+                "state at whole periods (--from DIR@tap=N) or of walls at rest",
+                scene->path, w, from->file->path);
         }
     }
     return OZ_OK;
