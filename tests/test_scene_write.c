@@ -235,7 +235,7 @@ static void writes_settings_and_odd_values(void **state)
             " {kind: lattice, cells: [1, 2, 3], spacing: [1, 1, 0.7], position: [0, 0, 1],"
             " diameter: 0.1, spin: [1e-300, 0, -5e-324]}]",
             "snapshots.taps=[3, 1/7, 1, 3]", "movie.views=cut", "movie.speed=1/7", "skin=1e-4",
-            "seed=9007199254740993", "settle.drag=1/9"));
+            "seed=9007199254740993", "settle.drag=1/9", "walls.0.motion.acceleration_ratio=0"));
     assert_true(scene.seed == 9007199254740993u && scene.snapshots.count == 3);
     assert_written_back(&scene);
     oz_scene_free(&scene);
@@ -284,8 +284,8 @@ static void writes_trigrains(void **state)
              "walls:\n"
              "  - {kind: segment, from: [0, 1], to: [1, 0], until: 0.3, thickness: 1/9}\n"
              "  - {kind: hopper, width: 1, height: 2, opening: 0, slope: 33.3, teeth: 3,"
-             " tooth_depth: 0.01, motion: {frequency: 30, amplitude: 1e-3}}\n"
-             "  - {kind: drum, diameter: 1, motion: {angular_velocity: 0.1}}\n"
+             " tooth_depth: 0.01, motion: {frequency: 30, amplitude: 0}}\n"
+             "  - {kind: drum, diameter: 1, motion: {angular_velocity: 0}}\n"
              "  - {kind: floor, width: 1, motion: {frequency: 7, acceleration_ratio: 2,"
              " angular_velocity: 1}}\n"
              "observe: {outlet: 0}\nmovie: {outlines: false, beams: true, colour: grey}\n",

@@ -82,6 +82,7 @@ typedef struct OzMotion {
     double acceleration_ratio; /* A (2 pi f)^2 / |gravity|; both are filled in, whichever was   */
     double amplitude;          /* m                                                      written */
     double written_amplitude;  /* m; 0 when the acceleration ratio was written                  */
+    bool has_ratio, has_amplitude, has_turning; /* whether these were written, also as 0        */
     double angular_velocity;   /* rad/s: trigrains about the wall's point; rods about its axis  */
     double direction[3];       /* rods: a unit vector, along which it is shaken; zero: upwards   */
     double axis[3];            /* rods: a unit vector along the axis through the wall's point    */
