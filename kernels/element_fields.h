@@ -53,7 +53,9 @@
     X(scalar, beam_force, z.beam_blocks *OZ_LANES *OZ_ELEMENT_LOAD, SCRATCH)                       \
     X(integer, beam_first, OZ_SCATTER ? 0 : z.free_slots + 1, STATE)                             \
     X(integer, beam_of, OZ_SCATTER ? 0 : 2 * z.beam_blocks * OZ_LANES, STATE)                    \
-    X(ledger, ledger, OZ_LEDGER ? z.regions *OZ_ELEMENT_LEDGER_WORDS : 0, STATE)
+    X(ledger, ledger, OZ_LEDGER ? z.regions *OZ_ELEMENT_LEDGER_WORDS : 0, STATE)                   \
+    X(ledger, wall_impulse,                                                                        \
+      OZ_IMPULSES ? z.free_slots * z.walls * OZ_ELEMENT_IMPULSE_WORDS : 0, STATE)
 
 /* A beam's words: length at rest, and at either end the angle at rest. */
 enum { OZ_BEAM_REST = 3 };

@@ -96,5 +96,8 @@ enum {
     OZ_ELEMENT_MOTION
 };
 
+/* Words of an element's impulse at a wall: of force, then of torque. */
+enum { OZ_ELEMENT_IMPULSE_WORDS = 3 };
+
 /* A work-item's sums of energy, J, and after them how fast each grew at the last step, W. */
 enum { OZ_ELEMENT_LEDGER_WORDS = 2 * OZ_ELEMENT_LEDGER };

@@ -3,7 +3,7 @@
  * walls with edges (wall_shaft.h) in the same way. OpenCL C only. */
 #pragma once
 
-#include "kernels/enclosure_side.h"
+#include "kernels/wall_impulse.h"
 
 #if OZ_WALL_COUNT > 0
 
@@ -110,6 +110,9 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
     }
     OzVec3 force = oz_where(OZ_ACTIVE_BEFORE(count), found.parts.force);
     oz_loads_add(w, slots, force, oz_cross(found.arm, force));
+#if OZ_IMPULSES
+    oz_wall_impulse_add(w, side, grain, slots, count, found.arm, force);
+#endif
     mask counts = OZ_ACTIVE_BEFORE(count);
     OzContact whole = found.contact;
     if (!OZ_ROUND && side->index >= OZ_ENCLOSURE_EDGED) {

@@ -83,6 +83,9 @@ enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_M_RATE, OZ_M_GATE,
 /* A wall is not there at a step, was not there at the one before, will not be at the next. */
 enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };
 
+/* Words of a grain's impulse at a wall: of force, then of torque. */
+enum { OZ_IMPULSE_WORDS = 6 };
+
 /* Words of a slot's load: force and torque, each with one word to spare. */
 enum { OZ_LOAD = 8 };
 

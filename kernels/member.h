@@ -26,7 +26,7 @@ typedef double fixed_position_kind;
 #else
 typedef int fixed_position_kind;
 #endif
-#if OZ_LEDGER
+#if OZ_LEDGER || OZ_IMPULSES
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double ledger_kind;
 #else

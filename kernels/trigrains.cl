@@ -1,6 +1,7 @@
 /* The trigrains model. */
 #include "kernels/element_beams.h"
 #include "kernels/element_contacts.h"
+#include "kernels/element_impulse.h"
 #include "kernels/element_loads.h"
 #include "kernels/element_move.h"
 #if OZ_SUBSTEPS > 1
@@ -62,6 +63,9 @@ OZ_INLINE int oz_step_finish(OzWork *w, int step, int last)
 {
     int goes_on = OZ_SUBSTEPS == 1 && step + 1 < last && !w->control->stop_bits;
     add_up(w);
+#if OZ_IMPULSES
+    oz_element_impulse_step(w, step);
+#endif
 #if !OZ_RESORT
     OZ_WORK_BARRIER();
 #endif

@@ -25,7 +25,7 @@ static void test_walls_feel_their_contacts(void **state)
     static const char end[] = ",deep_count,wall0_fx,wall0_fy,wall0_fz,wall1_fx,wall1_fy,wall1_fz,"
                               "wall0_tx,wall0_ty,wall0_tz,wall1_tx,wall1_ty,wall1_tz\n";
     bed_create(&bed, 2, 1e-3, 3e-3);
-    bed.scene.observe.walls = true;
+    bed.scene.observe.walls = OZ_OBSERVE_WALLS_INSTANT;
     assert_near(value_of(&bed, "wall1_fz"), -1e99, 0); /* without contacts nothing is known */
     hand_contact(&bed.snapshot, (OzContactEntry){.b = 1, .push = 64, .normal = {1, 0, 0}});
     hand_contact(
@@ -79,7 +79,7 @@ static void assert_cell(int row, const char *name, const char *expected)
 
 static void set_walls(Bed *bed, OzSeries *series, bool wanted)
 {
-    bed->scene.observe.walls = wanted;
+    bed->scene.observe.walls = wanted ? OZ_OBSERVE_WALLS_INSTANT : OZ_OBSERVE_WALLS_NONE;
     must(oz_series_take(series));
 }
 

@@ -159,7 +159,7 @@ static void test_contacts(void **state)
     (void)state;
     expect(0, "30 grains",
            "run bed.yaml -o touching " EXACT
-           " --set observe.contacts=true --set observe.walls=true");
+           " --set observe.contacts=true --set observe.walls=instant");
     char *series = read_file("touching/series.csv", NULL),
          *contacts = read_file("touching/contacts.csv", NULL);
     assert_string_equal(line_of(contacts, 0),

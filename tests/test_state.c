@@ -44,7 +44,7 @@ static const char flat[] =
     "  - {kind: vessel, width: 15e-3, height: 3e-2, motion: {frequency: 500, "
     "acceleration_ratio: 1}}\n"
     "movie: {fps: 10, length: 2}\n"
-    "observe: {ledger: true, interval: 2e-4, samples_per_tap: 8, contacts: true}\n";
+    "observe: {ledger: true, interval: 2e-4, samples_per_tap: 8, contacts: true, walls: mean}\n";
 
 /* The drum of test_element_device, with a floor that is taken away on the way. */
 static const char drum[] =
@@ -174,6 +174,8 @@ static bool same_bits(const OzSnapshot *a, const OzSnapshot *b)
     return a->step == b->step && memcmp(a->position, b->position, three) == 0 &&
            memcmp(a->velocity, b->velocity, three) == 0 &&
            memcmp(a->angular_velocity, b->angular_velocity, three) == 0 &&
+           memcmp(a->wall_impulse, b->wall_impulse,
+                  (size_t)a->scene->wall_count * sizeof *a->wall_impulse) == 0 &&
            memcmp(&a->ledger, &b->ledger, sizeof a->ledger) == 0 &&
            memcmp(&a->element_ledger, &b->element_ledger, sizeof a->element_ledger) == 0;
 }

@@ -215,7 +215,7 @@ OzStatus oz_device_check_double(const OzDevice *device, bool is_needed)
     if (is_needed && !device->has_double) {
         return oz_status_fail(OZ_ERR_DEVICE,
                               "%s computes in float only: use precision: float without "
-                              "observe.ledger",
+                              "observe.ledger, and observe.walls: instant",
                               device->name);
     }
     return OZ_OK;

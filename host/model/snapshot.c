@@ -33,6 +33,7 @@ OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const Oz
     OZ_TRY(OZ_NEW(&snapshot->angular_velocity, 3 * count));
     OZ_TRY(OZ_NEW(&snapshot->wall_offset, scene->wall_count));
     OZ_TRY(OZ_NEW(&snapshot->wall_velocity, scene->wall_count));
+    OZ_TRY(OZ_NEW(&snapshot->wall_impulse, scene->wall_count));
     if (grains->elements) {
         OZ_TRY(create_elements(snapshot, grains->elements->count));
     }
@@ -52,6 +53,7 @@ void oz_snapshot_free(OzSnapshot *snapshot)
     free(snapshot->angular_velocity);
     free(snapshot->wall_offset);
     free(snapshot->wall_velocity);
+    free(snapshot->wall_impulse);
     free(snapshot->element_position);
     free(snapshot->element_angle);
     free(snapshot->element_velocity);

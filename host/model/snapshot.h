@@ -49,6 +49,10 @@ typedef struct OzSnapshot {
     double *angular_velocity; /* 3 x count, world frame                                       */
     double *wall_offset;      /* wall_count: displacement along z now, m                      */
     double *wall_velocity;    /* wall_count: m/s                                              */
+    bool has_wall_impulse;
+    double (*wall_impulse)[6]; /* wall_count: what all grains have pushed each wall with so far,
+                                  force times time, N s, and turned it about its point, N m s;
+                                  differences alone tell something: where they begin is left open */
     int64_t deep_count; /* contacts beyond guards.overlap.warn so far, each counted once a step */
     bool has_contacts;  /* contacts and beams are filled in                                 */
     OzContactList contacts; /* in the order of ids */

@@ -5,6 +5,7 @@
 #include "observe/bed_order.h"
 #include "observe/flow.h"
 #include "observe/measure.h"
+#include "observe/wall_push.h"
 
 /* What tap means are made of, in the order of OzObservation.mean. */
 typedef enum OzTapMean {
@@ -29,9 +30,8 @@ typedef struct OzObservation {
     const OzFlow *flow; /* of flat grains, the snapshot seen */
     int index;          /* of the column asked for, and of its repetition */
     OzContactSums contacts;
-    double (*wall_force)[3];  /* N, of all grains on each wall of the scene; NULL: nobody asked */
-    double (*wall_torque)[3]; /* N m, of these about the wall's point, with it                  */
-    const OzBedOrder *order;  /* of rods, this state's; with observe.order alone */
+    const OzWallPush *push;  /* forces on walls; none where nobody asked     */
+    const OzBedOrder *order; /* of rods, this state's; with observe.order alone */
     OzLayer layers[OZ_MEASURE_LAYERS];
     bool has_mean[OZ_TAP_MEANS];
     double mean[OZ_TAP_MEANS]; /* tap means, by the series                  */

@@ -150,14 +150,14 @@ static double of_wall(const OzObservation *o, OzColumnNeed need, double (*values
 
 static bool wall_force(const OzObservation *o, double *value)
 {
-    *value = of_wall(o, OZ_COLUMN_WALLS, o->wall_force);
-    return o->snapshot->has_contacts;
+    *value = of_wall(o, OZ_COLUMN_WALLS, o->push->force);
+    return o->push->is_known;
 }
 
 static bool wall_torque(const OzObservation *o, double *value)
 {
-    *value = of_wall(o, OZ_COLUMN_WALL_TURNS, o->wall_torque);
-    return o->snapshot->has_contacts;
+    *value = of_wall(o, OZ_COLUMN_WALL_TURNS, o->push->torque);
+    return o->push->is_known;
 }
 
 static bool deep_count(const OzObservation *o, double *value)
@@ -385,8 +385,8 @@ static const OzColumn list[] = {
      ALWAYS, false, oz_flat_inclination, 5},
     {"deep_count", "1", "contacts deeper than guards.overlap.warn so far, each counted once a step",
      ALL, ALWAYS, true, deep_count, 0},
-    {"wall<i>_f<x>", "N", "force of all grains on walls.<i> along an axis, x, y or z, with observe.walls "
-     "(trigrains: x and y, a metre deep)", ALL, WALLS, false, wall_force, 0},
+    {"wall<i>_f<x>", "N", "force of all grains on walls.<i> along an axis, x, y or z, with observe.walls: "
+     "mean over the time since the row before, or instant (trigrains: x and y, a metre deep)", ALL, WALLS, false, wall_force, 0},
     {"wall<i>_t<x>", "N m", "torque of these forces about the wall's point, which moves with it "
      "(trigrains: z)", ALL, WALL_TURNS, false, wall_torque, 0},
     {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},

@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "observe/rows_file.h"
 #include "observe/surplus.h"
-#include "scene/wall_shape.h"
 
 #include <errno.h>
 #include <math.h>
@@ -31,9 +30,8 @@ struct OzSeries {
     int column_count;
     OzMeasure measure;
     Ring mean[OZ_TAP_MEANS];
-    double (*wall_force)[3];                    /* of the row in hand; NULL: nobody asked */
-    double (*wall_torque)[3], (*wall_point)[3]; /* with it, and the points they are about */
-    double *row;                                /* the last one; NAN: an empty cell */
+    OzWallPush push; /* of the row in hand, where the scene asks for it */
+    double *row;     /* the last one; NAN: an empty cell */
     int cell_count;
     bool has_start;
     double energy_start; /* J, of the first row */
@@ -130,45 +128,6 @@ static OzStatus make_columns(OzSeries *series)
     return make_row(series);
 }
 
-static void free_walls(OzSeries *series)
-{
-    free(series->wall_force);
-    free(series->wall_torque);
-    free(series->wall_point);
-    series->wall_force = series->wall_torque = series->wall_point = NULL;
-}
-
-/* Where the scene asks for the walls' forces. */
-static OzStatus make_walls(OzSeries *series)
-{
-    int count = series->scene->wall_count;
-    free_walls(series);
-    if (!series->scene->observe.walls) {
-        return OZ_OK;
-    }
-    OZ_PASS(OZ_NEW(&series->wall_force, count));
-    OZ_PASS(OZ_NEW(&series->wall_torque, count));
-    return OZ_NEW(&series->wall_point, count);
-}
-
-/* What pushes and turns the walls in this state. */
-static void see_walls(OzSeries *series, const OzSnapshot *now)
-{
-    int count = series->scene->wall_count;
-    for (int w = 0; w < count; w++) {
-        const OzWall *wall = &series->scene->walls[w];
-        double shift[3], flat[3] = {0, now->wall_offset[w], 0};
-        oz_wall_shape_shift(wall, now->wall_offset[w], shift);
-        for (int k = 0; k < 3; k++) {
-            bool in_plane = series->scene->model == OZ_MODEL_TRIGRAINS;
-            series->wall_point[w][k] = wall->point[k] + (in_plane ? flat[k] : shift[k]);
-        }
-    }
-    oz_contact_list_push_walls(&now->contacts, series->wall_force, count);
-    oz_contact_list_turn_walls(&now->contacts, (const double(*)[3])series->wall_point,
-                               series->wall_torque, count);
-}
-
 /* The file with the columns that are kept by now, open at its end. */
 static OzStatus reshape(OzSeries *series)
 {
@@ -209,7 +168,7 @@ static OzStatus open_series(OzSeries **series, const char *path, const OzScene *
     OZ_TRY(oz_memory_text(&(*series)->path, path));
     OZ_TRY(oz_measure_create(&(*series)->measure, scene, grains));
     (*series)->has_ledger = scene->observe.ledger;
-    OZ_TRY(make_walls(*series));
+    OZ_TRY(oz_wall_push_take(&(*series)->push, scene));
     OZ_TRY(make_columns(*series));
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         OZ_TRY(ring_create(&(*series)->mean[k], 2 * samples));
@@ -251,7 +210,7 @@ static OzStatus ring_state(Ring *ring, OzStateVisit *visit)
 
 OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
 {
-    OZ_PASS(oz_state_enter(visit, "series", 2));
+    OZ_PASS(oz_state_enter(visit, "series", 3));
     OZ_PASS(oz_state_items(visit, "columns", "none", OZ_STATE_BYTES, series->is_kept,
                            series->column_count));
     OZ_PASS(oz_state_index(visit, "file_bytes", &series->whole, 0, INT64_MAX));
@@ -264,6 +223,7 @@ OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
     }
     OZ_PASS(oz_surplus_state(&series->surplus, visit));
     OZ_PASS(oz_flow_state(&series->flow, visit));
+    OZ_PASS(oz_wall_push_state(&series->push, visit));
     oz_state_leave(visit);
     if (visit->is_loading) { /* the run may have got columns after this state was made */
         OZ_PASS(reshape(series));
@@ -299,7 +259,7 @@ OzStatus oz_series_take(OzSeries *series)
         series->has_start = false;
         series->surplus = (OzSurplus){0};
     }
-    OZ_PASS(make_walls(series));
+    OZ_PASS(oz_wall_push_take(&series->push, series->scene));
     return grow_columns(series);
 }
 
@@ -320,11 +280,8 @@ static OzObservation observe(OzSeries *series, const OzSnapshot *snapshot)
                                  .flow = &series->flow,
                                  .order = &series->order};
     observation.contacts = oz_contact_list_sum(&snapshot->contacts);
-    observation.wall_force = series->wall_force;
-    observation.wall_torque = series->wall_torque;
-    if (series->wall_force) {
-        see_walls(series, snapshot);
-    }
+    observation.push = &series->push;
+    oz_wall_push_see(&series->push, snapshot);
     oz_measure_layers(&series->measure, snapshot, observation.layers);
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         observation.has_mean[k] = ring_mean(&series->mean[k], &observation.mean[k]);
@@ -411,7 +368,7 @@ OzStatus oz_series_free(OzSeries *series)
         status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
     }
     oz_measure_free(&series->measure);
-    free_walls(series);
+    oz_wall_push_free(&series->push);
     free(series->row);
     free(series->is_kept);
     oz_flow_free(&series->flow);

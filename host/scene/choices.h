@@ -71,6 +71,10 @@ static const char *const DAMPING_SHEARS[] = {
     [OZ_SHEAR_NONE] = "none", [OZ_SHEAR_BALANCED] = "balanced", NULL};
 static const char *const OBSERVE_AT[] = {
     [OZ_OBSERVE_MEAN] = "mean", [OZ_OBSERVE_TOP] = "top", [OZ_OBSERVE_BOTTOM] = "bottom", NULL};
+static const char *const OBSERVE_WALLS[] = {[OZ_OBSERVE_WALLS_NONE] = "false",
+                                            [OZ_OBSERVE_WALLS_MEAN] = "mean",
+                                            [OZ_OBSERVE_WALLS_INSTANT] = "instant",
+                                            NULL};
 static const char *const FLAT_VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", NULL};
 static const char *const VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral",
                                     [OZ_VIEW_CUT] = "cut",

@@ -43,6 +43,7 @@ typedef struct OzKey {
     const char *help;
     const char *const *choices;    /* names in the enum's order, "" where the model has none,
                                       ending with NULL                                        */
+    const char *truth;             /* CHOICE: the name that `true` means; NULL: none        */
     size_t offset, count_offset;   /* in OzScene or in the list's item; the latter of a list's int
                                       count, or of an OZ_WRITE_MARKED row's bool              */
     size_t item_size, line_offset; /* OZ_KEY_ITEMS: of one item, and of its int line        */

@@ -211,6 +211,13 @@ typedef enum OzObserveAt {
     OZ_OBSERVE_BOTTOM /* offset -A, three quarters                                             */
 } OzObserveAt;
 
+/* Columns of the force on each wall. */
+typedef enum OzObserveWalls {
+    OZ_OBSERVE_WALLS_NONE,
+    OZ_OBSERVE_WALLS_MEAN,   /* over the time since the row before */
+    OZ_OBSERVE_WALLS_INSTANT /* at the row's moment                */
+} OzObserveWalls;
+
 typedef struct OzObserve {
     double interval;          /* s between rows of series.csv; interval_taps x period is put here */
     double interval_taps;     /* as written; 0: interval was, or neither                         */
@@ -218,7 +225,7 @@ typedef struct OzObserve {
     OzObserveAt at;           /* when rows are written, and of which phase tap means are     */
     double layer_thickness;   /* m; default 4e-3                                             */
     bool ledger;              /* energy columns                                              */
-    bool walls;               /* columns of the force on each wall                           */
+    OzObserveWalls walls;
     bool order;               /* columns of rods' order                                      */
     bool contacts;            /* contacts.csv                                                */
     double contacts_interval; /* s between its looks; 0: at every row of series.csv         */

@@ -110,8 +110,11 @@ static bool read_bool(const OzKey *key, const OzNode *node, bool *flag, OzFaults
 
 static bool read_choice(const OzKey *key, const OzNode *node, int *choice, OzFaults *faults)
 {
-    for (int i = 0; node->kind == OZ_NODE_SCALAR && !node->refused && key->choices[i]; i++) {
-        if (key->choices[i][0] && strcmp(node->text, key->choices[i]) == 0) {
+    bool plain = node->kind == OZ_NODE_SCALAR && !node->refused;
+    bool yes = plain && key->truth && !node->quoted && strcmp(node->text, "true") == 0;
+    const char *name = yes ? key->truth : node->text;
+    for (int i = 0; plain && key->choices[i]; i++) {
+        if (key->choices[i][0] && strcmp(name, key->choices[i]) == 0) {
             *choice = i;
             return true;
         }

@@ -161,8 +161,7 @@ static OzStatus take_field(OzSim *sim, int field, int member, const OzBranchSour
     size_t bytes = oz_arrays_bytes(&sim->arrays, field);
     bool springs = row->class == OZ_FIELD_SPRING;
     OzStateKind kind = oz_model_field_kind(row, oz_arrays_switches(&sim->arrays)->is_double);
-    if (bytes == 0 || (row->class != OZ_FIELD_STATE && !springs) ||
-        strcmp(row->name, "ledger") == 0) {
+    if (bytes == 0 || (row->class != OZ_FIELD_STATE && !springs) || oz_model_field_sums(row)) {
         return OZ_OK;
     }
     const OzStateEntry *saved = find_own(source, row->name);

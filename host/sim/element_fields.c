@@ -5,6 +5,7 @@
 #undef OZ_LANES
 #undef OZ_MOVING
 #undef OZ_LEDGER
+#undef OZ_IMPULSES
 #define OZ_LANES    (s->lanes)
 #define OZ_GROUP    (s->group)
 #define OZ_RESORT   (s->resort)
@@ -14,6 +15,7 @@
 #define OZ_DISCS    (s->discs)
 #define OZ_SUBSTEPS (s->substeps)
 #define OZ_LEDGER   (s->ledger)
+#define OZ_IMPULSES (s->impulses)
 
 size_t oz_element_fields_items(int field, const void *switches, const void *sizes)
 {

@@ -39,5 +39,6 @@ OzElementSwitches oz_element_switches_derive(const OzScene *scene, const OzGrain
     s.force_point = (int)scene->triangles.force_point;
     s.damping_shear = (int)scene->beams.damping_shear;
     s.ledger = scene->observe.ledger;
+    s.impulses = scene->observe.walls == OZ_OBSERVE_WALLS_MEAN && scene->wall_count > 0;
     return s;
 }

@@ -20,7 +20,9 @@
     X(BEAMS, beams, "beams")                                                                       \
     X(SUBSTEPS, substeps, NULL)                                                                    \
     X(FORCE_POINT, force_point, NULL)                                                              \
-    X(DAMPING_SHEAR, damping_shear, NULL)
+    X(DAMPING_SHEAR, damping_shear, NULL)                                                          \
+    X(IMPULSES, impulses, "mean forces on walls")
+
 typedef struct OzElementSwitches {
     int is_double; /* -D OZ_DOUBLE when set */
 #define OZ_ELEMENT_SWITCHES_MEMBER(name, member, left_out) int member;

@@ -10,6 +10,11 @@ OzStateKind oz_model_field_kind(const OzField *field, bool is_double)
     return is_double && field->widens ? OZ_STATE_DOUBLE : field->kind;
 }
 
+bool oz_model_field_sums(const OzField *field)
+{
+    return field->kind == OZ_STATE_DOUBLE && !field->widens;
+}
+
 size_t oz_model_field_bytes(const OzModel *model, int field, const void *switches,
                             const void *sizes)
 {

@@ -185,6 +185,9 @@ typedef struct OzModel {
     void (*advise)(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now);
 } OzModel;
 
+/* Whether a field adds up what has happened: it begins empty where no state has it. */
+bool oz_model_field_sums(const OzField *field);
+
 /* What a field's words are in this precision; bytes of one member's stretch. */
 OzStateKind oz_model_field_kind(const OzField *field, bool is_double);
 size_t oz_model_field_bytes(const OzModel *model, int field, const void *switches,

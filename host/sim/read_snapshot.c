@@ -15,7 +15,7 @@ OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot,
     snapshot->deep_count = sim->batch.deep_count[member];
     snapshot->has_contacts = false;
     snapshot->contacts.count = 0;
-    snapshot->has_ledger = false;
+    snapshot->has_ledger = snapshot->has_wall_impulse = false;
     oz_snapshot_move_walls(snapshot);
     OZ_PASS(sim->model->unpack(sim, member, snapshot));
     if (contacts) {
@@ -24,19 +24,29 @@ OzStatus oz_read_snapshot_snapshot(OzSim *sim, int member, OzSnapshot *snapshot,
     return OZ_OK;
 }
 
-OzStatus oz_read_snapshot_ledger(const OzSim *sim, int member, double *sum)
+OzStatus oz_read_snapshot_sums(const OzSim *sim, int member, int field, int row, double *sum)
 {
     OzStatus status = OZ_OK;
-    int field = sim->model->ledger_field, row = sim->model->ledger_words;
     size_t count = oz_arrays_bytes(&sim->arrays, field) / sizeof(double);
-    double *words = NULL, unit = oz_units_energy(&oz_sim_parameters(sim, member)->units);
+    double *words = NULL;
     OZ_TRY(oz_arrays_download(&sim->arrays, field, member, &words));
     for (size_t k = 0; k < count; k++) {
-        sum[k % (size_t)row] += words[k] * unit;
+        sum[k % (size_t)row] += words[k];
     }
 done:
     free(words);
     return status;
+}
+
+OzStatus oz_read_snapshot_ledger(const OzSim *sim, int member, double *sum)
+{
+    const OzModel *model = sim->model;
+    double unit = oz_units_energy(&oz_sim_parameters(sim, member)->units);
+    OZ_PASS(oz_read_snapshot_sums(sim, member, model->ledger_field, model->ledger_words, sum));
+    for (int k = 0; k < model->ledger_words; k++) {
+        sum[k] *= unit;
+    }
+    return OZ_OK;
 }
 
 OzStatus oz_read_snapshot_start_ledger(OzSim *sim)

@@ -235,6 +235,7 @@ static void leave_out_walls(void *switches)
 {
     OzSwitches *s = switches;
     s->walls = s->edged = s->wall_kinds = s->wall_kinds_more = s->moving = s->gated = 0;
+    s->impulses = 0;
 }
 
 static const OzStop stops[] = {

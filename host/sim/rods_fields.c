@@ -10,6 +10,7 @@
 #define OZ_WALL_EDGED (s->edged)
 #define OZ_MOVING     (s->moving)
 #define OZ_LEDGER     (s->ledger)
+#define OZ_IMPULSES   (s->impulses)
 #define OZ_LINE       (s->line)
 #define OZ_RESORT     (s->resort)
 #define OZ_FINE       (s->fine)

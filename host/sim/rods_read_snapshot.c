@@ -7,8 +7,11 @@
 #include "sim/read_snapshot.h"
 #include "sim/rods_private.h"
 #include "sim/scalars.h"
+#include "sim/sides.h"
+#include "sim/units.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* A word of a spring, m; 0 in a scene without springs. */
 static double spring_word(const OzSim *sim, int member, const void *words, size_t at)
@@ -76,6 +79,34 @@ done:
     return status;
 }
 
+/* Impulses of the scene's walls from those of the kernels' sides, whose points are not the walls'.
+ */
+static OzStatus find_impulses(OzSim *sim, int member, OzSnapshot *snapshot)
+{
+    OzWallSide sides[OZ_WALLS_MAX];
+    double sum[OZ_WALLS_MAX][OZ_IMPULSE_WORDS] = {{0}};
+    const OzScene *scene = sim->batch.members[member].scene;
+    const OzUnits *units = &oz_rods_parameters(sim, member)->units;
+    double push = oz_units_force(units) * units->time, turn = oz_units_energy(units) * units->time;
+    int count = oz_sides_list(sides, scene);
+    OZ_PASS(oz_read_snapshot_sums(sim, member, OZ_FIELD_wall_impulse, count * OZ_IMPULSE_WORDS,
+                                  sum[0]));
+    memset(snapshot->wall_impulse, 0, (size_t)scene->wall_count * sizeof *snapshot->wall_impulse);
+    for (int s = 0; s < count; s++) {
+        double *to = snapshot->wall_impulse[sides[s].wall];
+        const double *home = scene->walls[sides[s].wall].point;
+        for (int k = 0; k < 3; k++) {
+            int l = (k + 1) % 3, m = (k + 2) % 3;
+            to[k] += sum[s][k] * push;
+            to[3 + k] += sum[s][3 + k] * turn;
+            to[3 + k] += (sides[s].shape.point[l] - home[l]) * sum[s][m] * push -
+                         (sides[s].shape.point[m] - home[m]) * sum[s][l] * push;
+        }
+    }
+    snapshot->has_wall_impulse = true;
+    return OZ_OK;
+}
+
 /* The contacts of a snapshot whose state is there. */
 static OzStatus find_all(OzSim *sim, int member, OzSnapshot *snapshot)
 {
@@ -99,6 +130,9 @@ OzStatus oz_rods_read_snapshot_contacts(OzSim *sim, int member, OzSnapshot *snap
     }
     OZ_PASS(find_all(sim, member, snapshot));
     snapshot->has_contacts = true;
+    if (oz_rods_switches(sim)->impulses) {
+        OZ_PASS(find_impulses(sim, member, snapshot));
+    }
     OzContactSums sums = oz_contact_list_sum(&snapshot->contacts);
     snapshot->ledger.elastic = sums.energy;
     if (oz_rods_switches(sim)->ledger) {

@@ -63,6 +63,16 @@ done:
     return status;
 }
 
+/* Whether any array is in double whatever the precision. */
+static bool sums_up(const OzSim *sim)
+{
+    bool any = false;
+    for (int f = 0; f < sim->model->field_count; f++) {
+        any |= oz_model_field_sums(&sim->model->fields[f]) && oz_arrays_bytes(&sim->arrays, f) > 0;
+    }
+    return any;
+}
+
 /* The program, and the device's idea of the shared structs against ours. */
 static OzStatus build(OzSim *sim, const char *source_dir)
 {
@@ -74,10 +84,9 @@ static OzStatus build(OzSim *sim, const char *source_dir)
                              .sizes = model->sizes_bytes,
                              .lanes = switches->lanes,
                              .is_double = switches->is_double != 0};
-    OZ_PASS(oz_device_check_double(sim->device, switches->is_double || switches->ledger));
+    OZ_PASS(oz_device_check_double(sim->device, switches->is_double || sums_up(sim)));
     oz_model_options(model, switches, options, sizeof options);
-    OZ_PASS(oz_program_build(&sim->program, sim->device, source_dir, model->program,
-                             options));
+    OZ_PASS(oz_program_build(&sim->program, sim->device, source_dir, model->program, options));
     OZ_PASS(oz_launch_open(sim));
     OZ_PASS(model->open(sim));
     return oz_program_check(sim->program, sim->device, &layout);

@@ -15,10 +15,12 @@
 #include "sim/element_upload.h"
 #include "sim/launch.h"
 #include "sim/read_snapshot.h"
+#include "sim/units.h"
 
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { JUDGE_STEPS = 512 };
 
@@ -186,12 +188,36 @@ static OzStatus unpack(OzSim *sim, int member, OzSnapshot *snapshot)
     return OZ_OK;
 }
 
+/* Impulses of walls about their points, from those about the origin. */
+static OzStatus find_impulses(OzSim *sim, int member, OzSnapshot *snapshot)
+{
+    double sum[OZ_ELEMENT_WALLS_MAX][OZ_ELEMENT_IMPULSE_WORDS] = {{0}};
+    const OzScene *scene = sim->batch.members[member].scene;
+    const OzUnits *units = &oz_element_parameters(sim, member)->units;
+    double push = oz_units_force(units) * units->time, turn = oz_units_energy(units) * units->time;
+    OZ_PASS(oz_read_snapshot_sums(sim, member, OZ_ELEMENT_FIELD_wall_impulse,
+                                  scene->wall_count * OZ_ELEMENT_IMPULSE_WORDS, sum[0]));
+    memset(snapshot->wall_impulse, 0, (size_t)scene->wall_count * sizeof *snapshot->wall_impulse);
+    for (int w = 0; w < scene->wall_count; w++) {
+        double *to = snapshot->wall_impulse[w];
+        const double *home = scene->walls[w].point;
+        to[0] = sum[w][0] * push;
+        to[1] = sum[w][1] * push;
+        to[5] = sum[w][2] * turn - (home[0] * to[1] - home[1] * to[0]);
+    }
+    snapshot->has_wall_impulse = true;
+    return OZ_OK;
+}
+
 static OzStatus find_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
 {
     if (sim->batch.stopped[member]) {
         return OZ_OK;
     }
     OZ_PASS(oz_element_forces_contacts(snapshot));
+    if (oz_element_switches(sim)->impulses) {
+        OZ_PASS(find_impulses(sim, member, snapshot));
+    }
     if (oz_element_switches(sim)->ledger) {
         double sum[OZ_ELEMENT_LEDGER_WORDS] = {0};
         OZ_PASS(oz_read_snapshot_ledger(sim, member, sum));
