@@ -24,7 +24,7 @@ static const struct {
 } rooms[] = {
     {"base", 0},  {"scene", 1},  {"model", 2},   {"compute", 2}, {"observe", 3},
     {"draw", 4},  {"sim", 4},    {"export", 4}, {"plot", 4},  {"cli", 5},     {"run", 6},
-    {"bench", 7}, {"report", 7}, {"command", 8}, {"figures", 9}, {"main", 10},
+    {"bench", 7}, {"report", 7}, {"command", 8}, {"figures", 9}, {"main", 10},    {"library", 7},
 };
 
 /* An outside header's beginning, and the only place whose files may include it. */

@@ -20,8 +20,8 @@ typedef struct Ring {
 } Ring;
 
 struct OzSeries {
-    FILE *file;
-    char *path;
+    FILE *file;    /* NULL: rows are read by oz_series_row alone */
+    char *path;    /* NULL with it                               */
     int64_t whole; /* bytes of whole rows */
     const OzScene *scene;
     double interval;  /* s, between rows of the even series of a drum */
@@ -71,6 +71,9 @@ static bool ring_mean(const Ring *ring, double *mean)
 /* Ends the row; whatever failed since the last one shows here. */
 static OzStatus end_row(OzSeries *series)
 {
+    if (!series->file) {
+        return OZ_OK;
+    }
     fputc('\n', series->file);
     return oz_file_commit(series->file, &series->whole, series->path);
 }
@@ -135,6 +138,9 @@ static OzStatus reshape(OzSeries *series)
     char(*text)[OZ_COLUMN_NAME] = NULL;
     const char **names = NULL;
     OZ_TRY(make_row(series));
+    if (!series->path) {
+        return OZ_OK;
+    }
     OZ_TRY(OZ_NEW(&text, series->cell_count));
     OZ_TRY(OZ_NEW(&names, series->cell_count));
     for (int cell = 0; cell < series->cell_count; cell++) {
@@ -155,6 +161,15 @@ done:
     return status;
 }
 
+static OzStatus open_file(OzSeries *series, const char *mode)
+{
+    series->file = fopen(series->path, mode);
+    if (!series->file) {
+        return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
+    }
+    return mode[0] == 'w' ? write_header(series) : OZ_OK;
+}
+
 /* mode: of fopen; a header is written into an empty file. */
 static OzStatus open_series(OzSeries **series, const char *path, const OzScene *scene,
                             const OzGrains *grains, const char *mode)
@@ -173,14 +188,7 @@ static OzStatus open_series(OzSeries **series, const char *path, const OzScene *
     for (int k = 0; k < OZ_TAP_MEANS; k++) {
         OZ_TRY(ring_create(&(*series)->mean[k], 2 * samples));
     }
-    (*series)->file = fopen(path, mode);
-    if (!(*series)->file) {
-        status = oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", path, strerror(errno));
-        goto done;
-    }
-    if (mode[0] == 'w') {
-        OZ_TRY(write_header(*series));
-    }
+    OZ_TRY(path ? open_file(*series, mode) : OZ_OK);
 done:
     if (status != OZ_OK) {
         oz_series_free(*series);
@@ -227,7 +235,7 @@ OzStatus oz_series_state(OzSeries *series, OzStateVisit *visit)
     oz_state_leave(visit);
     if (visit->is_loading) { /* the run may have got columns after this state was made */
         OZ_PASS(reshape(series));
-        return oz_file_go_on(series->file, series->whole, series->path);
+        return series->file ? oz_file_go_on(series->file, series->whole, series->path) : OZ_OK;
     }
     return OZ_OK;
 }
@@ -241,6 +249,9 @@ static OzStatus grow_columns(OzSeries *series)
         return OZ_OK;
     }
     OZ_PASS(reshape(series));
+    if (!series->file) {
+        return OZ_OK;
+    }
     if (fseeko(series->file, 0, SEEK_END) != 0) {
         return oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", series->path, strerror(errno));
     }
@@ -298,6 +309,9 @@ static double write_cell(FILE *file, const OzColumn *column, const OzObservation
     if (!column->value(observation, &value)) {
         return NAN;
     }
+    if (!file) {
+        return value;
+    }
     if (isnan(value)) { /* printf would let a sign slip in */
         fputs("nan", file);
     } else {
@@ -320,7 +334,9 @@ OzStatus oz_series_write(OzSeries *series, const OzSnapshot *snapshot)
         const OzColumn *column = &oz_series_columns()[k];
         bool has = oz_observables_cells(column, series->scene) > 0;
         for (int cell = 0; cell < width_of(series, k); cell++, comma = ",") {
-            fputs(comma, series->file);
+            if (series->file) {
+                fputs(comma, series->file);
+            }
             observation.index = column->index + cell;
             *value++ = has ? write_cell(series->file, column, &observation) : NAN;
         }

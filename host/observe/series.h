@@ -11,7 +11,8 @@ typedef struct OzSeries OzSeries;
 const OzColumn *oz_series_columns(void);
 
 /* Opens path and writes the header row; columns that the scene cannot have (ledger off, another
- * model) are absent. scene and grains are borrowed. Fails with OZ_ERR_FILE, naming path. */
+ * model) are absent. path NULL: there is no file, and oz_series_row is what is left of a row. scene
+ * and grains are borrowed. Fails with OZ_ERR_FILE, naming path. */
 OzStatus oz_series_create(OzSeries **series, const char *path, const OzScene *scene,
                           const OzGrains *grains);
 
