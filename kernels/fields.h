@@ -80,4 +80,5 @@ enum { OZ_CONTACT_LEDGER = 16 };
       SCRATCH)                                                                                     \
     X(real, wall_ledger, OZ_LEDGER ? z.blocks *OZ_WALL_ENDS *OZ_CONTACT_LEDGER : 0, SCRATCH)       \
     X(ledger, wall_impulse, OZ_IMPULSES ? z.slots *OZ_WALL_COUNT *OZ_IMPULSE_WORDS : 0, STATE)     \
+    X(scalar, push, OZ_PUSHED ? z.slots *OZ_LOAD : 0, STATE)                                       \
     X(scalar, spare, OZ_RESORT ? z.slots *OZ_SPARE : 0, SCRATCH)

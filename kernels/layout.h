@@ -86,7 +86,8 @@ enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };
 /* Words of a grain's impulse at a wall: of force, then of torque. */
 enum { OZ_IMPULSE_WORDS = 6 };
 
-/* Words of a slot's load: force and torque, each with one word to spare. */
+/* Words of a slot's load, and of what pushes a grain from outside (by id): force and torque, each
+ * with one word to spare. */
 enum { OZ_LOAD = 8 };
 
 /* Words of a block's state, each a real with one lane per grain. */

@@ -107,3 +107,19 @@ OZ_INLINE OzLoad oz_loads_of(const OzWork *w, int block)
     OzLoad load = {oz_vec3(force[0], force[1], force[2]), oz_vec3(torque[0], torque[1], torque[2])};
     return load;
 }
+
+#if OZ_PUSHED
+/* Adds what pushes and turns a block of grains from outside. */
+OZ_INLINE void oz_loads_push(const OzWork *w, int block, OzLoad *load)
+{
+    int ids[OZ_LANES];
+    real force[4], torque[4];
+    for (int l = 0; l < OZ_LANES; l++) {
+        ids[l] = w->id[block * OZ_LANES + l];
+    }
+    oz_lanes_load4(w->push, ids, OZ_LOAD, 0, force);
+    oz_lanes_load4(w->push, ids, OZ_LOAD, 4, torque);
+    load->force = oz_add(load->force, oz_vec3(force[0], force[1], force[2]));
+    load->torque = oz_add(load->torque, oz_vec3(torque[0], torque[1], torque[2]));
+}
+#endif

@@ -31,6 +31,9 @@ OZ_INLINE void oz_motion_block(OzWork *w, int block, int step)
     OzLoad load = oz_loads_of(w, block);
     OzVec3 gravity = oz_vec3(REAL(p->gravity[0]), REAL(p->gravity[1]), REAL(p->gravity[2]));
     load.force = oz_along(load.force, shape.mass, gravity);
+#if OZ_PUSHED
+    oz_loads_push(w, block, &load);
+#endif
     oz_integrate_after(&body, shape, load, REAL(p->dt), p->inverse_unit);
     real keep = REAL(1 - p->drag * p->dt);
     body.velocity = oz_scale(body.velocity, keep);

@@ -159,6 +159,17 @@ double orzo_period(const OrzoSim *sim)
     return sim->session.scene.period;
 }
 
+OrzoStatus orzo_push(OrzoSim *sim, const int64_t *grains, int64_t count, const double *force,
+                     const double *torque)
+{
+    ORZO_STARTED(sim, oz_session_change_push(&sim->session, grains, count, force, torque));
+}
+
+OrzoStatus orzo_drive_wall(OrzoSim *sim, int wall, double speed)
+{
+    ORZO_STARTED(sim, oz_session_change_drive(&sim->session, wall, speed));
+}
+
 OrzoStatus orzo_scene(const OrzoSim *sim, char **text)
 {
     size_t length = 0;

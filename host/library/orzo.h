@@ -154,6 +154,19 @@ ORZO_API OrzoStatus orzo_observe_all(OrzoSim *sim, double *values, int room);
 /* Where wall i of the scene is along its motion: its offset (m) and velocity (m/s) now. */
 ORZO_API OrzoStatus orzo_wall(OrzoSim *sim, int wall, double *offset, double *velocity);
 
+/* From now on these forces (N) and torques (N m; NULL: none) act on `count` grains from outside, 3
+ * numbers each in the frame of the scene, until they are set again; grains: their numbers; NULL:
+ * the first ones. Those of other grains stay as they are. Rods and spheres only. The first call
+ * builds kernels with room for them (seconds). Their work is in no column: energy_residual shows
+ * it. They are part of what orzo_save writes. */
+ORZO_API OrzoStatus orzo_push(OrzoSim *sim, const int64_t *grains, int64_t count,
+                              const double *force, const double *torque);
+
+/* From now on wall i of the scene, which must have a motion there, goes on from where it is at this
+ * speed, m/s along its motion's direction (upwards), instead of what the scene says; until it is
+ * told again. A controller calls it as often as it likes. */
+ORZO_API OrzoStatus orzo_drive_wall(OrzoSim *sim, int wall, double speed);
+
 /* The scene as it is now, every key written out, as the text of a scene file; the caller frees it
  * with orzo_free. */
 ORZO_API OrzoStatus orzo_scene(const OrzoSim *sim, char **text);

@@ -34,6 +34,9 @@ void oz_session_unbuild(OzSession *session)
     }
     free(session->device);
     oz_grains_free(&session->grains);
+    free(session->force);
+    free(session->torque);
+    session->force = session->torque = NULL;
     session->series = NULL;
     session->sim = NULL;
     session->device = NULL;

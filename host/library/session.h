@@ -37,6 +37,7 @@ typedef struct OzSession {
     pthread_t drawer; /* the thread that made it */
     OzLook look;
     bool is_framed;
+    double *force, *torque; /* from outside, 3 a grain; NULL: none yet; owned */
 } OzSession;
 
 /* Device, simulation, snapshot and series for the scene and the grains, which are there. What a

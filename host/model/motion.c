@@ -3,6 +3,7 @@
 #include "scene/wall_shape.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -37,6 +38,11 @@ static double steady_speed(const OzMotion *motion)
 void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity)
 {
     const OzShake *shake = shake_at(motion, time);
+    if (motion->is_driven) {
+        *offset = motion->driven[1] + motion->driven[2] * (time - motion->driven[0]);
+        *velocity = motion->driven[2];
+        return;
+    }
     double amplitude = sign_of(shake) * amplitude_of(motion, shake);
     double rate = 2 * PI * frequency_of(motion, shake), phase = rate * (time - shake->since);
     *offset = motion->present ? amplitude * sin(phase) : 0;
@@ -47,6 +53,23 @@ void oz_motion_offset(const OzMotion *motion, double time, double *offset, doubl
         *offset = speed * (fmin(fmax(time, motion->from), fmax(end, motion->from)) - motion->from);
         *velocity = time >= motion->from && time < end ? speed : 0;
     }
+}
+
+void oz_motion_drive(OzMotion *motion, double time, double speed)
+{
+    double offset, before;
+    oz_motion_offset(motion, time, &offset, &before);
+    motion->is_driven = true;
+    motion->driven[0] = time;
+    motion->driven[1] = offset;
+    motion->driven[2] = speed;
+}
+
+/* Who is driven stays so. */
+static void copy_drive(OzMotion *to, const OzMotion *from)
+{
+    to->is_driven = from->is_driven;
+    memcpy(to->driven, from->driven, sizeof to->driven);
 }
 
 double oz_motion_speed(const OzMotion *motion)
@@ -179,6 +202,7 @@ void oz_motion_take_over(OzScene *next, const OzScene *running, double time)
         if (motion->present && running->walls[w].motion.present) {
             take_shake(motion, &running->walls[w].motion, time);
             take_turn(motion, &running->walls[w].motion, time);
+            copy_drive(motion, &running->walls[w].motion);
         }
     }
     derive_times(next);
@@ -193,6 +217,7 @@ void oz_motion_copy(OzScene *scene, const OzScene *from)
         to->before = motion->before;
         to->turned = motion->turned;
         to->turned_since = motion->turned_since;
+        copy_drive(to, motion);
     }
     derive_times(scene);
 }
@@ -217,6 +242,8 @@ OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit)
         OZ_PASS(shake_state(&motion->before, visit, "before"));
         OZ_PASS(oz_state_double(visit, "turned", "rad", &motion->turned, 1));
         OZ_PASS(oz_state_double(visit, "turned_since", "s", &motion->turned_since, 1));
+        OZ_PASS(oz_state_bool(visit, "is_driven", &motion->is_driven));
+        OZ_PASS(oz_state_double(visit, "driven", "s, m, m/s", motion->driven, 3));
         oz_state_leave(visit);
     }
     if (visit->is_loading) {

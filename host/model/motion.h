@@ -11,6 +11,9 @@
 /* Offset (m, upwards) and velocity (m/s) at a time, s. */
 void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity);
 
+/* From this time on it goes at this speed from where it is, m/s along its direction, instead. */
+void oz_motion_drive(OzMotion *motion, double time, double speed);
+
 /* Its greatest speed without its turning, m/s. */
 double oz_motion_speed(const OzMotion *motion);
 

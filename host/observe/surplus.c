@@ -17,6 +17,9 @@ static bool is_known(const OzSnapshot *snapshot)
     if (returns_energy(snapshot->scene) && !snapshot->has_ledger) {
         return false;
     }
+    if (snapshot->scene->is_pushed) { /* from outside, whose work nobody counts */
+        return false;
+    }
     for (int w = 0; w < snapshot->scene->wall_count && !snapshot->has_ledger; w++) {
         const OzWall *wall = &snapshot->scene->walls[w];
         if (wall->motion.present || wall->since > 0) {

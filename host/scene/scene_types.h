@@ -93,6 +93,8 @@ typedef struct OzMotion {
                      * zero in a scene as loaded                                                */
     OzShake before; /* how it is shaken until then                                              */
     double turned, turned_since; /* rad, s: its angle at a time, and that time; zero as loaded  */
+    bool is_driven;              /* from outside (sim/push.h), instead of all offsets above     */
+    double driven[3];            /* s, m, m/s: since when, its offset then, its speed since     */
 } OzMotion;
 
 typedef enum OzWallEnds { OZ_ENDS_OPEN, OZ_ENDS_CLOSED } OzWallEnds;
@@ -379,4 +381,5 @@ typedef struct OzScene {
     int export_count;
     double export_interval; /* s between such frames; 0: the movie's, else rows of series.csv */
     OzSweep sweep;
+    bool is_pushed; /* no key: grains are pushed from outside too (sim/push.h) */
 } OzScene;

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 OzStateKind oz_model_field_kind(const OzField *field, bool is_double)
 {
@@ -13,6 +14,11 @@ OzStateKind oz_model_field_kind(const OzField *field, bool is_double)
 bool oz_model_field_sums(const OzField *field)
 {
     return field->kind == OZ_STATE_DOUBLE && !field->widens;
+}
+
+bool oz_model_field_begins_empty(const OzField *field)
+{
+    return oz_model_field_sums(field) || strcmp(field->name, "push") == 0;
 }
 
 size_t oz_model_field_bytes(const OzModel *model, int field, const void *switches,

@@ -157,6 +157,10 @@ typedef struct OzModel {
     OzStatus (*unpack)(OzSim *sim, int member, OzSnapshot *snapshot);
     OzStatus (*contacts)(OzSim *sim, int member, OzSnapshot *snapshot);
 
+    /* Between launches: what pushes and turns every grain from outside from now on, N and N m in
+     * the frame of the scene, 3 a grain each. NULL: the model has no place for it. */
+    OzStatus (*push)(OzSim *sim, int member, const double *force, const double *torque);
+
     /* Settling: kinetic energy, of motion and of rotation, J; steps between looks at it, often
      * enough to stop in time, rarely enough to cost nothing. */
     double (*energy)(const OzSnapshot *now);
@@ -185,8 +189,10 @@ typedef struct OzModel {
     void (*advise)(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now);
 } OzModel;
 
-/* Whether a field adds up what has happened: it begins empty where no state has it. */
+/* Whether a field adds up what has happened. Such a one, and what pushes grains from outside, begins
+ * empty where no state has it. */
 bool oz_model_field_sums(const OzField *field);
+bool oz_model_field_begins_empty(const OzField *field);
 
 /* What a field's words are in this precision; bytes of one member's stretch. */
 OzStateKind oz_model_field_kind(const OzField *field, bool is_double);

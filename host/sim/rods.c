@@ -205,6 +205,24 @@ static OzStatus adopt(OzSim *sim, const OzSim *from, int member, double step)
     return OZ_OK;
 }
 
+static OzStatus push(OzSim *sim, int member, const double *force, const double *torque)
+{
+    OzStatus status = OZ_OK;
+    const OzUnits *units = &oz_rods_parameters(sim, member)->units;
+    double newton = oz_units_force(units), newton_metre = oz_units_energy(units), *words = NULL;
+    size_t count = (size_t)oz_rods_sizes(sim)->slots * OZ_LOAD;
+    OZ_TRY(OZ_NEW(&words, count));
+    for (int i = 0; i < 3 * oz_rods_sizes(sim)->count; i++) {
+        double *load = &words[OZ_LOAD * (i / 3) + i % 3];
+        load[0] = force[i] / newton;
+        load[OZ_LOAD / 2] = torque[i] / newton_metre;
+    }
+    OZ_TRY(oz_arrays_write_scalars(&sim->arrays, OZ_FIELD_push, member, words, count));
+done:
+    free(words);
+    return status;
+}
+
 enum { PAIRS, GRAINS, WALLS, REFRESH, REBUILD, STAGES };
 
 /* Grains: gather, integration, record, guards. */
@@ -314,6 +332,7 @@ const OzModel oz_rods_model = {
     .adopt = adopt,
     .unpack = oz_rods_read_snapshot_state,
     .contacts = oz_rods_read_snapshot_contacts,
+    .push = push,
     .energy = oz_rods_read_snapshot_energy,
     .judge_steps = JUDGE_STEPS,
     .stage_count = STAGES,

@@ -11,6 +11,7 @@
 #define OZ_MOVING     (s->moving)
 #define OZ_LEDGER     (s->ledger)
 #define OZ_IMPULSES   (s->impulses)
+#define OZ_PUSHED     (s->pushed)
 #define OZ_LINE       (s->line)
 #define OZ_RESORT     (s->resort)
 #define OZ_FINE       (s->fine)

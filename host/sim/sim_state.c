@@ -165,7 +165,7 @@ OzStatus oz_sim_state_renew(OzSim *sim)
 
 static OzStatus visit_all(OzSim *sim, OzStateVisit *visit, Way way)
 {
-    OZ_PASS(oz_state_enter(visit, "sim", 2));
+    OZ_PASS(oz_state_enter(visit, "sim", 3));
     OZ_PASS(switches_state(sim, visit, way));
     OZ_PASS(sizes_state(sim, visit, way));
     OZ_PASS(oz_batch_state(&sim->batch, visit));

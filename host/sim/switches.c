@@ -100,6 +100,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     count_kinds(&s, scene);
     s.ledger = scene->observe.ledger;
     s.impulses = scene->observe.walls == OZ_OBSERVE_WALLS_MEAN && s.walls > 0;
+    s.pushed = scene->is_pushed;
     s.all_pairs = scene->broadphase == OZ_BROADPHASE_ALL_PAIRS;
     s.host_lists = scene->broadphase == OZ_BROADPHASE_SORT_AXIS;
     s.resort = grains->count > device->small_most;

@@ -37,6 +37,7 @@
     X(FREE_MOTION, free_motion, "walls that turn or move otherwise than up and down")              \
     X(GATED, gated, "walls that come or go")                                                       \
     X(IMPULSES, impulses, "mean forces on walls")                                                  \
+    X(PUSHED, pushed, NULL)                                                                        \
     X(ALL_PAIRS, all_pairs, NULL)
 
 typedef struct OzSwitches {

@@ -22,7 +22,7 @@ static OzStatus check_state(const Compared *c, const OzModel *model, const OzSce
     for (int f = 0; f < model->field_count; f++) {
         size_t needed = oz_model_field_bytes(model, f, c->next.switches, c->next.sizes);
         size_t kept = oz_model_field_bytes(model, f, c->running.switches, c->running.sizes);
-        bool begins_empty = oz_model_field_sums(&model->fields[f]);
+        bool begins_empty = oz_model_field_begins_empty(&model->fields[f]);
         if (model->fields[f].class == OZ_FIELD_STATE && needed > 0 && kept == 0 && !begins_empty) {
             return oz_status_fail(OZ_ERR_INPUT,
                                   "%s: it needs %s of the grains, which the running scene does not "
