@@ -8,8 +8,8 @@
 
 #if OZ_IMPULSES && OZ_WALL_COUNT > 0
 
-/* Adds a step's force on the first `count` grains in slots; arm: from their centres to where it
- * acts. The torque is about the side's point, where that is now. */
+/* Adds a step's force on the first `count` grains in slots, padding left out; arm: from their
+ * centres to where it acts. The torque is about the side's point, where that is now. */
 OZ_INLINE void oz_wall_impulse_add(OzWork *w, const OzSide *side, OzGrain grain, const int *slots,
                                    int count, OzVec3 arm, OzVec3 force)
 {
@@ -23,6 +23,9 @@ OZ_INLINE void oz_wall_impulse_add(OzWork *w, const OzSide *side, OzGrain grain,
     OZ_LANES_STORE(torque.y, lane[4]);
     OZ_LANES_STORE(torque.z, lane[5]);
     for (int l = 0; l < OZ_LANES && l < count; l++) {
+        if (slots[l] >= w->z.count) {
+            continue; /* padding, which a side may pass */
+        }
         size_t row = (size_t)w->id[slots[l]] * OZ_WALL_COUNT + side->wall;
         global double *sum = w->wall_impulse + row * OZ_IMPULSE_WORDS;
         for (int k = 0; k < OZ_IMPULSE_WORDS; k++) {

@@ -4,18 +4,20 @@
 
 #include "observe/wall_push.h"
 
-/* Rods of two sizes thrown about in a box that is shaken aside, and a drum that turns in it. */
+/* Rods of two sizes thrown about in a box that is shaken aside, and a drum that turns in it. What
+ * pads the last block of lanes stays where the first grain began, in the way of a side. */
 static const char *const thrown =
     "model: rods\nprecision: double\nintegrator: euler\ngravity: [0, 0, -9.81]\n"
     "time: {step: 1e-6, duration: 1}\n"
     "contact: {contact_time: 2e-4, restitution: 0.5, friction: 0.4}\n"
     "grains:\n"
-    "  - {kind: random, count: 20, diameter: 0.6e-3}\n"
+    "  - {kind: single, diameter: 0.6e-3, position: [6.68e-3, 2e-3, 3e-3]}\n"
+    "  - {kind: random, count: 22, diameter: 0.6e-3}\n"
     "  - {kind: random, count: 20, diameter: 0.5e-3, aspect: 3}\n"
     "walls:\n"
-    "  - {kind: box, point: [1e-3, 2e-3, 0], size: [6e-3, 6e-3, 6e-3],\n"
+    "  - {kind: box, point: [4e-3, 2e-3, 0], size: [6e-3, 6e-3, 6e-3],\n"
     "     motion: {frequency: 100, amplitude: 0.2e-3, direction: [1, 0, 1]}}\n"
-    "  - {kind: cylinder, point: [1e-3, 2e-3, 3e-3], axis: [0, 1, 0], diameter: 6.4e-3,\n"
+    "  - {kind: cylinder, point: [4e-3, 2e-3, 3e-3], axis: [0, 1, 0], diameter: 6.4e-3,\n"
     "     motion: {angular_velocity: 40}}\n"
     "observe: {walls: mean}\n";
 

@@ -70,7 +70,8 @@ void oz_inspect_motion_print(FILE *file, const OzScene *scene)
         if (motion->present && motion->frequency > 0) {
             print_shaken(file, w, scene);
         }
-        if (motion->present && motion->frequency == 0 && oz_motion_speed(motion) > 0) {
+        if (motion->present && !motion->trace && motion->frequency == 0 &&
+            oz_motion_speed(motion) > 0) {
             print_steady(file, w, motion);
         }
         if (motion->present && motion->angular_velocity != 0) {

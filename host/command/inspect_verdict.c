@@ -8,6 +8,7 @@
 #include "model/beam_limits.h"
 #include "model/prediction.h"
 #include "observe/schedule.h"
+#include "scene/trace.h"
 #include "sim/batch_fit.h"
 #include "sim/resolution.h"
 
@@ -308,6 +309,18 @@ static void print_container(FILE *file, const OzVerdict *verdict)
     }
 }
 
+/* What measured walls do, by which a wrong column or unit shows. */
+static void print_traces(FILE *file, const OzScene *scene)
+{
+    for (int w = 0; w < scene->wall_count; w++) {
+        char text[512];
+        if (scene->walls[w].motion.trace) {
+            oz_trace_describe(&scene->walls[w].motion, text, sizeof text);
+            fprintf(file, "  wall %d follows   the %s\n", w, text);
+        }
+    }
+}
+
 OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
 {
     bool flat = verdict->scene->model == OZ_MODEL_TRIGRAINS;
@@ -322,6 +335,7 @@ OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
             print_container(file, verdict);
         }
     }
+    print_traces(file, verdict->scene);
     OZ_PASS(print_cost(file, verdict));
     if (verdict->grains->count > 0) {
         fputs("  empty columns    ", file);

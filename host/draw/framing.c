@@ -66,8 +66,9 @@ static double bounce(const OzScene *scene)
         const OzMotion *motion = &scene->walls[w].motion;
         if (motion->present && gravity > 0) {
             double shift[3];
-            oz_wall_shape_shift(&scene->walls[w], motion->amplitude, shift);
+            oz_wall_shape_shift(&scene->walls[w], oz_motion_reach(motion), shift);
             double rise = fabs(shift[2]), speed = 2 * PI * motion->frequency * rise;
+            speed = motion->trace ? oz_motion_speed(motion) : speed;
             most = fmax(most, 2 * rise + 0.5 * speed * speed / gravity);
         }
     }
@@ -82,7 +83,7 @@ static void close_by_planes(Room *room, const OzScene *scene)
     for (int w = 0; w < scene->wall_count; w++) {
         const OzWall *wall = &scene->walls[w];
         for (int k = 0; k < 3 && wall->kind == OZ_WALL_PLANE; k++) {
-            double stroke = k == 2 && wall->motion.present ? wall->motion.amplitude : 0;
+            double stroke = k == 2 ? oz_motion_reach(&wall->motion) : 0;
             if (wall->normal[k] > 0.99) {
                 room->low[k] = wall->point[k] - stroke - (k == 2 ? body : 0);
             } else if (wall->normal[k] < -0.99) {

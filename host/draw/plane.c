@@ -2,6 +2,7 @@
 #include "draw/plane.h"
 
 #include "draw/palette.h"
+#include "model/motion.h"
 
 #include <math.h>
 
@@ -31,7 +32,7 @@ static void take_grains(Room *room, const OzSnapshot *snapshot)
 static void take_wall_point(Room *room, const OzWall *wall, const double point[2])
 {
     const OzMotion *motion = &wall->motion;
-    double stroke = motion->present ? motion->amplitude : 0;
+    double stroke = oz_motion_reach(motion);
     if (motion->present && motion->angular_velocity != 0) {
         take_point(room, wall->point, hypot(point[0] - wall->point[0], point[1] - wall->point[1]));
         return;

@@ -1,5 +1,6 @@
 /* Phases of moving walls. */
 #include "model/motion.h"
+#include "scene/trace.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -48,8 +49,12 @@ void oz_motion_offset(const OzMotion *motion, double time, double *offset, doubl
     *offset = motion->present ? amplitude * sin(phase) : 0;
     *velocity = motion->present ? amplitude * rate * cos(phase) : 0;
     double speed = motion->present ? steady_speed(motion) : 0;
+    double end = motion->until > 0 ? motion->until : INFINITY;
+    if (motion->present && motion->trace) {
+        oz_trace_at(motion->trace, fmin(time, end) - motion->from, offset, velocity);
+        *velocity = time < end ? *velocity : 0;
+    }
     if (speed > 0) {
-        double end = motion->until > 0 ? motion->until : INFINITY;
         *offset = speed * (fmin(fmax(time, motion->from), fmax(end, motion->from)) - motion->from);
         *velocity = time >= motion->from && time < end ? speed : 0;
     }
@@ -72,9 +77,16 @@ static void copy_drive(OzMotion *to, const OzMotion *from)
     memcpy(to->driven, from->driven, sizeof to->driven);
 }
 
+double oz_motion_reach(const OzMotion *motion)
+{
+    double shaken = motion->present ? motion->amplitude : 0;
+    return motion->present && motion->trace ? motion->trace->reach : shaken;
+}
+
 double oz_motion_speed(const OzMotion *motion)
 {
     double shaken = 2 * PI * motion->frequency * motion->amplitude;
+    shaken = motion->trace ? motion->trace->speed : shaken;
     return motion->present ? fmax(shaken, steady_speed(motion)) : 0;
 }
 
@@ -248,6 +260,24 @@ OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit)
     }
     if (visit->is_loading) {
         derive_times(scene);
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_motion_trace_state(const OzScene *scene, OzStateVisit *visit)
+{
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzMotion *motion = &scene->walls[w].motion;
+        int64_t own = motion->trace ? motion->trace->digest : 0, saved = own;
+        oz_state_enter_one(visit, "wall", w);
+        OZ_PASS(oz_state_index(visit, "trace", &saved, 0, INT64_MAX));
+        oz_state_leave(visit);
+        if (saved != own) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "%s: walls.%d.motion.file holds another trace than the run was "
+                                  "begun with; expected the same numbers, or another run",
+                                  scene->path, w);
+        }
     }
     return OZ_OK;
 }

@@ -14,6 +14,9 @@ void oz_motion_offset(const OzMotion *motion, double time, double *offset, doubl
 /* From this time on it goes at this speed from where it is, m/s along its direction, instead. */
 void oz_motion_drive(OzMotion *motion, double time, double speed);
 
+/* Its greatest offset from where it was built, m; 0 of one that goes on. */
+double oz_motion_reach(const OzMotion *motion);
+
 /* Its greatest speed without its turning, m/s. */
 double oz_motion_speed(const OzMotion *motion);
 
@@ -49,3 +52,6 @@ void oz_motion_copy(OzScene *scene, const OzScene *from);
 
 /* Saves or loads (base/state.h) the phases of all walls, and what follows from them. */
 OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit);
+
+/* Saves which traces walls follow, or refuses a scene whose files hold others now. */
+OzStatus oz_motion_trace_state(const OzScene *scene, OzStateVisit *visit);

@@ -39,6 +39,11 @@ OzStatus oz_inputs_add_scene(OzInputs *inputs, const OzScene *scene)
             OZ_PASS(oz_inputs_add(inputs, scene->populations[i].path));
         }
     }
+    for (int w = 0; w < scene->wall_count; w++) {
+        if (scene->walls[w].motion.file) {
+            OZ_PASS(oz_inputs_add(inputs, scene->walls[w].motion.file));
+        }
+    }
     return OZ_OK;
 }
 

@@ -16,6 +16,7 @@
 #include "run/swap.h"
 #include "run/watch.h"
 #include "run/worker_state.h"
+#include "scene/trace.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -105,6 +106,7 @@ static OzStatus begin_log(const Run *run)
     } else {
         oz_log_line("orzo %s: %s, %lld grains", ORZO_VERSION, run->groups.plan.scene.path,
                     (long long)run->groups.loaded->grains.count);
+        oz_trace_say(&run->groups.loaded->scene);
     }
     if (!head) {
         OZ_PASS(oz_from_keep_copy(&run->groups.plan.from, run->folder));

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "scene/keys.h"
+#include "scene/trace.h"
 #include "scene/value.h"
 #include "scene/write.h"
 
@@ -204,6 +205,17 @@ OzStatus oz_changes_refuse(const OzScene *running, const OzScene *next, OzNode *
 {
     const Search search = {NULL, running, next};
     Refusal refusal = {&running->sweep, root, faults};
+    for (int w = 0; w < next->wall_count && w < running->wall_count; w++) {
+        const OzTrace *old = running->walls[w].motion.trace, *now = next->walls[w].motion.trace;
+        char path[64];
+        snprintf(path, sizeof path, "walls.%d.motion.file", w);
+        if (old && now && old->digest != now->digest) {
+            oz_tree_fault(root, faults, path,
+                          "%s holds another trace than the one that runs, which "
+                          "cannot change: the way so far would be another one",
+                          path);
+        }
+    }
     return compare(&search, refuse, &refusal);
 }
 

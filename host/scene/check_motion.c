@@ -45,13 +45,33 @@ static void check_steady(const OzWall *wall, int index, OzNode *root, OzFaults *
     if (goes_on(motion) && oz_wall_shape_is_upright(wall) && (v[0] != 0 || v[1] != 0)) {
         FAULT(".velocity", "an upright cylinder goes sideways; expected another wall");
     }
-    if (!goes_on(motion) && (motion->from > 0 || motion->until > 0)) {
+    if (!goes_on(motion) && !motion->file && (motion->from > 0 || motion->until > 0)) {
         FAULT(motion->from > 0 ? ".from" : ".until",
-              "a wall without a velocity starts or stops; expected motion.velocity with it");
+              "a wall without a velocity starts or stops; expected motion.velocity or motion.file "
+              "with it");
     }
     if (motion->until > 0 && motion->until <= motion->from) {
         FAULT(".until", "a wall stops at %g s and starts at %g s; expected a later end",
               motion->until, motion->from);
+    }
+}
+
+/* A trace says all of the way. */
+static void check_trace(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
+{
+    const OzMotion *motion = &wall->motion;
+    const bool told[] = {motion->column != NULL, motion->measured != OZ_MEASURED_OFFSET,
+                         motion->scale != 1, motion->closed};
+    static const char *const names[] = {".column", ".measured", ".scale", ".closed"};
+    for (int k = 0; k < 4 && !motion->file; k++) {
+        if (told[k]) {
+            FAULT(names[k], "a wall without a trace has a motion%s; expected motion.file with it",
+                  names[k]);
+        }
+    }
+    if (motion->file && (motion->frequency > 0 || goes_on(motion))) {
+        FAULT(".file", "a wall that is shaken or has a velocity follows a trace, too; expected one "
+                       "of them");
     }
 }
 
@@ -69,10 +89,12 @@ void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults 
     } else if (!shaken && has_frequency) {
         FAULT(".frequency",
               "a wall has a frequency alone; expected acceleration_ratio or amplitude with it");
-    } else if (!shaken && !is_written(root, index, "angular_velocity") && !goes_on(motion)) {
-        FAULT("", "motion says nothing; expected velocity, angular_velocity, or frequency with "
-                  "acceleration_ratio or amplitude");
+    } else if (!shaken && !is_written(root, index, "angular_velocity") && !goes_on(motion) &&
+               !is_written(root, index, "file")) {
+        FAULT("", "motion says nothing; expected velocity, angular_velocity, file, or frequency "
+                  "with acceleration_ratio or amplitude");
     }
+    check_trace(wall, index, root, faults);
     check_steady(wall, index, root, faults);
     bool is_square = wall->kind == OZ_WALL_BOX || wall->kind == OZ_WALL_RECTANGLE;
     if (is_square && motion->angular_velocity != 0) {

@@ -2,6 +2,7 @@
 #include "scene/check_solid.h"
 
 #include "scene/check_motion.h"
+#include "scene/trace.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -144,6 +145,7 @@ static void check_way(const OzScene *scene, int i, OzNode *root, OzFaults *fault
     const double *v = motion->velocity, bits = 16777216, share = 1e-4;
     double end = motion->until > 0 ? fmin(motion->until, scene->duration) : scene->duration;
     double way = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) * fmax(end - motion->from, 0);
+    way = motion->trace ? motion->trace->reach : way;
     double least = INFINITY;
     char path[64];
     for (int p = 0; p < scene->population_count; p++) {
@@ -151,7 +153,7 @@ static void check_way(const OzScene *scene, int i, OzNode *root, OzFaults *fault
         least = diameter > 0 ? fmin(least, diameter) : least;
     }
     if (scene->precision == OZ_PRECISION_FLOAT && motion->present && way > bits * share * least) {
-        snprintf(path, sizeof path, "walls.%d.motion.velocity", i);
+        snprintf(path, sizeof path, "walls.%d.motion.%s", i, motion->trace ? "file" : "velocity");
         oz_tree_fault(
             root, faults, path,
             "a wall goes %.3g m, of which float tells %.2g m; expected precision: double, "

@@ -75,6 +75,8 @@ static const char *const OBSERVE_WALLS[] = {[OZ_OBSERVE_WALLS_NONE] = "false",
                                             [OZ_OBSERVE_WALLS_MEAN] = "mean",
                                             [OZ_OBSERVE_WALLS_INSTANT] = "instant",
                                             NULL};
+static const char *const MEASURED[] = {
+    [OZ_MEASURED_OFFSET] = "offset", [OZ_MEASURED_ACCELERATION] = "acceleration", NULL};
 static const char *const FLAT_VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral", NULL};
 static const char *const VIEWS[] = {[OZ_VIEW_LATERAL] = "lateral",
                                     [OZ_VIEW_CUT] = "cut",

@@ -12,6 +12,7 @@
 #include "scene/layers.h"
 #include "scene/read.h"
 #include "scene/sweep.h"
+#include "scene/trace.h"
 #include "scene/value.h"
 #include "scene/write.h"
 
@@ -227,6 +228,7 @@ static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_
         OZ_PASS(parse_setting(loader, settings[i], i));
     }
     OZ_PASS(oz_read_scene(scene, loader->root, &loader->faults));
+    OZ_PASS(oz_trace_load_walls(scene, &loader->faults));
     OZ_PASS(oz_check_scene(scene, loader->root, &loader->faults));
     return loader->running
                ? oz_changes_refuse(loader->running, scene, loader->root, &loader->faults)
@@ -379,6 +381,7 @@ OzStatus oz_scene_copy(OzScene *copy, const OzScene *scene)
         }
     }
 done:
+    oz_trace_keep_walls(copy);
     if (status != OZ_OK) {
         oz_scene_free(copy);
     }
@@ -400,6 +403,7 @@ static void free_items(const OzKey *list, OzScene *scene)
 
 void oz_scene_free(OzScene *scene)
 {
+    oz_trace_free_walls(scene);
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         if (key->type == OZ_KEY_ITEMS) {
             free_items(key, scene);

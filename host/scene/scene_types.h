@@ -74,8 +74,13 @@ typedef struct OzShake {
     double amplitude, frequency; /* m, Hz */
 } OzShake;
 
+/* What a trace holds against time. */
+typedef enum OzMeasured { OZ_MEASURED_OFFSET, OZ_MEASURED_ACCELERATION } OzMeasured;
+
+typedef struct OzTrace OzTrace; /* scene/trace.h */
+
 /* Sinusoidal motion along a direction: offset A sin(2 pi f t), 0 at time 0 and along it first,
- * unless it took over from another motion (model/motion.h). */
+ * unless it took over from another motion (model/motion.h); or a steady one, or a trace. */
 typedef struct OzMotion {
     bool present;
     double frequency;          /* Hz                                                           */
@@ -89,6 +94,11 @@ typedef struct OzMotion {
     double velocity[3];        /* rods, m/s: it goes on so between `from` and `until`; then
                                 * direction is along it                                          */
     double from, until;        /* s; until 0: for ever */
+    char *file, *column;       /* of a trace; NULL: none; NULL: the only one         */
+    OzMeasured measured;
+    bool closed;    /* accelerations: it ends where it began */
+    double scale;   /* SI over what the file has                                                */
+    OzTrace *trace; /* shared with the scene's copies; NULL: none                               */
     OzShake shake;  /* since when it is shaken so (amplitude and frequency are those above);
                      * zero in a scene as loaded                                                */
     OzShake before; /* how it is shaken until then                                              */

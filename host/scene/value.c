@@ -251,8 +251,8 @@ static OzStatus read_text(const OzKey *key, const OzNode *node, char **place, Oz
     if (key->type == OZ_KEY_FILE) {
         status = make_absolute(&text, node->source->folder, node->text);
         if (status == OZ_OK && !oz_file_exists(text)) {
-            oz_faults_add(faults, node->source, node->line,
-                          "there is no file %.200s; expected a final.csv", node->text);
+            oz_faults_add(faults, node->source, node->line, "there is no file %.200s; expected %s",
+                          node->text, key->help);
         }
     } else {
         status = oz_memory_text(&text, node->text);

@@ -138,6 +138,7 @@ static OzStatus member_state(OzSim *sim, int member, OzStateVisit *visit, Way wa
     oz_state_enter_one(visit, "member", member);
     OZ_PASS(units_state(sim, member, visit));
     OZ_PASS(oz_motion_state(&sim->batch.scenes[member], visit));
+    OZ_PASS(oz_motion_trace_state(&sim->batch.scenes[member], visit));
     for (int f = 0; f < sim->model->field_count; f++) {
         OZ_PASS(field_state(sim, f, member, visit, way));
     }
