@@ -1,5 +1,5 @@
 #!/bin/sh
-# Kills runs at random moments (SIGKILL) and resumes them: series.csv, final.csv and frames.bin must be those of the run
+# Kills runs at random moments (SIGKILL) and resumes them: series.csv, final.csv, frames.bin and exports must be those of the run
 # that nobody killed, to the byte, and the movie one file with as many frames.
 #   tests/kill.sh [TIMES] [PROGRAM]     100 times, build/orzo
 set -eu
@@ -21,6 +21,7 @@ walls:
 settle: {drag: 70}
 observe: {interval: 0.004}
 movie: {length: 2, size: [128, 96]}
+export: [vtk, xyz]
 checkpoint: {every: 0.05}
 SCENE
 
@@ -64,6 +65,7 @@ while [ "$i" -lt "$times" ]; do
     for file in series.csv final.csv frames.bin; do
         cmp whole/$file cut/$file || fail "killed after $wait_ms ms: $file differs"
     done
+    diff -rq -x .orzo whole/export cut/export || fail "killed after $wait_ms ms: exports differ"
     [ "$(count_frames cut/movie.mp4)" = "$frames" ] || fail "killed after $wait_ms ms: the movie is not one of $frames frames"
     ! ls cut/movie.mp4.* >/dev/null 2>&1 || fail "killed after $wait_ms ms: a part of the movie is left"
 done

@@ -1,5 +1,5 @@
-/* `orzo export`, and `export` of a scene: what is written, what is refused, what an interrupted run
- * leaves to later. That readers understand the files is tests/export.sh's to try.
+/* `orzo export`, and `export` of a scene: what is written, what is refused, what a killed run
+ * leaves. That readers understand the files is tests/export.sh's to try.
  * ORZO_NEEDS_DEVICE. */
 #include "program.h"
 
@@ -103,6 +103,48 @@ static void all_walls_are_exported(void **state)
     assert_true(contains("walls/export/walls_00000.vtp", polygons));
 }
 
+/* Whether the index ends as it must and every file that it names is there. */
+static void assert_whole_index(const char *name)
+{
+    char *index = read_file(name, NULL), path[160];
+    const char *end = "</Collection>\n</VTKFile>\n";
+    int count = 0;
+    assert_string_equal(index + strlen(index) - strlen(end), end);
+    for (char *at = index; (at = strstr(at, "file=\"")); count++) {
+        at += strlen("file=\"");
+        snprintf(path, sizeof path, "cut/export/%.*s", (int)strcspn(at, "\""), at);
+        assert_true(is_there(path));
+    }
+    assert_true(count >= 3);
+    free(index);
+}
+
+/* A run that is killed leaves what it has exported, whole; resumed, it exports what a straight one
+ * does. */
+static void a_killed_run_has_exported(void **state)
+{
+    (void)state;
+    static const char more[] = " --set time.step=2e-6 --set time.duration=2 --set export=[vtk,csv] "
+                               "--set export_interval=1e-2 --set checkpoint.every=0.02";
+    char arguments[300];
+    snprintf(arguments, sizeof arguments, "run scene.yaml -o whole%s", more);
+    expect(0, "201 frames exported", arguments);
+    snprintf(arguments, sizeof arguments, "run scene.yaml -o cut%s", more);
+    pid_t child = start_orzo(arguments);
+    for (int k = 0; k < 20000 && !is_there("cut/export/grains_00003.csv"); k++) {
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    }
+    kill(child, SIGKILL);
+    assert_int_equal(wait_for(child, 20), -1);
+    assert_whole_index("cut/export/grains.pvd");
+    assert_whole_index("cut/export/walls.pvd");
+    assert_true(same_files("whole/export/grains_00003.vtp", "cut/export/grains_00003.vtp"));
+    expect(0, "201 frames exported", "resume cut");
+    assert_true(same_files("whole/export/grains.pvd", "cut/export/grains.pvd"));
+    assert_true(same_files("whole/export/contacts_00150.vtp", "cut/export/contacts_00150.vtp"));
+    assert_true(same_files("whole/export/frames.csv", "cut/export/frames.csv"));
+}
+
 static void each_member_exports(void **state)
 {
     (void)state;
@@ -120,6 +162,7 @@ int main(void)
         cmocka_unit_test(a_folder_is_exported),
         cmocka_unit_test(what_cannot_be_is_refused),
         cmocka_unit_test(a_resumed_run_exports),
+        cmocka_unit_test(a_killed_run_has_exported),
         cmocka_unit_test(each_member_exports),
         cmocka_unit_test(all_walls_are_exported),
     };

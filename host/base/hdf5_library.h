@@ -14,11 +14,11 @@
     F(H5Idec_ref) F(H5Fcreate) F(H5Fopen) F(H5Fflush) F(H5Fget_file_image) F(H5Fclose)             \
     F(H5Gcreate2) F(H5Lcreate_hard)                                                    \
     F(H5Screate_simple) F(H5Screate) F(H5Sselect_hyperslab) F(H5Sget_simple_extent_npoints)        \
-    F(H5Dcreate2) F(H5Dopen2) F(H5Dwrite) F(H5Dread) F(H5Dget_space) F(H5Dget_type)               \
+    F(H5Dset_extent) F(H5Pset_chunk) F(H5Dcreate2) F(H5Dopen2) F(H5Dwrite) F(H5Dread) F(H5Dget_space) F(H5Dget_type)               \
     F(H5Tcopy) F(H5Tset_size) F(H5Tget_size) F(H5Tequal)                                           \
     F(H5Acreate2) F(H5Awrite) F(H5Aopen) F(H5Aget_type) F(H5Aread)
 #define OZ_HDF5_NUMBERS(N)                                                                         \
-    N(H5P_CLS_FILE_ACCESS_ID_g) N(H5P_CLS_LINK_CREATE_ID_g) N(H5T_C_S1_g) N(H5T_NATIVE_INT64_g)    \
+    N(H5P_CLS_FILE_ACCESS_ID_g) N(H5P_CLS_DATASET_CREATE_ID_g) N(H5P_CLS_LINK_CREATE_ID_g) N(H5T_C_S1_g) N(H5T_NATIVE_INT64_g)    \
     N(H5T_NATIVE_INT32_g) N(H5T_NATIVE_DOUBLE_g) N(H5T_NATIVE_FLOAT_g) N(H5T_NATIVE_UINT8_g)
 /* clang-format on */
 

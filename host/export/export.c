@@ -3,17 +3,19 @@
 
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "observe/frame_reader.h"
 
-#include <string.h>
+#include <stdlib.h>
 
 #define FORMAT(NAME, name, choice) [OZ_EXPORT_##NAME] = &oz_export_##name##_format,
 static const OzExportFormat *const formats[] = {OZ_EXPORTS(FORMAT)};
 #undef FORMAT
 
 static const char *const all_files[] = {
-    "grains.xyz",   "grains.h5",   "frames.csv",     "grains_*.csv", "contacts_*.csv",
-    "grains_*.vtp", "walls_*.vtp", "contacts_*.vtp", "*.pvd",        NULL};
+    "grains.xyz",     "grains.h5",    "frames.csv",  "grains_*.csv",
+    "contacts_*.csv", "grains_*.vtp", "walls_*.vtp", "contacts_*.vtp",
+    "*.pvd",          "*.part",       NULL};
 
 OzFolderUse oz_export_use(const OzExportKind *kinds, int count,
                           const char *replaces[OZ_EXPORT_REPLACES])
@@ -28,98 +30,106 @@ OzFolderUse oz_export_use(const OzExportKind *kinds, int count,
     return (OzFolderUse){.writes = all_files, .keep = true, .replaces = replaces};
 }
 
-/* A file of frames that is being read. */
-typedef struct Reading {
+struct OzExporter {
+    OzExportJob job;
     OzFrames *frames;
     OzGrains grains;
     OzSnapshot snapshot;
-    int64_t wanted; /* frames of the job's purpose so far */
-} Reading;
+    OzExport target;
+    void *writers[OZ_EXPORTS_END]; /* opened with the first frame */
+    int64_t wanted;                /* frames of the job's purpose so far */
+    int64_t count;                 /* of these exported                  */
+};
 
-static void close_reading(Reading *reading)
-{
-    oz_frames_finish(reading->frames);
-    oz_snapshot_free(&reading->snapshot);
-    oz_grains_free(&reading->grains);
-}
-
-static OzStatus open_reading(Reading *reading, const OzExportJob *job)
-{
-    memset(reading, 0, sizeof *reading);
-    OZ_PASS(oz_frame_reader_open(&reading->frames, job->frames, &reading->grains));
-    return oz_snapshot_create(&reading->snapshot, job->scene, &reading->grains);
-}
-
-/* The next frame that the job wants; *more is false at the end. */
-static OzStatus read_next(Reading *reading, const OzExportJob *job, bool *more)
-{
-    int purpose = 0;
-    for (;;) {
-        if (oz_interrupt_asked()) {
-            return oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while exporting");
-        }
-        OZ_PASS(oz_frame_reader_next(reading->frames, &reading->snapshot, &purpose, more));
-        bool fits = *more && (job->purpose == 0 || (purpose & job->purpose));
-        if (!*more || (fits && reading->wanted++ % job->every == 0)) {
-            return OZ_OK;
-        }
-    }
-}
-
-static OzStatus count_frames(const OzExportJob *job, int64_t *count)
+OzStatus oz_export_open(OzExporter **exporter, const OzExportJob *job)
 {
     OzStatus status = OZ_OK;
-    Reading reading;
-    bool more = true;
-    *count = 0;
-    OZ_TRY(open_reading(&reading, job));
-    while (more) {
-        OZ_TRY(read_next(&reading, job, &more));
-        *count += more;
-    }
+    OzExporter *made = NULL;
+    OZ_TRY(OZ_NEW(&made, 1));
+    made->job = *job;
+    OZ_TRY(oz_frame_reader_open(&made->frames, job->frames, &made->grains));
+    OZ_TRY(oz_snapshot_create(&made->snapshot, job->scene, &made->grains));
+    made->target = (OzExport){.folder = job->folder, .scene = job->scene, .grains = &made->grains};
 done:
-    close_reading(&reading);
+    if (status != OZ_OK) {
+        oz_export_finish(made, NULL);
+        made = NULL;
+    }
+    *exporter = made;
     return status;
 }
 
-static OzStatus add_frames(const OzExportJob *job, Reading *reading, void **writers, int64_t total,
-                           int64_t *count)
+/* The next frame that the job wants; *more is false at the end. */
+static OzStatus read_next(OzExporter *e, bool *more)
 {
-    bool more = true;
+    int purpose = 0;
     for (;;) {
-        OZ_PASS(read_next(reading, job, &more));
-        if (!more || *count == total) { /* the file may have grown meanwhile */
+        if (!e->job.grows && oz_interrupt_asked()) {
+            return oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while exporting");
+        }
+        OZ_PASS(oz_frame_reader_next(e->frames, &e->snapshot, &purpose, more));
+        bool fits = *more && (e->job.purpose == 0 || (purpose & e->job.purpose));
+        if (!*more || (fits && e->wanted++ % e->job.every == 0)) {
             return OZ_OK;
         }
-        for (int k = 0; k < job->kind_count; k++) {
-            OZ_PASS(formats[job->kinds[k]]->add(writers[k], &reading->snapshot));
-        }
-        oz_log_progress("exporting frame %lld of %lld", (long long)++*count, (long long)total);
     }
+}
+
+static OzStatus add_frame(OzExporter *e)
+{
+    for (int k = 0; k < e->job.kind_count; k++) {
+        const OzExportFormat *format = formats[e->job.kinds[k]];
+        if (!e->writers[k]) {
+            OZ_PASS(format->open(&e->writers[k], &e->target));
+        }
+        OZ_PASS(format->add(e->writers[k], &e->snapshot));
+    }
+    e->count++;
+    if (!e->job.grows) {
+        oz_log_progress("exporting frame %lld", (long long)e->count);
+    }
+    return OZ_OK;
+}
+
+OzStatus oz_export_follow(OzExporter *exporter)
+{
+    bool more = true;
+    OZ_PASS(oz_frame_reader_renew(exporter->frames));
+    while (true) {
+        OZ_PASS(read_next(exporter, &more));
+        if (!more) {
+            return OZ_OK;
+        }
+        OZ_PASS(add_frame(exporter));
+    }
+}
+
+OzStatus oz_export_finish(OzExporter *exporter, int64_t *count)
+{
+    OzStatus status = OZ_OK;
+    if (!exporter) {
+        return OZ_OK;
+    }
+    for (int k = 0; k < exporter->job.kind_count; k++) {
+        OZ_AFTER(status, formats[exporter->job.kinds[k]]->finish(exporter->writers[k]));
+    }
+    if (count) {
+        *count = exporter->count;
+    }
+    oz_frames_finish(exporter->frames);
+    oz_snapshot_free(&exporter->snapshot);
+    oz_grains_free(&exporter->grains);
+    free(exporter);
+    return status;
 }
 
 OzStatus oz_export_frames(const OzExportJob *job, int64_t *count)
 {
-    OzStatus status = OZ_OK;
-    void *writers[OZ_EXPORTS_END] = {NULL};
-    Reading reading = {0};
-    int64_t total = 0;
+    OzExporter *exporter = NULL;
     *count = 0;
-    OZ_TRY(count_frames(job, &total));
-    OZ_TRY(open_reading(&reading, job));
-    OzExport target = {.folder = job->folder,
-                       .scene = job->scene,
-                       .grains = &reading.grains,
-                       .frame_count = total};
-    for (int k = 0; total > 0 && k < job->kind_count; k++) {
-        OZ_TRY(formats[job->kinds[k]]->open(&writers[k], &target));
-    }
-    OZ_TRY(add_frames(job, &reading, writers, total, count));
+    OZ_PASS(oz_export_open(&exporter, job));
+    OzStatus status = oz_export_follow(exporter);
     oz_log_progress(" ");
-done:
-    for (int k = 0; k < job->kind_count; k++) {
-        OZ_AFTER(status, formats[job->kinds[k]]->finish(writers[k]));
-    }
-    close_reading(&reading);
+    OZ_AFTER(status, oz_export_finish(exporter, count));
     return status;
 }

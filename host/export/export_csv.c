@@ -4,9 +4,12 @@
 #include "base/memory.h"
 #include "export/format.h"
 #include "export/grain_columns.h"
+#include "export/part_file.h"
 #include "observe/contact_rows.h"
 
 #include <stdlib.h>
+
+static const char PART[] = "csv.part";
 
 typedef struct Writer {
     const OzExport *target;
@@ -66,12 +69,12 @@ static OzStatus add_grains(const Writer *writer, const OzSnapshot *now)
     char name[64];
     FILE *file = NULL;
     snprintf(name, sizeof name, "grains_%05lld.csv", (long long)writer->number);
-    OZ_PASS(oz_folder_create_file(&file, writer->target->folder, name));
+    OZ_PASS(oz_part_file_create(&file, writer->target->folder, PART));
     write_head(file, now);
     for (int64_t i = 0; i < now->count; i++) {
         write_grain(file, now, i);
     }
-    return oz_folder_finish_file(file, name);
+    return oz_part_file_place(file, writer->target->folder, PART, name);
 }
 
 static OzStatus add_contacts(const Writer *writer, const OzSnapshot *now)
@@ -79,10 +82,10 @@ static OzStatus add_contacts(const Writer *writer, const OzSnapshot *now)
     char name[64];
     FILE *file = NULL;
     snprintf(name, sizeof name, "contacts_%05lld.csv", (long long)writer->number);
-    OZ_PASS(oz_folder_create_file(&file, writer->target->folder, name));
+    OZ_PASS(oz_part_file_create(&file, writer->target->folder, PART));
     fputs(OZ_CONTACT_ROWS_HEADER "\n", file);
     oz_contact_rows_print(file, now);
-    return oz_folder_finish_file(file, name);
+    return oz_part_file_place(file, writer->target->folder, PART, name);
 }
 
 static OzStatus add_csv(void *data, const OzSnapshot *now)
@@ -95,7 +98,8 @@ static OzStatus add_csv(void *data, const OzSnapshot *now)
     fprintf(writer->times, "%lld,%lld,%.9g\n", (long long)writer->number, (long long)now->step,
             now->time);
     writer->number++;
+    fflush(writer->times); /* what failed shows at its end */
     return OZ_OK;
 }
 
-const OzExportFormat oz_export_csv_format = {"csv", {"*.csv"}, open_csv, add_csv, finish_csv};
+const OzExportFormat oz_export_csv_format = {"csv", {"*.csv", PART}, open_csv, add_csv, finish_csv};

@@ -124,11 +124,13 @@ static OzStatus write_head(const OzHdf5 *h5, hid_t file)
     return make_described(h5, file, "/particles/grains/box", box);
 }
 
-/* A dataset to be filled later; dimensions: its rank and sizes. */
+/* A dataset to be filled later; dimensions: its rank and sizes. One that grows has a row a frame,
+ * of which there is one at first. */
 typedef struct Table {
     char path[NAME_MOST];
     hid_t type;
     int rank;
+    bool grows;
     hsize_t size[3];
     const char *unit; /* NULL: none */
 } Table;
@@ -136,15 +138,23 @@ typedef struct Table {
 static OzStatus make_table(const OzHdf5 *h5, hid_t file, const Table *table)
 {
     OzStatus status = OZ_OK;
-    hid_t space = -1, dataset = -1;
+    hid_t space = -1, dataset = -1, made = H5P_DEFAULT;
+    hsize_t most[3] = {table->grows ? H5S_UNLIMITED : table->size[0], table->size[1],
+                       table->size[2]};
+    hsize_t chunk[3] = {table->rank == 1 ? 1024 : 1, table->size[1], table->size[2]};
     const Attribute unit = {.name = "unit", .text = table->unit, .count = 1};
-    OZ_H5_TRY(space = h5->H5Screate_simple(table->rank, table->size, NULL));
-    OZ_H5_TRY(dataset = h5->H5Dcreate2(file, table->path, table->type, space, H5P_DEFAULT,
-                                       H5P_DEFAULT, H5P_DEFAULT));
+    OZ_H5_TRY(space = h5->H5Screate_simple(table->rank, table->size, most));
+    if (table->grows) {
+        OZ_H5_TRY(made = h5->H5Pcreate(*h5->H5P_CLS_DATASET_CREATE_ID_g));
+        OZ_H5_TRY(h5->H5Pset_chunk(made, table->rank, chunk));
+    }
+    OZ_H5_TRY(dataset = h5->H5Dcreate2(file, table->path, table->type, space, H5P_DEFAULT, made,
+                                       H5P_DEFAULT));
     if (table->unit) {
         OZ_TRY(write_attribute(h5, dataset, &unit));
     }
 done:
+    oz_hdf5_library_close(made == H5P_DEFAULT ? -1 : made);
     oz_hdf5_library_close(dataset);
     oz_hdf5_library_close(space);
     return status;
@@ -154,9 +164,9 @@ done:
 static OzStatus make_times(const Writer *writer)
 {
     const OzHdf5 *h5 = writer->h5;
-    hsize_t frames = (hsize_t)writer->target->frame_count;
-    Table step = {.type = *h5->H5T_NATIVE_INT64_g, .rank = 1, .size = {frames}};
-    Table time = {.type = *h5->H5T_NATIVE_DOUBLE_g, .rank = 1, .size = {frames}, .unit = "s"};
+    Table step = {.type = *h5->H5T_NATIVE_INT64_g, .rank = 1, .size = {1}, .grows = true};
+    Table time = {
+        .type = *h5->H5T_NATIVE_DOUBLE_g, .rank = 1, .size = {1}, .grows = true, .unit = "s"};
     snprintf(step.path, sizeof step.path, "%s/position/step", GRAINS);
     snprintf(time.path, sizeof time.path, "%s/position/time", GRAINS);
     OZ_PASS(make_table(h5, writer->file, &step));
@@ -186,7 +196,8 @@ static Table table_of(const Writer *writer, const OzGrainColumn *column)
     snprintf(table.path, sizeof table.path, "%s/%s%s", GRAINS, name_of(column),
              column->is_lasting ? "" : "/value");
     if (!column->is_lasting) {
-        table.size[table.rank++] = (hsize_t)writer->target->frame_count;
+        table.grows = true;
+        table.size[table.rank++] = 1;
     }
     table.size[table.rank++] = (hsize_t)writer->target->grains->count;
     if (column->width > 1) {
@@ -232,7 +243,7 @@ done:
     return status;
 }
 
-/* Writes count numbers of memory's type into the part of a table that begins at row `first`. */
+/* Writes numbers of memory's type into row `first` of a table, which ends there. */
 static OzStatus write_part(const Writer *writer, const Table *table, hsize_t first, hid_t memory,
                            const void *data)
 {
@@ -240,7 +251,9 @@ static OzStatus write_part(const Writer *writer, const Table *table, hsize_t fir
     const OzHdf5 *h5 = writer->h5;
     hid_t dataset = -1, all = -1, part = -1;
     hsize_t start[3] = {first, 0, 0}, count[3] = {1, table->size[1], table->size[2]};
+    hsize_t size[3] = {first + 1, table->size[1], table->size[2]};
     OZ_H5_TRY(dataset = h5->H5Dopen2(writer->file, table->path, H5P_DEFAULT));
+    OZ_H5_TRY(h5->H5Dset_extent(dataset, size));
     OZ_H5_TRY(all = h5->H5Dget_space(dataset));
     OZ_H5_TRY(h5->H5Sselect_hyperslab(all, H5S_SELECT_SET, start, NULL, count, NULL));
     OZ_H5_TRY(part = h5->H5Screate_simple(table->rank, count, NULL));
@@ -315,6 +328,10 @@ static OzStatus add_h5md(void *data, const OzSnapshot *now)
     Writer *writer = (Writer *)data;
     OZ_PASS(oz_hdf5_library_enter(&writer->h5));
     OzStatus status = write_frame(writer, now);
+    if (status == OZ_OK) {
+        status = oz_hdf5_library_check(writer->h5->H5Fflush(writer->file, H5F_SCOPE_GLOBAL),
+                                       "H5Fflush", __FILE__, __LINE__);
+    }
     oz_hdf5_library_leave(&writer->h5);
     writer->number++;
     return status;

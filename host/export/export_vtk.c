@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "export/format.h"
 #include "export/grain_columns.h"
+#include "export/part_file.h"
 #include "export/surface.h"
 #include "export/vtk_file.h"
 
@@ -20,8 +21,11 @@ static const char *const KIND_NAMES[] = {
 typedef struct Writer {
     const OzExport *target;
     int64_t number;     /* of the next frame          */
-    FILE *index[KINDS]; /* .pvd; NULL: not begun yet  */
+    FILE *index[KINDS]; /* .pvd, at the end of its entries; NULL: not begun yet */
 } Writer;
+
+static const char PART[] = "vtk.part";
+static const char INDEX_END[] = "</Collection>\n</VTKFile>\n";
 
 /* The arrays of one file. */
 typedef struct Arrays {
@@ -56,6 +60,19 @@ static OzStatus begin_index(Writer *writer, Kind kind)
     return OZ_OK;
 }
 
+/* A further entry, and the end behind it, over which the next one is written: in one piece, so that
+ * the index is whole at any moment. */
+static OzStatus add_to_index(FILE *index, double time, const char *name)
+{
+    char text[256];
+    int end = (int)strlen(INDEX_END);
+    int length = snprintf(text, sizeof text, "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n%s", time,
+                          name, INDEX_END);
+    bool good = fwrite(text, 1, (size_t)length, index) == (size_t)length && fflush(index) == 0;
+    good = good && fseeko(index, -end, SEEK_CUR) == 0;
+    return good ? OZ_OK : oz_status_fail(OZ_ERR_FILE, "cannot write the .pvd of %s", name);
+}
+
 static OzStatus write_file(Writer *writer, Kind kind, const OzVtkFile *vtk)
 {
     char name[64];
@@ -64,11 +81,10 @@ static OzStatus write_file(Writer *writer, Kind kind, const OzVtkFile *vtk)
         OZ_PASS(begin_index(writer, kind));
     }
     snprintf(name, sizeof name, "%s_%05lld.vtp", KIND_NAMES[kind], (long long)writer->number);
-    OZ_PASS(oz_folder_create_file(&file, writer->target->folder, name));
+    OZ_PASS(oz_part_file_create(&file, writer->target->folder, PART));
     oz_vtk_file_write(vtk, file);
-    OZ_PASS(oz_folder_finish_file(file, name));
-    fprintf(writer->index[kind], "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n", vtk->time, name);
-    return OZ_OK;
+    OZ_PASS(oz_part_file_place(file, writer->target->folder, PART, name));
+    return add_to_index(writer->index[kind], vtk->time, name);
 }
 
 /* Every column of grains but their position; row i is of the grain owner[i], without one of i. */
@@ -267,7 +283,6 @@ static OzStatus finish_vtk(void *data)
     OzStatus status = OZ_OK;
     for (int k = 0; writer && k < KINDS; k++) {
         if (writer->index[k]) {
-            fputs("</Collection>\n</VTKFile>\n", writer->index[k]);
             OZ_AFTER(status, oz_folder_finish_file(writer->index[k], KIND_NAMES[k]));
         }
     }
@@ -276,4 +291,4 @@ static OzStatus finish_vtk(void *data)
 }
 
 const OzExportFormat oz_export_vtk_format = {
-    "vtk", {"*.vtp", "*.pvd"}, open_vtk, add_vtk, finish_vtk};
+    "vtk", {"*.vtp", "*.pvd", PART}, open_vtk, add_vtk, finish_vtk};

@@ -89,6 +89,7 @@ static OzStatus add_xyz(void *data, const OzSnapshot *now)
     for (int64_t i = 0; i < now->count; i++) {
         write_grain(writer->file, now, i);
     }
+    fflush(writer->file); /* what failed shows at its end */
     return OZ_OK;
 }
 

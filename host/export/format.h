@@ -9,13 +9,13 @@ typedef struct OzExport {
     const char *folder; /* open (base/folder.h): where files are made */
     const OzScene *scene;
     const OzGrains *grains;
-    int64_t frame_count; /* so many frames will be added */
 } OzExport;
 
-/* Files of a format are whole once finish has returned OZ_OK. */
+/* What a format has written is whole after each add that returned OZ_OK, also where the process
+ * ends then. */
 typedef struct OzExportFormat {
     const char *name;
-    const char *files[3]; /* patterns (fnmatch) of their names, ending with NULL */
+    const char *files[4]; /* patterns (fnmatch) of their names, ending with NULL */
     OzStatus (*open)(void **writer, const OzExport *target); /* target outlives the writer */
     OzStatus (*add)(void *writer, const OzSnapshot *snapshot);
     OzStatus (*finish)(void *writer); /* frees, also after a failure; NULL is fine */

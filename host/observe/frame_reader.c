@@ -321,6 +321,15 @@ static OzStatus read_frame(OzFrames *frames, size_t *bytes)
     return oz_bytes_is_sealed(frames->frame, start.bytes) ? OZ_OK : refuse_frame(frames);
 }
 
+OzStatus oz_frame_reader_renew(OzFrames *frames)
+{
+    OZ_PASS(measure_file(frames));
+    clearerr(frames->file);
+    size_t read = (size_t)ftello(frames->file);
+    frames->left -= read < frames->left ? read : frames->left;
+    return OZ_OK;
+}
+
 OzStatus oz_frame_reader_next(OzFrames *frames, OzSnapshot *snapshot, int *purpose, bool *more)
 {
     size_t bytes = 0;

@@ -10,6 +10,9 @@
  */
 OzStatus oz_frame_reader_open(OzFrames **frames, const char *path, OzGrains *grains);
 
+/* To be called where the file may have grown since the end was met. */
+OzStatus oz_frame_reader_renew(OzFrames *frames);
+
 /* The next frame into snapshot (made for these grains and a scene with as many walls, else
  * OZ_ERR_INPUT); *more is false at the end and the snapshot then untouched. Axes are turned. There
  * is no ledger and nothing of beams; contacts where they were kept, their springs and energies

@@ -182,6 +182,50 @@ static int purpose_of(int due)
            (due & OZ_DUE_EXPORT ? OZ_FRAME_EXPORT : 0);
 }
 
+/* Exports the frames that are stored by now and were not exported before: of a run that goes on,
+ * all of them again. */
+static OzStatus export_frames(OzOutputs *o)
+{
+    OzStatus status = OZ_OK;
+    const char *replaces[OZ_EXPORT_REPLACES];
+    char *frames = NULL;
+    if (!o->exporter) {
+        OzFolderUse use = oz_export_use(o->scene.exports, o->scene.export_count, replaces);
+        OZ_TRY(oz_file_join(&frames, o->folder, "frames.bin"));
+        OZ_TRY(oz_folder_note(o->folder, "export/"));
+        free(o->export_folder);
+        OZ_TRY(oz_file_join(&o->export_folder, o->folder, "export"));
+        OZ_TRY(oz_folder_open(&o->exported, o->export_folder, &use));
+        OZ_TRY(oz_export_open(&o->exporter, &(OzExportJob){.frames = frames,
+                                                           .scene = &o->scene,
+                                                           .folder = o->export_folder,
+                                                           .kinds = o->scene.exports,
+                                                           .kind_count = o->scene.export_count,
+                                                           .purpose = OZ_FRAME_EXPORT,
+                                                           .every = 1,
+                                                           .grows = true}));
+    }
+    OZ_TRY(oz_export_follow(o->exporter));
+done:
+    free(frames);
+    return status;
+}
+
+static OzStatus end_export(OzOutputs *o)
+{
+    int64_t count = 0;
+    bool any = o->exporter != NULL;
+    OzStatus status = oz_export_finish(o->exporter, &count);
+    if (any && status == OZ_OK) {
+        oz_log_line("%lld frames exported into %s", (long long)count, o->export_folder);
+    }
+    o->exporter = NULL;
+    oz_folder_close(&o->exported);
+    free(o->export_folder);
+    o->export_folder = NULL;
+    return status;
+}
+
 OzStatus oz_outputs_look(OzOutputs *outputs, int due)
 {
     int purpose = purpose_of(due);
@@ -197,6 +241,9 @@ OzStatus oz_outputs_look(OzOutputs *outputs, int due)
     }
     if (purpose && outputs->frames) {
         OZ_PASS(oz_frames_add(outputs->frames, &outputs->now, purpose));
+    }
+    if (purpose & OZ_FRAME_EXPORT) {
+        OZ_PASS(export_frames(outputs));
     }
     if ((purpose & ~OZ_FRAME_EXPORT) && outputs->pictures) {
         OZ_PASS(
@@ -282,44 +329,12 @@ OzStatus oz_outputs_state(OzOutputs *o, OzStateVisit *visit)
     return OZ_OK;
 }
 
-/* What the scene asks for, of the frames that are stored by now. */
-static OzStatus export_frames(const OzOutputs *o)
-{
-    OzStatus status = OZ_OK;
-    const char *replaces[OZ_EXPORT_REPLACES];
-    OzFolderUse use = oz_export_use(o->scene.exports, o->scene.export_count, replaces);
-    OzFolder owned = {0};
-    char *frames = NULL, *folder = NULL;
-    int64_t count = 0;
-    if (oz_interrupt_asked()) {
-        oz_log_line("nothing is exported before the run's end; `orzo export %s` does it sooner",
-                    o->folder);
-        return OZ_OK;
-    }
-    OZ_TRY(oz_file_join(&frames, o->folder, "frames.bin"));
-    OZ_TRY(oz_folder_note(o->folder, "export/"));
-    OZ_TRY(oz_file_join(&folder, o->folder, "export"));
-    OZ_TRY(oz_folder_open(&owned, folder, &use));
-    OZ_TRY(oz_export_frames(&(OzExportJob){.frames = frames,
-                                           .scene = &o->scene,
-                                           .folder = folder,
-                                           .kinds = o->scene.exports,
-                                           .kind_count = o->scene.export_count,
-                                           .purpose = OZ_FRAME_EXPORT,
-                                           .every = 1},
-                            &count));
-    oz_log_line("%lld frames exported into %s", (long long)count, folder);
-done:
-    oz_folder_close(&owned);
-    free(frames);
-    free(folder);
-    return status;
-}
-
 OzStatus oz_outputs_close(OzOutputs *o)
 {
     OzStatus status = OZ_OK;
-    bool exports = o->frames && o->scene.export_count > 0;
+    if (o->frames && o->scene.export_count > 0) { /* of a run that was resumed at its end, too */
+        OZ_AFTER(status, export_frames(o));
+    }
     OZ_AFTER(status, oz_glances_close(&o->glances));
 #define CLOSE(type, member, state, close)                                                          \
     OZ_AFTER(status, close);                                                                       \
@@ -327,9 +342,7 @@ OzStatus oz_outputs_close(OzOutputs *o)
     OZ_OUTPUTS_OWNERS(CLOSE)
 #undef CLOSE
     o->is_open = false;
-    if (exports) {
-        OZ_AFTER(status, export_frames(o));
-    }
+    OZ_AFTER(status, end_export(o));
     if (o->final) {
         oz_final_give_up(o->final);
     }

@@ -5,6 +5,7 @@
 #include "base/folder.h"
 #include "cli.h"
 #include "draw/render_queue.h"
+#include "export/export.h"
 #include "observe/contact_rows.h"
 #include "observe/frames.h"
 #include "observe/series.h"
@@ -40,11 +41,14 @@ typedef enum OzOutcome {
 typedef struct OzOutputs {
     OzScene scene;
     OzGrains grains;
-    OzSnapshot now; /* the state to be written next */
-    char *name;     /* of a member of an ensemble, as in seed_00003; owned */
-    char *folder;   /* owned */
-    char *final;    /* owned: path of final.csv, once its room is reserved */
-    OzFolder owned; /* of a member of an ensemble: its folder, in use */
+    OzSnapshot now;       /* the state to be written next */
+    char *name;           /* of a member of an ensemble, as in seed_00003; owned */
+    char *folder;         /* owned */
+    char *final;          /* owned: path of final.csv, once its room is reserved */
+    OzFolder owned;       /* of a member of an ensemble: its folder, in use */
+    OzExporter *exporter; /* from the first frame on that is exported */
+    char *export_folder;  /* owned */
+    OzFolder exported;    /* the same, in use */
 #define OZ_OUTPUTS_MEMBER(type, member, state, close) type *member;
     OZ_OUTPUTS_OWNERS(OZ_OUTPUTS_MEMBER)
 #undef OZ_OUTPUTS_MEMBER

@@ -406,7 +406,7 @@ static const OzKey KEYS[] = {
     {"export", .type = OZ_KEY_CHOICES, .choices = EXPORTS, .unit = "", .width = OZ_EXPORTS_END,
      AT(exports), .count_offset = offsetof(OzScene, export_count), .write = OZ_WRITE_NONZERO,
      FIXED("frames are kept for it from the start"), .fallback_help = "none",
-     .help = "formats for other programs, written into export/ when the run ends"},
+     .help = "formats for other programs, written into export/ frame by frame"},
     {"export_interval", NUMBER(1e-12, 1e9, "s"), AT(export_interval), .write = OZ_WRITE_NONZERO,
      .fallback_help = "the movie's frames, without a movie the rows of series.csv",
      .help = "between exported frames"},
