@@ -3,9 +3,17 @@
  * walls with edges (wall_shaft.h) in the same way. OpenCL C only. */
 #pragma once
 
+#include "kernels/mesh_find.h"
 #include "kernels/wall_impulse.h"
 
 #if OZ_WALL_COUNT > 0
+
+/* Whether a side's touches share a response with others. */
+OZ_INLINE int oz_enclosure_shares(const OzSide *side)
+{
+    int is_slot = OZ_MESHES > 0 && side->index >= OZ_ENCLOSURE_MESH;
+    return is_slot || (!OZ_ROUND && side->index >= OZ_ENCLOSURE_EDGED);
+}
 
 /* Stops the run at overlaps that no run may go on with. Lanes outside of `counts` are not looked
  * at: they repeat an end of another lane. */
@@ -115,7 +123,7 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
 #endif
     mask counts = OZ_ACTIVE_BEFORE(count);
     OzContact whole = found.contact;
-    if (!OZ_ROUND && side->index >= OZ_ENCLOSURE_EDGED) {
+    if (oz_enclosure_shares(side)) {
         whole.overlap = grain.radius - where.wall.distance;
         whole.rate = whole.rate / where.share;
         counts = counts & where.present;
@@ -212,12 +220,26 @@ OZ_INLINE void oz_enclosure_join(OzWork *w, const OzSide *sides, int k, const in
     }
 }
 
+/* One block of grains that touch a mesh in the slot of sides[k]. */
+OZ_INLINE void oz_enclosure_touch_mesh(OzWork *w, const OzSide *sides, int k, const int *slots,
+                                       int count, int step)
+{
+#if OZ_MESHES > 0
+    int slot = k - OZ_ENCLOSURE_MESH;
+    OzGrain grain = oz_work_grains(w, slots);
+    OzWallEnd where = oz_mesh_find_end(w, grain, slot / OZ_MESH_SLOTS, slot % OZ_MESH_SLOTS, slots);
+    oz_enclosure_touch(w, &sides[k], grain, where, slots, count, step);
+#endif
+}
+
 /* What is done with picked ends of a side, or shafts: joining them, or their forces. */
 OZ_INLINE void oz_enclosure_handle(OzWork *w, const OzSide *sides, int k, int joins,
                                    const int *slots, int count, int step)
 {
     if (joins) {
         oz_enclosure_join(w, sides, k, slots, count);
+    } else if (k >= OZ_ENCLOSURE_MESH) {
+        oz_enclosure_touch_mesh(w, sides, k, slots, count, step);
     } else if (k >= OZ_ENCLOSURE_SHAFT) {
         oz_enclosure_touch_shafts(w, sides, k, slots, count, step);
     } else {
@@ -337,6 +359,21 @@ OZ_INLINE void oz_enclosure_handle_region(OzWork *w, const OzSide *sides, int k,
     }
 }
 
+#if OZ_MESHES > 0
+/* Picks the grains of a block that touch meshes, slot by slot. */
+OZ_INLINE void oz_enclosure_sieve_meshes(OzWork *w, const OzSide *sides, int block, int step)
+{
+    for (int mesh = 0; mesh < OZ_MESHES; mesh++) {
+        const OzSide *side = &sides[OZ_ENCLOSURE_MESH + mesh * OZ_MESH_SLOTS];
+        int picked[OZ_MESH_SLOTS];
+        oz_mesh_find_block(w, side, mesh, block, step, picked);
+        for (int k = 0; k < OZ_MESH_SLOTS; k++) {
+            oz_enclosure_part(w, (size_t)block * OZ_WALL_ENDS + side->index + k, picked[k]);
+        }
+    }
+}
+#endif
+
 OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
 {
     OzSide sides[OZ_WALL_ENDS];
@@ -346,14 +383,20 @@ OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
     for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region);
          block++) {
         oz_enclosure_sieve(w, sides, block);
+#if OZ_MESHES > 0
+        oz_enclosure_sieve_meshes(w, sides, block, step);
+#endif
     }
     for (int k = OZ_ENCLOSURE_EDGED; k < OZ_ENCLOSURE_SHAFT; k++) {
         oz_enclosure_handle_region(w, sides, k, 1, region, step);
     }
-    for (int k = OZ_ENCLOSURE_SHAFT; k < OZ_WALL_ENDS; k += OZ_WALL_SHAFT_PARTS) {
+    for (int k = OZ_ENCLOSURE_SHAFT; k < OZ_ENCLOSURE_MESH; k += OZ_WALL_SHAFT_PARTS) {
         oz_enclosure_handle_region(w, sides, k, 0, region, step);
     }
     for (int k = 0; k < OZ_ENCLOSURE_SHAFT; k++) {
+        oz_enclosure_handle_region(w, sides, k, 0, region, step);
+    }
+    for (int k = OZ_ENCLOSURE_MESH; k < OZ_WALL_ENDS; k++) {
         oz_enclosure_handle_region(w, sides, k, 0, region, step);
     }
 }

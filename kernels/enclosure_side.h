@@ -19,6 +19,15 @@
 #define OZ_ENCLOSURE_SHAFT ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT)
 #define OZ_ENCLOSURE_EDGED (OZ_ENCLOSURE_SHAFT - (OZ_ROUND ? 1 : 2) * OZ_WALL_EDGED)
 
+/* The first slot of touches of meshes, behind all points of shafts. */
+#define OZ_ENCLOSURE_MESH (OZ_WALL_ENDS - OZ_MESH_SLOTS * OZ_MESHES)
+
+OZ_INLINE OzWallNumbers oz_enclosure_side_numbers(void)
+{
+    OzWallNumbers numbers = {OZ_ROUND ? 1 : 2, OZ_WALL_COUNT, OZ_MESHES, OZ_WALL_EDGED};
+    return numbers;
+}
+
 /* One of the two ends of every grain, or a point of its shaft, paired with one wall: what is the
  * same for all grains in a step. */
 typedef struct OzSide {
@@ -39,10 +48,9 @@ typedef struct OzSide {
 OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
 {
     OzSide side;
-    int ends = OZ_ROUND ? 1 : 2;
     side.index = index;
-    side.wall = oz_wall_shaft_wall(index, ends, OZ_WALL_COUNT, OZ_WALL_EDGED);
-    side.part = oz_wall_shaft_part(index, ends, OZ_WALL_COUNT);
+    side.wall = oz_wall_shaft_wall(index, oz_enclosure_side_numbers());
+    side.part = oz_wall_shaft_part(index, oz_enclosure_side_numbers());
     side.first = side.part == OZ_WALL_TIP;
     side.sign = REAL(side.first ? 1.0 : -1.0);
     side.shape = w->parameters->wall[side.wall].shape;

@@ -11,15 +11,21 @@
 
 #include "kernels/ledger_entries.h"
 
-/* What of a grain may touch walls: its ends, and points of its shaft at walls with edges. */
-#define OZ_WALL_ENDS ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT + (OZ_ROUND ? 0 : 2 * OZ_WALL_EDGED))
+/* What of a grain may touch walls: its ends, points of its shaft at walls with edges, and slots for
+ * touches of meshes. */
+#define OZ_WALL_ENDS                                                                               \
+    ((OZ_ROUND ? 1 : 2) * OZ_WALL_COUNT + (OZ_ROUND ? 0 : 2 * OZ_WALL_EDGED) +                     \
+     OZ_MESH_SLOTS * OZ_MESHES)
+
+/* What is remembered of a grain's touches of meshes. */
+#define OZ_MESH_WORDS (OZ_MESHES * OZ_MESH_SLOTS * OZ_MESH_MEMORY)
 
 /* The ledger has a grain's sums of energy, J, by id, of contacts in which it is the first; this is
  * a contact's words for them (see ledger.h). */
 enum { OZ_CONTACT_LEDGER = 16 };
 
 /* A slot's words in the spare array, where a re-sort puts grains in their new order. */
-#define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + 1)
+#define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + OZ_MESH_WORDS + 1)
 
 #define OZ_FIELDS(X)                                                                               \
     X(parameters, parameters, 1, SCRATCH)                                                          \
@@ -30,6 +36,12 @@ enum { OZ_CONTACT_LEDGER = 16 };
     X(real, wall_history, OZ_HISTORY ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)                     \
     X(integer, wall_active, z.blocks *OZ_WALL_ENDS, SPRING)                                        \
     X(real, wall_relief, OZ_ROUND || OZ_WALL_EDGED == 0 ? 0 : z.blocks * 2, SCRATCH)               \
+    X(scalar, mesh_grid, OZ_MESHES *OZ_MESH_GRID, SCRATCH)                                         \
+    X(scalar, mesh_record, OZ_MESH_RECORD *z.mesh_faces, SCRATCH)                                  \
+    X(integer, mesh_first, z.mesh_cells, SCRATCH)                                                  \
+    X(integer, mesh_face, z.mesh_items, SCRATCH)                                                   \
+    X(real, mesh_touch, OZ_MESHES *OZ_MESH_SLOTS *OZ_MESH_TOUCH *z.blocks, SCRATCH)                \
+    X(real, mesh_memory, OZ_MESH_WORDS *z.blocks, SPRING)                                          \
     X(scalar, record, (z.slots + 1) * OZ_RECORD * (OZ_TILES ? 2 : 1), STATE)                       \
     X(scalar, fine, OZ_FINE ? (z.slots + 1) * OZ_FINE_RECORD *(OZ_TILES ? 2 : 1) : 0, STATE)       \
     X(real, reference_inner, z.blocks *OZ_REFERENCE, LIST)                                         \

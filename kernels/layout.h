@@ -39,11 +39,20 @@ typedef struct OzParameters {
 /* Sizes and strides; the same for every member of one launch. */
 typedef struct OzSizes {
     OZ_SIZES_HEAD
-    int count; /* grains */
+    int count;                              /* grains */
+    int mesh_faces, mesh_cells, mesh_items; /* triangles of all meshes; cells of their grids, and
+                                               one more for each; triangles listed in them */
 } OzSizes;
 
 /* Reasons to stop, as bits. */
-enum { OZ_STOP_NAN = 1, OZ_STOP_ESCAPED = 2, OZ_STOP_DEEP = 4, OZ_STOP_FAST = 8, OZ_STOP_MET = 16 };
+enum {
+    OZ_STOP_NAN = 1,
+    OZ_STOP_ESCAPED = 2,
+    OZ_STOP_DEEP = 4,
+    OZ_STOP_FAST = 8,
+    OZ_STOP_MET = 16,
+    OZ_STOP_CROWDED = 32
+};
 
 /* The device's own words, one set a member. */
 typedef struct OzControl {
@@ -85,6 +94,25 @@ enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };
 
 /* Words of a grain's impulse at a wall: of force, then of torque. */
 enum { OZ_IMPULSE_WORDS = 6 };
+
+/* Words of a mesh's grid: where it begins (m, from the wall's point), 1/m, cells along each axis,
+ * their beginning in mesh_first, and that of its triangles; whether grains touch both sides. */
+enum {
+    OZ_G_LOW = 0,
+    OZ_G_INVERSE = 3,
+    OZ_G_CELLS = 4,
+    OZ_G_FIRST = 7,
+    OZ_G_CORNER,
+    OZ_G_TWO_SIDED,
+    OZ_MESH_GRID
+};
+
+/* Words of a triangle's record: its first corner's place, one to spare, and both edges from there.
+ */
+enum { OZ_MESH_R_CORNER = 0, OZ_MESH_R_ONE = 4, OZ_MESH_R_OTHER = 7, OZ_MESH_RECORD = 12 };
+
+/* Words of a grain's touch of a mesh: place along the shaft, normal, distance, push (mesh.h). */
+enum { OZ_MESH_TOUCH = 6 };
 
 /* Words of a slot's load, and of what pushes a grain from outside (by id): force and torque, each
  * with one word to spare. */

@@ -129,7 +129,7 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
                 w->wall_active[(size_t)block * OZ_WALL_ENDS + index] & (int)((1u << here) - 1);
             global const real *words =
                 w->wall_ledger + ((size_t)block * OZ_WALL_ENDS + index) * OZ_CONTACT_LEDGER;
-            int wall = oz_wall_shaft_wall(index, OZ_ROUND ? 1 : 2, OZ_WALL_COUNT, OZ_WALL_EDGED);
+            int wall = oz_wall_shaft_wall(index, oz_enclosure_side_numbers());
             scalar old_speed = oz_ledger_wall_speed(w, wall, OZ_ENCLOSURE_STEP(step));
             scalar new_speed = oz_ledger_wall_speed(w, wall, step + 1);
             OzVec3 arm = oz_work_load3(words + 12), after = oz_grain_velocity_at(grain, arm);

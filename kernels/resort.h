@@ -3,8 +3,8 @@
  * cells before the next. Out to the spare array in the new order, then back. OpenCL C only. */
 #pragma once
 
-#include "kernels/near.h"
 #include "kernels/lists.h"
+#include "kernels/near.h"
 
 /* Words of a slot's springs at walls. */
 #define OZ_RESORT_SPRINGS (OZ_HISTORY ? 3 * OZ_WALL_ENDS : 0)
@@ -67,8 +67,10 @@ OZ_INLINE void oz_resort_out(OzWork *w, int region)
         if (!OZ_EQUAL) {
             oz_resort_out_words(to + 1 + OZ_STATE, (global const scalar *)w->shape, from, OZ_SHAPE);
         }
-        oz_resort_out_words(to + 1 + OZ_STATE + OZ_SHAPE, (global const scalar *)w->wall_history,
-                            from, OZ_RESORT_SPRINGS);
+        to += 1 + OZ_STATE + OZ_SHAPE;
+        oz_resort_out_words(to, (global const scalar *)w->wall_history, from, OZ_RESORT_SPRINGS);
+        oz_resort_out_words(to + 3 * OZ_WALL_ENDS, (global const scalar *)w->mesh_memory, from,
+                            OZ_MESH_WORDS);
     }
 }
 
@@ -98,8 +100,10 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
         if (!OZ_EQUAL) {
             oz_resort_in_words((global scalar *)w->shape, from + 1 + OZ_STATE, slot, OZ_SHAPE);
         }
-        oz_resort_in_words((global scalar *)w->wall_history, from + 1 + OZ_STATE + OZ_SHAPE, slot,
-                           OZ_RESORT_SPRINGS);
+        from += 1 + OZ_STATE + OZ_SHAPE;
+        oz_resort_in_words((global scalar *)w->wall_history, from, slot, OZ_RESORT_SPRINGS);
+        oz_resort_in_words((global scalar *)w->mesh_memory, from + 3 * OZ_WALL_ENDS, slot,
+                           OZ_MESH_WORDS);
     }
     for (int k = oz_work_block_begin(w, region) * OZ_WALL_ENDS;
          k < oz_work_block_end(w, region) * OZ_WALL_ENDS; k++) {

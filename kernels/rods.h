@@ -8,6 +8,9 @@
 #include "kernels/depth.h"
 #include "kernels/wall_shaft.h"
 
+/* Whether touches share a response, at walls with edges or meshes. */
+#define OZ_WALL_SHARES (OZ_WALL_EDGED > 0 || OZ_MESHES > 0)
+
 /* What a pair of grains does to both. */
 typedef struct OzPairForce {
     OzVec3 force;              /* N, on b; -force on a            */
@@ -108,9 +111,9 @@ OZ_INLINE OzVec3 oz_rods_wall_arm(OzGrain grain, OzVec3 end, OzWallDistance wall
 
 /* One end of a grain before a wall, or a point of its shaft. */
 typedef struct OzWallEnd {
-    OzVec3 end;          /* m, the cap's centre from the grain's: a half-shaft, or minus it */
-    real share;          /* of the overlap that counts here (wall_shaft.h); with walls with edges */
-    OzWallDistance wall; /* where the cap's centre stands                                   */
+    OzVec3 end;           /* m, the cap's centre from the grain's: a half-shaft, or minus it */
+    real share;           /* of the overlap that counts here (wall_shaft.h); with OZ_WALL_SHARES */
+    OzWallDistance wall;  /* where the cap's centre stands                                   */
     OzVec3 wall_velocity; /* m/s, the wall's own                                             */
     mask present;         /* else it does not touch                                          */
 } OzWallEnd;
@@ -138,7 +141,7 @@ OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants l
     force.arm = oz_rods_wall_arm(grain, at.end, wall);
     contact->velocity = oz_minus(oz_grain_velocity_at(grain, force.arm), at.wall_velocity);
     contact->rate = -oz_dot(contact->velocity, contact->normal);
-    if (OZ_WALL_EDGED > 0) {
+    if (OZ_WALL_SHARES) {
         contact->overlap *= at.share;
         contact->rate *= at.share;
     }
@@ -150,7 +153,7 @@ OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants l
         contact->lightness = REAL(1.0) / sqrt(REAL(1.0) + contact->mass * inverse_mass_turn);
     }
     force.parts = oz_contact_force(*contact, law, history, dt, share);
-    if (OZ_WALL_EDGED > 0) {
+    if (OZ_WALL_SHARES) {
         force.parts.energy /= at.share; /* a.K.a / 2 is a.e / 2 */
     }
     return force;

@@ -5,6 +5,7 @@
 
 #include "kernels/wall_band.h"
 #include "kernels/wall_cylinder.h"
+#include "kernels/wall_mesh.h"
 #include "kernels/wall_plane.h"
 #include "kernels/wall_rectangle.h"
 #include "kernels/wall_sphere.h"

@@ -36,18 +36,32 @@ enum { OZ_WALL_SHAFT_ROUNDS = 4 };
  * flat; far below what grains rest at. */
 #define OZ_WALL_SHAFT_LEAST 1e-6
 
+/* How many walls there are, and of what kinds: those with edges are the last ones, after meshes. */
+typedef struct OzWallNumbers {
+    int ends; /* of a grain: 1 when all are spheres, else 2 */
+    int walls, meshes, edged;
+} OzWallNumbers;
+
 /* Contacts with walls are numbered: ends at each wall, then points of shafts at each of those with
- * edges, which are the last walls. The wall and the part of one of them. */
-OZ_INLINE int oz_wall_shaft_wall(int index, int ends, int walls, int edged)
+ * edges (of spheres there are none), then the slots of each mesh. The first slot of all. */
+OZ_INLINE int oz_wall_shaft_slots(OzWallNumbers n)
 {
-    int at_shaft = index - ends * walls;
-    return at_shaft < 0 ? index / ends : walls - edged + at_shaft / OZ_WALL_SHAFT_PARTS;
+    return n.ends * n.walls + (n.ends == 2 ? OZ_WALL_SHAFT_PARTS * n.edged : 0);
 }
 
-OZ_INLINE int oz_wall_shaft_part(int index, int ends, int walls)
+/* The wall and the part of one of them; OZ_WALL_PARTS and on: slots. */
+OZ_INLINE int oz_wall_shaft_wall(int index, OzWallNumbers n)
 {
-    int at_shaft = index - ends * walls;
-    return at_shaft < 0 ? index % ends : OZ_WALL_AHEAD + at_shaft % OZ_WALL_SHAFT_PARTS;
+    int at_shaft = index - n.ends * n.walls, slot = index - oz_wall_shaft_slots(n);
+    int wall = at_shaft < 0 ? index / n.ends : n.walls - n.edged + at_shaft / OZ_WALL_SHAFT_PARTS;
+    return slot < 0 ? wall : n.walls - n.edged - n.meshes + slot / OZ_MESH_SLOTS;
+}
+
+OZ_INLINE int oz_wall_shaft_part(int index, OzWallNumbers n)
+{
+    int at_shaft = index - n.ends * n.walls, slot = index - oz_wall_shaft_slots(n);
+    int part = at_shaft < 0 ? index % n.ends : OZ_WALL_AHEAD + at_shaft % OZ_WALL_SHAFT_PARTS;
+    return slot < 0 ? part : OZ_WALL_PARTS + slot % OZ_MESH_SLOTS;
 }
 
 /* A shaft before one wall. */

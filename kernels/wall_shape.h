@@ -30,6 +30,12 @@ typedef struct OzWallDistance {
 #endif
 } OzWallDistance;
 
+/* Places at which one grain can touch one mesh (mesh.h) at a time: a sphere in the tip of a pyramid
+ * has four walls around it, a rod in a corner three at each end. A run in which there are more is
+ * stopped. What is remembered of each: 0 or the key, the normal, the place along the shaft. */
+enum { OZ_MESH_SLOTS = 8 };
+enum { OZ_MESH_M_KEY, OZ_MESH_M_NORMAL, OZ_MESH_M_PLACE = 4, OZ_MESH_MEMORY };
+
 /* m: the distance of a wall that is not there. Its square is still a number, whatever the unit. */
 #define OZ_WALL_FAR 1e12
 

@@ -20,6 +20,7 @@
     X(CYLINDER, cylinder, "cylinder", 1, 0)                                                        \
     X(TUBE, tube, "", 0, 0)                                                                        \
     X(SPHERE, sphere, "sphere", 0, 0)                                                              \
+    X(MESH, mesh, "mesh", 0, 0)                                                                    \
     X(RECTANGLE, rectangle, "rectangle", 0, 1)                                                     \
     X(BAND, band, "", 0, 1)
 

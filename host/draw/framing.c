@@ -5,6 +5,7 @@
 #include "draw/plane.h"
 #include "draw/pressed.h"
 #include "model/motion.h"
+#include "scene/wall_mesh.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -129,7 +130,11 @@ static void surround(Room *room, const OzScene *scene)
         bool is_sheet = oz_wall_shape_is_sheet(wall);
         bool is_tube =
             wall->kind == OZ_WALL_CYLINDER && !oz_wall_shape_is_upright(wall) && !is_sheet;
-        if (is_sheet) {
+        for (int k = 0; k < 3 && wall->mesh; k++) {
+            room->low[k] = fmin(room->low[k], wall->point[k] + wall->mesh->low[k]);
+            room->high[k] = fmax(room->high[k], wall->point[k] + wall->mesh->high[k]);
+        }
+        if (is_sheet && !wall->mesh) {
             include_sheet(room, wall);
         }
         for (int k = 0; k < 3 && (is_box || is_ball || is_tube); k++) {

@@ -2,6 +2,7 @@
 #include "draw/wall_sheet.h"
 
 #include "model/motion.h"
+#include "scene/wall_mesh.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -159,6 +160,28 @@ static void add_band(const OzWallSheet *s, const OzWallShape *shape, const doubl
     }
 }
 
+/* Fronts, where grains are, that look away from the eye are before the grains. */
+static void add_mesh(const OzWallSheet *s, const OzWallMesh *triangles, const double point[3])
+{
+    for (int face = 0; face < triangles->count; face++) {
+        Patch patch = {.count = 3};
+        double normal[3], seen[3];
+        oz_mesh_edges_normal(triangles->corners + 9 * (size_t)face, normal);
+        for (int c = 0; c < 9; c++) {
+            patch.points[c / 3][c % 3] = point[c % 3] + triangles->corners[9 * face + c];
+        }
+        oz_camera_turn(s->camera, normal, seen);
+        add_patch(s, &patch, normal, seen[2] < 0);
+    }
+    for (int crease = 0; crease < triangles->edges.crease_count; crease++) {
+        double ends[2][3];
+        for (int c = 0; c < 6; c++) {
+            ends[c / 3][c % 3] = point[c % 3] + triangles->edges.creases[6 * crease + c];
+        }
+        add_line(s, ends[0], ends[1], false, RIM);
+    }
+}
+
 void oz_wall_sheet_add(const OzWallSheet *s, int w)
 {
     const OzWall *wall = &s->snapshot->scene->walls[w];
@@ -170,7 +193,9 @@ void oz_wall_sheet_add(const OzWallSheet *s, int w)
     for (int k = 0; k < 3; k++) {
         point[k] += wall->point[k];
     }
-    if (wall->kind == OZ_WALL_RECTANGLE) {
+    if (wall->kind == OZ_WALL_MESH) {
+        add_mesh(s, wall->mesh, point);
+    } else if (wall->kind == OZ_WALL_RECTANGLE) {
         add_rectangle(s, &shape, point);
     } else {
         add_band(s, &shape, point, oz_motion_turn(&wall->motion, s->snapshot->time));

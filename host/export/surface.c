@@ -2,6 +2,7 @@
 #include "export/surface.h"
 
 #include "base/memory.h"
+#include "scene/wall_mesh.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -220,6 +221,19 @@ static OzStatus add_box(OzSurface *s, const OzWall *wall, const double shift[3],
     return OZ_OK;
 }
 
+static OzStatus add_mesh(OzSurface *s, const OzWallMesh *mesh, const double point[3],
+                         int64_t number)
+{
+    for (int face = 0; face < mesh->count; face++) {
+        double corners[3][3];
+        for (int c = 0; c < 9; c++) {
+            corners[c / 3][c % 3] = point[c % 3] + mesh->corners[9 * face + c];
+        }
+        OZ_PASS(add_polygon(s, corners, 3, number));
+    }
+    return OZ_OK;
+}
+
 static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, int w)
 {
     const OzWall *wall = &now->scene->walls[w];
@@ -235,6 +249,9 @@ static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, 
         memcpy(round.axis, wall->normal, sizeof round.axis);
     }
     oz_wall_shape_across(round.axis, round.across[0], round.across[1]);
+    if (wall->mesh) {
+        return add_mesh(s, wall->mesh, round.middle, w);
+    }
     if (oz_wall_shape_is_sheet(wall)) {
         return add_sheet(s, wall, &round, w);
     }

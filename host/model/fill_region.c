@@ -1,6 +1,7 @@
 /* Which points the walls leave to grains placed at random. Knows nothing of other grains. */
 #include "model/fill_region.h"
 
+#include "scene/wall_mesh.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -128,6 +129,26 @@ static void bound_by_box(OzFillRegion *fill_region, const OzWall *wall)
         double low = wall->point[k] - (k == 2 ? 0 : wall->size[k] / 2);
         bound_between(fill_region, k, low, low + wall->size[k]);
     }
+}
+
+/* Of meshes those that hold grains inside bound; others are kept clear of. */
+static void bound_by_mesh(OzFillRegion *fill_region, const OzWall *wall)
+{
+    for (int k = 0; k < 3 && oz_wall_mesh_is_vessel(wall->mesh); k++) {
+        bound_between(fill_region, k, wall->point[k] + wall->mesh->low[k],
+                      wall->point[k] + wall->mesh->high[k]);
+    }
+}
+
+/* A closed mesh's inside is all that grains may be in, or nowhere that they may be. */
+static bool mesh_allows(const OzWall *wall, const double point[3])
+{
+    double from[3];
+    for (int k = 0; wall->mesh && k < 3; k++) {
+        from[k] = point[k] - wall->point[k];
+    }
+    return !wall->mesh || !wall->mesh->edges.closed ||
+           oz_wall_mesh_encloses(wall->mesh, from) == oz_wall_mesh_is_vessel(wall->mesh);
 }
 
 /* Whether a level sheet closes the column at its own height: the corners of the box, or the rim of
@@ -338,7 +359,7 @@ bool oz_fill_region_holds(const OzFillRegion *fill_region, const OzCapsule *caps
     bool holds = is_enclosed(fill_region, ends[0]) && is_enclosed(fill_region, ends[1]);
     for (int w = 0; w < fill_region->scene->wall_count && holds; w++) {
         const OzWall *wall = &fill_region->scene->walls[w];
-        holds = wall->since > 0 || shaft_is_free(wall, capsule);
+        holds = wall->since > 0 || (mesh_allows(wall, ends[0]) && shaft_is_free(wall, capsule));
     }
     return holds;
 }

@@ -96,10 +96,13 @@ void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults 
     }
     check_trace(wall, index, root, faults);
     check_steady(wall, index, root, faults);
-    bool is_square = wall->kind == OZ_WALL_BOX || wall->kind == OZ_WALL_RECTANGLE;
+    bool is_mesh = wall->kind == OZ_WALL_MESH;
+    bool is_square = wall->kind == OZ_WALL_BOX || wall->kind == OZ_WALL_RECTANGLE || is_mesh;
     if (is_square && motion->angular_velocity != 0) {
         FAULT(".angular_velocity",
               "a %s does not stay as it is when it turns; expected a plane or a round wall",
-              wall->kind == OZ_WALL_BOX ? "box" : "rectangle");
+              is_mesh                     ? "mesh"
+              : wall->kind == OZ_WALL_BOX ? "box"
+                                          : "rectangle");
     }
 }

@@ -5,12 +5,21 @@
      .item_size = sizeof(OzWall), .line_offset = offsetof(OzWall, line), .fallback_help = "none",
      WALLS_MADE, .help = "what holds the grains"},
     {"walls[].kind", CHOICE(WALL_KINDS), WALL(kind), WALLS_MADE, REQUIRED, SOLID,
-     .help = "a plane; the inside of a cylinder, a sphere or a box; a thin rectangle, disc or cone"},
+     .help = "a plane; the inside of a cylinder, a sphere or a box; a thin rectangle, disc or cone; "
+             "triangles of a file"},
     {"walls[].kind", CHOICE(FLAT_WALL_KINDS), WALL(kind), WALLS_MADE, REQUIRED, FLAT,
      .help = "a straight line; a floor; a hopper; the inside of a drum; a vessel"},
     {"walls[].point", VECTOR(1e6, "m"), WALL(point), WALLS_MADE, DEFAULT("[0, 0, 0]"), SOLID,
      .help = "any point of a plane; the axis of a cylinder or cone begins there; the middle of a "
-             "sphere, a rectangle, a disc, a box's bottom"},
+             "sphere, a rectangle, a disc, a box's bottom; where a mesh's origin is"},
+    {"walls[].path", OF(FILE), WALL(path), WALLS_MADE, .kinds = MESH, REQUIRED, SOLID,
+     .help = "an STL or OBJ, relative to the scene file"},
+    {"walls[].scale", NUMBER(1e-12, 1e12, "m"), WALL(scale), WALLS_MADE, .kinds = MESH,
+     DEFAULT("1"), SOLID, .help = "of a mesh: a unit of its file; 1e-3 where that is in mm"},
+    {"walls[].two_sided", OF(BOOL), WALL(two_sided), WALLS_MADE, .kinds = MESH, DEFAULT("false"),
+     SOLID,
+     .help = "of a mesh: grains touch it from both sides; else from where its corners go "
+             "counter-clockwise"},
     {"walls[].axis", VECTOR(1e6, ""), WALL(axis), WALLS_MADE, .kinds = AXIAL,
      DEFAULT("[0, 0, 1]"), SOLID, .help = "along a cylinder or cone, of any length but zero"},
     {"walls[].length", NUMBER(0, 1e6, "m"), WALL(length), WALLS_MADE, .kinds = CYLINDER,

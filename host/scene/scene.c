@@ -14,6 +14,7 @@
 #include "scene/sweep.h"
 #include "scene/trace.h"
 #include "scene/value.h"
+#include "scene/wall_meshes.h"
 #include "scene/write.h"
 
 #include <stdlib.h>
@@ -229,6 +230,7 @@ static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_
     }
     OZ_PASS(oz_read_scene(scene, loader->root, &loader->faults));
     OZ_PASS(oz_trace_load_walls(scene, &loader->faults));
+    OZ_PASS(oz_wall_meshes_load(scene, loader->running, loader->root, &loader->faults));
     OZ_PASS(oz_check_scene(scene, loader->root, &loader->faults));
     return loader->running
                ? oz_changes_refuse(loader->running, scene, loader->root, &loader->faults)
@@ -382,6 +384,7 @@ OzStatus oz_scene_copy(OzScene *copy, const OzScene *scene)
     }
 done:
     oz_trace_keep_walls(copy);
+    oz_wall_meshes_share(copy);
     if (status != OZ_OK) {
         oz_scene_free(copy);
     }
@@ -404,6 +407,7 @@ static void free_items(const OzKey *list, OzScene *scene)
 void oz_scene_free(OzScene *scene)
 {
     oz_trace_free_walls(scene);
+    oz_wall_meshes_drop(scene);
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         if (key->type == OZ_KEY_ITEMS) {
             free_items(key, scene);

@@ -111,6 +111,8 @@ typedef enum OzWallEnds { OZ_ENDS_OPEN, OZ_ENDS_CLOSED } OzWallEnds;
 
 typedef enum OzWallSideChoice { OZ_SIDE_INSIDE, OZ_SIDE_OUTSIDE } OzWallSideChoice;
 
+typedef struct OzWallMesh OzWallMesh; /* scene/wall_mesh.h */
+
 typedef struct OzWall {
     OzWallKind kind;
     double point[3], normal[3]; /* plane: normal is a unit vector into the free side; rectangle,
@@ -130,6 +132,10 @@ typedef struct OzWall {
     int64_t tooth_count;   /* floor, hopper's slopes, drum; 0: smooth                    */
     double tooth_depth;    /* m                                                          */
     double thickness;      /* m, of what walls of triangles are made; 0: chosen by orzo  */
+    char *path;            /* mesh: of its triangles                                     */
+    double scale;          /* mesh: m of a unit of its file                              */
+    bool two_sided;        /* mesh: grains touch it from behind, too                     */
+    OzWallMesh *mesh;      /* those triangles, held; NULL of other walls                 */
     double since;          /* s, key `from` of rods' walls: it is there from this time on */
     double until;          /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;

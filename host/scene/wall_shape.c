@@ -1,11 +1,14 @@
 /* Shapes of rods' walls. */
 #include "scene/wall_shape.h"
 
+#include "scene/wall_mesh.h"
+
 #include <math.h>
 #include <string.h>
 
 #define OZ_WALL_KINDS      0x3fffffff /* the host knows them all */
 #define OZ_WALL_KINDS_MORE 0x3fffffff
+#define OZ_MESHES          0
 #define OZ_GATED           0 /* where a wall is, whether there or not */
 
 #include "kernels/wall.h"
@@ -97,6 +100,12 @@ static void shape_sphere(OzWallShape *shape, const OzWall *wall)
     }
     shape->radius = wall->diameter / 2;
     shape->side = wall->side == OZ_SIDE_OUTSIDE ? -1 : 1;
+}
+
+static void shape_mesh(OzWallShape *shape, const OzWall *wall)
+{
+    copy(shape->point, wall->point);
+    shape->radius = wall->mesh ? wall->mesh->reach : 0;
 }
 
 /* A plane through a point that lies `along` from another one, in the direction of normal. */
@@ -212,6 +221,13 @@ double oz_wall_shape_distance(const OzWall *wall, double offset, const double po
     int count = oz_wall_shape_sides(wall, sides), nearest = 0;
     double least = INFINITY, shift[3];
     oz_wall_shape_shift(wall, offset, shift);
+    if (wall->mesh) {
+        double from[3];
+        for (int c = 0; c < 3; c++) {
+            from[c] = point[c] - wall->point[c] - shift[c];
+        }
+        return oz_wall_mesh_distance(wall->mesh, from, normal);
+    }
     for (int k = 0; k < count; k++) {
         double distance = oz_wall_shape_side_distance(&sides[k], shift, point, NULL);
         nearest = distance < least ? k : nearest;
@@ -231,5 +247,6 @@ bool oz_wall_shape_is_edged(const OzWallShape *side)
 bool oz_wall_shape_is_sheet(const OzWall *wall)
 {
     OzWallShape sides[OZ_WALL_SIDES_MAX];
-    return oz_wall_shape_sides(wall, sides) > 0 && oz_wall_shape_is_edged(&sides[0]);
+    bool is_edged = oz_wall_shape_sides(wall, sides) > 0 && oz_wall_shape_is_edged(&sides[0]);
+    return is_edged || wall->kind == OZ_WALL_MESH;
 }

@@ -1,13 +1,13 @@
 /* Contacts, by the same physics that moves the grains. Knows nothing of lists of pairs. */
 #include "sim/contacts.h"
 
+#include "model/motion.h"
 #include "sim/dialect.h"
 #include "sim/gates.h"
-#include "model/motion.h"
 
 OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzContactList *list)
 {
-    *contacts = (OzContacts){.snapshot = snapshot, .list = list};
+    *contacts = (OzContacts){.snapshot = snapshot, .list = list, .found_grain = -1};
     OZ_PASS(oz_physics_derive(&contacts->physics, snapshot->scene, snapshot->grains));
     oz_gates_set(&contacts->physics, snapshot->scene, snapshot->time, snapshot->settling);
     contacts->share = contacts->physics.share;
@@ -103,19 +103,43 @@ OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const doub
     return oz_contact_list_add(contacts->list, &entry);
 }
 
+/* What kernel wall w, a mesh, does to a grain. */
+static OzWallEnd mesh_end(OzContacts *contacts, int64_t id, OzGrain grain, int w, int slot)
+{
+    const OzPhysics *physics = &contacts->physics;
+    if (contacts->found_grain != id || contacts->found_wall != w) {
+        double memory[OZ_MESH_SLOTS * OZ_MESH_MEMORY] = {0};
+        int mesh = w - (physics->wall_count - physics->edged - physics->meshes);
+        for (int k = 0; contacts->memory && k < OZ_MESH_SLOTS * OZ_MESH_MEMORY; k++) {
+            memory[k] = contacts->memory[mesh * OZ_MESH_SLOTS * OZ_MESH_MEMORY + k];
+        }
+        OzVec3 from =
+            oz_dialect_from(physics, w, grain.position, oz_vec3(0, 0, 0), contacts->drives[w]);
+        oz_host_mesh_find(&contacts->found, physics, w, from, grain.half_shaft, grain.radius,
+                          memory);
+        contacts->found_grain = id;
+        contacts->found_wall = w;
+    }
+    return oz_dialect_mesh_end(&contacts->found.at[slot], grain);
+}
+
 OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const double history[3])
 {
     const OzPhysics *physics = &contacts->physics;
     const OzSnapshot *snapshot = contacts->snapshot;
     OzGrain one = grain_of(snapshot, grain);
     int wall, part = oz_dialect_part(physics, index, &wall);
-    (void)part;
     OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
     bool has_spring = OZ_HISTORY && history;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
     OzVec3 spring = found.stored;
-    OzWallForce at = oz_dialect_touch_wall(physics, index, one, contacts->drives,
-                                           physics->parameters.dt, &spring);
+    double dt = physics->parameters.dt;
+    OzWallForce at =
+        part < OZ_WALL_PARTS
+            ? oz_dialect_touch_wall(physics, index, one, contacts->drives, dt, &spring)
+            : oz_dialect_touch_end(physics, wall,
+                                   mesh_end(contacts, grain, one, wall, part - OZ_WALL_PARTS), one,
+                                   contacts->drives, dt, &spring);
     found.parts = at.parts;
     found.contact = at.contact;
     if (!found.contact.touching) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "model/snapshot.h"
+#include "sim/host_mesh.h"
 #include "sim/physics.h"
 
 #include "kernels/wall_drive.h"
@@ -16,6 +17,11 @@ typedef struct OzContacts {
     double share;               /* of a step by which the integrator advances springs             */
     const OzSnapshot *snapshot; /* borrowed: position, axis, velocity, spin, walls                */
     OzContactList *list;        /* borrowed: receives what touches                                */
+    const double *memory; /* borrowed: what the slots of the grain's meshes remember, mesh by mesh;
+                             NULL: nothing                                                       */
+    OzHostMesh found;     /* what kernel wall found_wall, a mesh, does to grain found_grain      */
+    int64_t found_grain;
+    int found_wall;
 } OzContacts;
 
 /* For a snapshot whose state, axes and walls are filled in; the list goes on as it is. Nothing to
@@ -27,5 +33,5 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
  * does. */
 OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const double history[3]);
 
-/* An end of a grain at a wall, or a point of its shaft, one of physics.touches. */
+/* An end of a grain at a wall, a point of its shaft or a slot of a mesh, one of physics.touches. */
 OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const double history[3]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/host_switches.h"
+#include "sim/host_touch.h"
 #include "sim/physics.h"
 
 #define OZ_ROUND            oz_host_switches_now.rods.round
@@ -19,6 +20,7 @@
 #define OZ_AT_CONTACT       oz_host_switches_now.rods.at_contact
 #define OZ_GATED            oz_host_switches_now.rods.gated
 #define OZ_WALL_EDGED       oz_host_switches_now.rods.edged
+#define OZ_MESHES           oz_host_switches_now.rods.meshes
 #define OZ_WALL_KINDS       0x3fffffff /* the host knows them all */
 #define OZ_WALL_KINDS_MORE  0x3fffffff
 #define OZ_INTEGRATOR_ID    oz_host_switches_now.rods.integrator
@@ -197,20 +199,44 @@ OZ_INLINE OzWallEnd oz_dialect_end(const OzPhysics *physics, int w, int part, Oz
     return at;
 }
 
-/* What may touch, one of physics->touches: an end or a point of a shaft at kernel wall *wall. */
+/* What may touch, one of physics->touches: an end or a point of a shaft at kernel wall *wall;
+ * OZ_WALL_PARTS and on: a slot of a mesh. */
 OZ_INLINE int oz_dialect_part(const OzPhysics *physics, int index, int *wall)
 {
-    *wall = oz_wall_shaft_wall(index, physics->ends, physics->wall_count, physics->edged);
-    return oz_wall_shaft_part(index, physics->ends, physics->wall_count);
+    OzWallNumbers numbers = {physics->ends, physics->wall_count, physics->meshes, physics->edged};
+    *wall = oz_wall_shaft_wall(index, numbers);
+    return oz_wall_shaft_part(index, numbers);
 }
 
-/* That of a grain; drives: of every wall; history as for oz_rods_wall. */
+/* Where a grain stands against a mesh in one of its slots. */
+OZ_INLINE OzWallEnd oz_dialect_mesh_end(const OzHostTouch *touch, OzGrain grain)
+{
+    OzWallDistance far = {oz_vec3(0, 0, 1), OZ_WALL_FAR};
+    OzWallEnd at = {.wall = far, .share = 1, .present = touch->present};
+    if (touch->present) {
+        at.end = oz_scale(grain.half_shaft, touch->place);
+        at.wall = (OzWallDistance){oz_dialect_load3(touch->normal), touch->distance};
+        at.share = touch->push / (grain.radius - touch->distance);
+    }
+    return at;
+}
+
+/* That of a grain which stands so against kernel wall w, but for the wall's velocity; drives: of
+ * every wall; history as for oz_rods_wall. */
+OZ_INLINE OzWallForce oz_dialect_touch_end(const OzPhysics *physics, int w, OzWallEnd at,
+                                           OzGrain grain, const OzWallDrive *drives, double dt,
+                                           OzVec3 *history)
+{
+    at.wall_velocity = oz_dialect_wall_velocity(
+        physics, w, grain.position, oz_rods_wall_arm(grain, at.end, at.wall), drives[w]);
+    return oz_rods_wall(grain, at, physics->parameters.wall[w].law, history, dt, physics->share);
+}
+
+/* The same of an end or a point of a shaft, no slot. */
 OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int index, OzGrain grain,
                                             const OzWallDrive *drives, double dt, OzVec3 *history)
 {
     int w, part = oz_dialect_part(physics, index, &w);
     OzWallEnd at = oz_dialect_end(physics, w, part, grain, drives);
-    at.wall_velocity = oz_dialect_wall_velocity(
-        physics, w, grain.position, oz_rods_wall_arm(grain, at.end, at.wall), drives[w]);
-    return oz_rods_wall(grain, at, physics->parameters.wall[w].law, history, dt, physics->share);
+    return oz_dialect_touch_end(physics, w, at, grain, drives, dt, history);
 }

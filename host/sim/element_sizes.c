@@ -92,8 +92,8 @@ OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, con
     return OZ_OK;
 }
 
-void oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
-                             const OzGrains *grains, const void *switches)
+OzStatus oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
+                                 const OzGrains *grains, const void *switches)
 {
     OzElementSizes *z = sizes;
     const OzElementSwitches *s = switches;
@@ -102,16 +102,17 @@ void oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *scene
     OzElementParameters *p = parameters;
     *z = (OzElementSizes){0};
     z->free_slots = oz_sizes_up((double)elements->free_count, s->lanes);
-    z->slots = z->free_slots +
-               oz_sizes_up((double)(elements->count - elements->free_count), s->lanes);
+    z->slots =
+        z->free_slots + oz_sizes_up((double)(elements->count - elements->free_count), s->lanes);
     z->free_blocks = z->free_slots / s->lanes;
     z->blocks = z->slots / s->lanes;
     z->beam_blocks = oz_sizes_up((double)elements->beam_count, s->lanes) / s->lanes;
     z->walls = scene->wall_count;
     oz_sizes_regions((OzSizesHead *)(void *)z, switches, z->free_slots);
     extents(elements, middle, size);
-    oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size, 2,
-                   elements->count);
+    oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size,
+                   2, elements->count);
+    return OZ_OK;
 }
 
 static int larger(int a, int b)

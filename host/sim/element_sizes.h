@@ -11,8 +11,8 @@ OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, con
                                      const void *running);
 
 /* Sizes that a member of this kind needs. */
-void oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
-                             const OzGrains *grains, const void *switches);
+OzStatus oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
+                                 const OzGrains *grains, const void *switches);
 
 /* Makes sizes large enough for another member too. */
 void oz_element_sizes_join(void *sizes, const void *another);

@@ -82,9 +82,8 @@ OzStatus oz_model_layout(OzModelLayout *layout, const OzModel *model, const OzMe
     OZ_PASS(oz_memory_new(&layout->sizes, model->sizes_bytes, 1, "sizes"));
     model->derive(layout->switches, member->scene, member->grains, device);
     OZ_PASS(model->fill(layout->parameters, member->scene, member->grains, running));
-    model->choose(layout->sizes, layout->parameters, member->scene, member->grains,
-                  layout->switches);
-    return OZ_OK;
+    return model->choose(layout->sizes, layout->parameters, member->scene, member->grains,
+                         layout->switches);
 }
 
 void oz_model_layout_free(OzModelLayout *layout)

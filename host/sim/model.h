@@ -118,8 +118,8 @@ typedef struct OzModel {
      * follows from them in the parameters; sizes that serve another member too. */
     OzStatus (*fill)(void *parameters, const OzScene *scene, const OzGrains *grains,
                      const void *running);
-    void (*choose)(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
-                   const void *switches);
+    OzStatus (*choose)(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
+                       const void *switches);
     void (*join)(void *sizes, const void *other);
 
     /* Whether scenes of the same switches, step and settling can share launches; what all members

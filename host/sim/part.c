@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "sim/dialect.h"
 #include "sim/gates.h"
+#include "sim/host_mesh.h"
 #include "sim/part_elements.h"
 #include "sim/sort_axis.h"
 #include "sim/start.h"
@@ -54,6 +55,16 @@ static void part_pair(Rods *r, OzPair pair, double *deepest)
     move(r, pair.b, normal, depth * g->mass[pair.a] / all);
 }
 
+/* In a slot of kernel wall w, a mesh. */
+static OzWallEnd mesh_end(const Rods *r, int w, OzGrain grain, OzWallDrive drive, int slot)
+{
+    OzHostMesh found;
+    double memory[OZ_MESH_SLOTS * OZ_MESH_MEMORY] = {0};
+    OzVec3 from = oz_dialect_from(&r->physics, w, grain.position, oz_vec3(0, 0, 0), drive);
+    oz_host_mesh_find(&found, &r->physics, w, from, grain.half_shaft, grain.radius, memory);
+    return oz_dialect_mesh_end(&found.at[slot], grain);
+}
+
 static void part_walls(Rods *r, int64_t i, double *deepest)
 {
     double radius = r->grains->diameter[i] / 2;
@@ -63,7 +74,9 @@ static void part_walls(Rods *r, int64_t i, double *deepest)
         OzGrain grain = {
             .position = {x[0], x[1], x[2]}, .half_shaft = half_shaft(r, i), .radius = radius};
         int wall, part = oz_dialect_part(&r->physics, index, &wall);
-        OzWallEnd at = oz_dialect_end(&r->physics, wall, part, grain, at_rest);
+        OzWallEnd at = part < OZ_WALL_PARTS
+                           ? oz_dialect_end(&r->physics, wall, part, grain, at_rest)
+                           : mesh_end(r, wall, grain, at_rest[wall], part - OZ_WALL_PARTS);
         double depth = at.share * (radius - at.wall.distance);
         if (depth > 0) {
             *deepest = fmax(*deepest, depth / radius);

@@ -19,9 +19,16 @@ OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGra
     physics->switches = oz_switches_derive(&in_double, grains, &none);
     physics->wall_count = physics->switches.walls;
     physics->edged = physics->switches.edged;
+    physics->meshes = physics->switches.meshes;
     physics->ends = physics->switches.round ? 1 : 2;
     physics->touches = physics->ends * physics->wall_count;
     physics->touches += physics->switches.round ? 0 : 2 * physics->edged;
+    physics->touches += OZ_MESH_SLOTS * physics->meshes;
     physics->share = shares[scene->integrator];
-    return oz_constants_fill(&physics->parameters, physics->wall_order, &in_double, grains);
+    OZ_PASS(oz_constants_fill(&physics->parameters, physics->wall_order, &in_double, grains));
+    for (int k = 0; k < OZ_WALLS_MAX; k++) {
+        bool is_there = k < physics->wall_count;
+        physics->mesh[k] = is_there ? scene->walls[physics->wall_order[k]].mesh : NULL;
+    }
+    return OZ_OK;
 }

@@ -4,17 +4,24 @@
  */
 #pragma once
 
+#include "scene/wall_mesh.h"
 #include "sim/constants.h"
+
+#include "kernels/wall_shape.h"
 
 typedef struct OzPhysics {
     OzSwitches switches;
     OzParameters parameters;      /* in double whatever the scene says: length_unit is 1      */
     int wall_order[OZ_WALLS_MAX]; /* scene index of kernel wall k, in the order of kinds      */
+    const OzWallMesh
+        *mesh[OZ_WALLS_MAX]; /* of kernel wall k, borrowed from the scene; NULL: none */
     int wall_count;
+    int meshes;   /* how many of them are meshes                                              */
     int edged;    /* how many of them, the last ones, have edges                               */
     int ends;     /* of a grain that a wall can touch: 1 when all grains are spheres, else 2 */
     int touches;  /* of a grain that walls can touch, in the order of kernels/wall_shaft.h: ends at
-                     all walls, then points of its shaft at those with edges               */
+                     all walls, then points of its shaft at those with edges, then slots of
+                     each mesh                                                             */
     double share; /* of a step by which tangential springs are advanced before the force     */
 } OzPhysics;
 

@@ -165,12 +165,43 @@ static void hand_over(OzReference *r, int i)
     }
 }
 
+/* The slots of kernel wall w, a mesh. */
+static void touch_mesh(OzReference *r, int i, int mesh, int w, double dt)
+{
+    const OzPhysics *physics = &r->physics;
+    OzHostMesh found;
+    int first = physics->touches - OZ_MESH_SLOTS * (physics->meshes - mesh);
+    int64_t at = (int64_t)i * physics->touches + first;
+    OzGrain grain = r->seen[i];
+    OzVec3 none = oz_vec3(0, 0, 0);
+    OzVec3 from = oz_dialect_from(physics, w, grain.position, none, r->wall_drive[w]);
+    double *memory = oz_host_mesh_memory(physics, r->mesh_memory, i, mesh);
+    if (!oz_host_mesh_find(&found, physics, w, from, grain.half_shaft, grain.radius, memory)) {
+        r->crowded = i;
+    }
+    oz_host_mesh_hand_over(&found, &r->wall_history[at]);
+    for (int k = 0; k < OZ_MESH_SLOTS; k++) {
+        OzWallForce *f = &r->wall_force[at + k];
+        OzWallEnd end = oz_dialect_mesh_end(&found.at[k], grain);
+        *f = oz_dialect_touch_end(physics, w, end, grain, r->wall_drive, dt,
+                                  &r->wall_history[at + k]);
+        r->load[i].force = oz_add(r->load[i].force, f->parts.force);
+        r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
+    }
+}
+
 static void touch_walls(OzReference *r, double dt)
 {
+    const OzPhysics *physics = &r->physics;
+    int first = physics->wall_count - physics->edged - physics->meshes;
+    r->crowded = -1;
     for (int i = 0; i < r->count; i++) {
         hand_over(r, i);
-        for (int index = 0; index < r->physics.touches; index++) {
+        for (int index = 0; index < physics->touches - OZ_MESH_SLOTS * physics->meshes; index++) {
             touch_wall(r, i, index, dt);
+        }
+        for (int mesh = 0; mesh < physics->meshes; mesh++) {
+            touch_mesh(r, i, mesh, first + mesh, dt);
         }
     }
 }
@@ -306,6 +337,7 @@ static OzStatus find_contacts(const OzReference *r, OzSnapshot *snapshot)
     int touches = r->physics.touches;
     for (int64_t k = 0; k < (int64_t)r->count * touches; k++) {
         oz_dialect_store3(spring, r->wall_history[k]);
+        contacts.memory = oz_host_mesh_memory(&r->physics, r->mesh_memory, (int)(k / touches), 0);
         OZ_PASS(oz_contacts_wall(&contacts, k / touches, (int)(k % touches), spring));
     }
     oz_contact_list_sort(&snapshot->contacts);
@@ -338,6 +370,7 @@ static OzStatus create_arrays(OzReference *r)
     OZ_PASS(OZ_NEW(&r->position, 3 * count));
     OZ_PASS(OZ_NEW(&r->axis, 3 * count));
     OZ_PASS(OZ_NEW(&r->wall_force, touches));
+    OZ_PASS(OZ_NEW(&r->mesh_memory, count * r->physics.meshes * OZ_MESH_SLOTS * OZ_MESH_MEMORY));
     return OZ_NEW(&r->wall_history, touches);
 }
 
@@ -381,5 +414,6 @@ void oz_reference_free(OzReference *reference)
     free(reference->pair_force);
     free(reference->wall_force);
     free(reference->wall_history);
+    free(reference->mesh_memory);
     free(reference);
 }

@@ -73,7 +73,8 @@ static OzStatus check_walls(OzReference *r)
         int i = (int)(k / touches), wall;
         int part = oz_dialect_part(&r->physics, (int)(k % touches), &wall);
         double radius = r->shape[i].radius;
-        bool is_twin = part != OZ_WALL_TIP && !(r->shape[i].half_length > 0);
+        bool is_end = part != OZ_WALL_TIP && part < OZ_WALL_PARTS;
+        bool is_twin = is_end && !(r->shape[i].half_length > 0);
         DeepContact at = {contact->overlap, contact->rate, 0.5 * radius, radius};
         char what[WHAT] = "";
         if (!is_twin) {
@@ -109,6 +110,10 @@ static OzStatus check_bodies(const OzReference *r, double dt)
 
 OzStatus oz_reference_guard_check(OzReference *reference, double dt)
 {
+    if (reference->crowded >= 0) {
+        return blowup(reference, reference->crowded,
+                      "touches a mesh in more places than a grain can, eight,");
+    }
     OZ_PASS(check_pairs(reference));
     OZ_PASS(check_walls(reference));
     return check_bodies(reference, dt);

@@ -3,6 +3,7 @@
 
 #include "model/step_clock.h"
 #include "sim/dialect.h"
+#include "sim/host_mesh.h"
 #include "sim/ledger.h"
 #include "sim/pair_list.h"
 #include "sim/reference.h"
@@ -21,9 +22,11 @@ struct OzReference {
     OzLoad *load;
     double *position, *axis; /* 3 x count each, of body */
     OzPairList near;
-    OzPairForce *pair_force;          /* of each pair of near             */
-    OzWallForce *wall_force;          /* count x physics.touches          */
-    OzVec3 *wall_history;             /* count x physics.touches          */
+    OzPairForce *pair_force; /* of each pair of near             */
+    OzWallForce *wall_force; /* count x physics.touches          */
+    OzVec3 *wall_history;    /* count x physics.touches          */
+    double *mesh_memory;     /* count x physics.meshes x slots x words (kernels/wall_shape.h) */
+    int crowded;             /* a grain that touches a mesh in too many places; -1: none       */
     OzWallDrive wall_drive[OZ_WALLS_MAX]; /* when the forces act          */
     OzWork work;
     int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */

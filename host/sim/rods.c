@@ -8,6 +8,7 @@
 #include "sim/gates.h"
 #include "sim/host_lists.h"
 #include "sim/launch.h"
+#include "sim/mesh_pack.h"
 #include "sim/pack.h"
 #include "sim/rods_private.h"
 #include "sim/rods_read_snapshot.h"
@@ -121,7 +122,9 @@ static OzStatus start(OzSim *sim)
 
 static OzStatus write_parameters(OzSim *sim, int member)
 {
-    return oz_pack_parameters(&sim->arrays, member, oz_rods_parameters(sim, member));
+    const OzParameters *parameters = oz_rods_parameters(sim, member);
+    OZ_PASS(oz_pack_parameters(&sim->arrays, member, parameters));
+    return oz_mesh_pack_write(&sim->arrays, member, sim->batch.members[member].scene, parameters);
 }
 
 /* velocity-verlet needs the first accelerations: forces at the start, over no time. */
@@ -252,8 +255,8 @@ static OzStatus stand_still(OzSim *sim)
 static void leave_out_walls(void *switches)
 {
     OzSwitches *s = switches;
-    s->walls = s->edged = s->wall_kinds = s->wall_kinds_more = s->moving = s->gated = 0;
-    s->impulses = 0;
+    s->walls = s->edged = s->meshes = s->wall_kinds = s->wall_kinds_more = 0;
+    s->moving = s->gated = s->impulses = 0;
 }
 
 static const OzStop stops[] = {
@@ -263,6 +266,7 @@ static const OzStop stops[] = {
                   "a wall"},
     {OZ_STOP_DEEP, "it overlaps another body by more than guards.overlap.stop"},
     {OZ_STOP_FAST, "an end of it moves more than half its radius in one step"},
+    {OZ_STOP_CROWDED, "it touches a mesh in more places than a grain can, eight"},
 };
 
 static int grain_of(const OzGrains *grains, int index)

@@ -8,6 +8,7 @@
 #define OZ_HISTORY    (s->history)
 #define OZ_WALL_COUNT (s->walls)
 #define OZ_WALL_EDGED (s->edged)
+#define OZ_MESHES     (s->meshes)
 #define OZ_MOVING     (s->moving)
 #define OZ_LEDGER     (s->ledger)
 #define OZ_IMPULSES   (s->impulses)

@@ -2,6 +2,7 @@
  * slots become ids here. */
 #include "sim/rods_read_snapshot.h"
 
+#include "base/memory.h"
 #include "sim/contacts.h"
 #include "sim/pack.h"
 #include "sim/read_snapshot.h"
@@ -60,11 +61,19 @@ static OzStatus find_walls(OzSim *sim, int member, OzContacts *contacts)
     OzStatus status = OZ_OK;
     int indices = contacts->physics.touches;
     int *id = NULL;
-    void *springs = NULL;
-    double spring[3];
+    int words = contacts->physics.meshes * OZ_MESH_SLOTS * OZ_MESH_MEMORY;
+    void *springs = NULL, *kept = NULL;
+    double spring[3], *memory = NULL;
+    OZ_TRY(OZ_NEW(&memory, words));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_id, member, &id));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_wall_history, member, &springs));
+    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_mesh_memory, member, &kept));
+    contacts->memory = memory;
     for (int slot = 0; slot < oz_rods_sizes(sim)->count; slot++) {
+        for (int k = 0; k < words; k++) {
+            memory[k] = oz_scalars_get(kept, oz_pack_lane(oz_rods_switches(sim), slot, words, k),
+                                       oz_rods_switches(sim)->is_double);
+        }
         for (int index = 0; index < indices; index++) {
             for (int c = 0; c < 3; c++) {
                 size_t at = oz_pack_lane(oz_rods_switches(sim), slot, 3 * indices, 3 * index + c);
@@ -74,8 +83,11 @@ static OzStatus find_walls(OzSim *sim, int member, OzContacts *contacts)
         }
     }
 done:
+    contacts->memory = NULL;
     free(id);
     free(springs);
+    free(kept);
+    free(memory);
     return status;
 }
 

@@ -1,6 +1,8 @@
 /* Choosing sizes. */
 #include "sim/sizes.h"
 
+#include "sim/mesh_pack.h"
+
 /* Skins of a grain in the lists, measured on the tapped bed of Pournin et al.: larger ones are used
  * up less often but hold more pairs. Lengths in mean diameters; the steps are those for which a
  * grain's skin shall last at its present speed. */
@@ -116,8 +118,8 @@ void oz_sizes_cells(OzSizesHead *z, double *inverse_cell, double reach, const do
     z->cells = cells[0] * cells[1] * cells[2];
 }
 
-void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
-                     const void *switches)
+OzStatus oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
+                         const OzGrains *grains, const void *switches)
 {
     OzSizes *z = sizes;
     OzParameters *p = parameters;
@@ -139,9 +141,14 @@ void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const 
     extents(size, grains);
     oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size,
                    3, grains->count);
+    return oz_mesh_pack_sizes(z, scene, p);
 }
 
 void oz_sizes_join(void *sizes, const void *other)
 {
-    *(OzSizes *)sizes = *(const OzSizes *)other;
+    OzSizes *own = sizes, before = *own;
+    *own = *(const OzSizes *)other;
+    own->mesh_faces = before.mesh_faces > own->mesh_faces ? before.mesh_faces : own->mesh_faces;
+    own->mesh_cells = before.mesh_cells > own->mesh_cells ? before.mesh_cells : own->mesh_cells;
+    own->mesh_items = before.mesh_items > own->mesh_items ? before.mesh_items : own->mesh_items;
 }

@@ -6,8 +6,8 @@
 
 /* For rods' row (sim/model.h), of OzSizes, OzParameters and OzSwitches: sizes that a member needs,
  * and its lists' skins and cells; sizes that serve another member too. */
-void oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene, const OzGrains *grains,
-                     const void *switches);
+OzStatus oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
+                         const OzGrains *grains, const void *switches);
 void oz_sizes_join(void *sizes, const void *other);
 
 /* For every model: a count as so many whole blocks of `to`; regions, their capacities at first, and

@@ -52,6 +52,7 @@ static void count_kinds(OzSwitches *s, const OzScene *scene)
     s->walls = oz_sides_list(sides, scene);
     for (int k = 0; k < s->walls && k < OZ_WALLS_MAX; k++) {
         s->edged += oz_wall_shape_is_edged(&sides[k].shape);
+        s->meshes += (int)sides[k].shape.kind == OZ_WALL_MESH;
         int kind = (int)sides[k].shape.kind, more = kind >= KINDS_A_WORD;
         *(more ? &s->wall_kinds_more : &s->wall_kinds) += 1 << 5 * (kind % KINDS_A_WORD);
     }

@@ -30,6 +30,7 @@
     X(FINE, fine, NULL)                                                                            \
     X(GYROSCOPIC, gyroscopic, "gyroscopic term")                                                   \
     X(WALL_COUNT, walls, "walls")                                                                  \
+    X(MESHES, meshes, NULL)                                                                        \
     X(WALL_EDGED, edged, NULL)                                                                     \
     X(WALL_KINDS, wall_kinds, NULL)                                                                \
     X(WALL_KINDS_MORE, wall_kinds_more, NULL)                                                      \
