@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "model/motion.h"
+#include "scene/wall_mesh.h"
 #include "sim/advice.h"
 #include "sim/constants.h"
 #include "sim/gates.h"
@@ -192,9 +193,36 @@ done:
     return status;
 }
 
+/* Springs and slots are those of these triangles. */
+static OzStatus meshes_state(const OzScene *scene, OzStateVisit *visit)
+{
+    for (int w = 0; w < scene->wall_count; w++) {
+        const OzWall *wall = &scene->walls[w];
+        int64_t own = wall->mesh ? (int64_t)wall->mesh->hash : 0, saved = own;
+        if (!wall->mesh) {
+            continue;
+        }
+        oz_state_enter_one(visit, "mesh", w);
+        OZ_PASS(oz_state_int64(visit, "hash", "none", &saved));
+        oz_state_leave(visit);
+        if (saved != own) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "state: %s has changed since it was saved; expected the same "
+                                  "triangles",
+                                  wall->path);
+        }
+    }
+    return OZ_OK;
+}
+
 static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
 {
     OzRods *own = oz_rods_own(sim);
+    for (int m = 0; m < sim->batch.member_count; m++) {
+        oz_state_enter_one(visit, "meshes", m);
+        OZ_PASS(meshes_state(sim->batch.members[m].scene, visit));
+        oz_state_leave(visit);
+    }
     OZ_PASS(oz_state_bool(visit, "primed", &own->primed));
     return oz_state_double(visit, "spring_start", "J", own->spring_start, sim->batch.member_count);
 }

@@ -55,8 +55,8 @@ static OzStatus resize(OzSim *sim, OzSizesHead *saved, Way way)
         saved->inner_capacity < 1 || saved->inner_capacity > most || saved->back_capacity < 1 ||
         saved->back_capacity > most) {
         return oz_status_fail(OZ_ERR_INPUT,
-                              "state: %s: saved for another number of grains or "
-                              "another device",
+                              "state: %s: saved for another number of grains, other "
+                              "triangles of meshes or another device",
                               sim->batch.members[0].scene->path);
     }
     return oz_arrays_resize(&sim->arrays, saved);
