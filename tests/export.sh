@@ -19,7 +19,7 @@ walls:
   - {kind: plane, normal: [0, 0, 1], motion: {frequency: 30, acceleration_ratio: 2}}
   - {kind: cylinder, diameter: 6e-3}
 settle: {drag: 70, rest_time: 0.01}
-observe: {contacts: true, contacts_interval: 0.005}
+contacts: {interval: 0.005}
 export: [vtk, xyz, h5md, csv]
 export_interval: 0.005
 SCENE
@@ -33,7 +33,7 @@ grains:
   - {kind: random, count: 4, shape: disc, radius: 1e-3}
 walls:
   - {kind: vessel, width: 12e-3, height: 25e-3, thickness: 3e-3}
-observe: {contacts: true, contacts_interval: 0.02}
+contacts: {interval: 0.02}
 export: [vtk, xyz, h5md, csv]
 export_interval: 0.02
 SCENE

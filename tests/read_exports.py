@@ -1,6 +1,6 @@
 """What orzo exports, read by the programs' own readers and compared number by number with frames.bin,
 which is read here as host/observe/frames.h describes it: read_exports.py RUN, a run's folder whose scene
-exports everything, with observe.contacts at the same moments."""
+exports everything, with contacts at the same moments."""
 import sys
 
 import h5py

@@ -158,8 +158,7 @@ static void test_contacts(void **state)
 {
     (void)state;
     expect(0, "30 grains",
-           "run bed.yaml -o touching " EXACT
-           " --set observe.contacts=true --set observe.walls=instant");
+           "run bed.yaml -o touching " EXACT " --set contacts={} --set observe.walls=instant");
     char *series = read_file("touching/series.csv", NULL),
          *contacts = read_file("touching/contacts.csv", NULL);
     assert_string_equal(line_of(contacts, 0),
@@ -186,11 +185,18 @@ static void test_contacts(void **state)
     free(series);
     free(contacts);
     expect(0, "30 grains",
-           "run bed.yaml -o touching --overwrite " EXACT " --set observe.contacts=true "
-           "--set observe.contacts_interval=0.015");
+           "run bed.yaml -o touching --overwrite " EXACT " "
+           "--set contacts.interval=0.015");
     contacts = read_file("touching/contacts.csv", NULL);
     for (int i = 1; i < count_lines("touching/contacts.csv"); i++) {
         assert_true(fmod(cell_of(line_of(contacts, i), 0), 750) == 0);
+    }
+    free(contacts);
+    expect(0, "30 grains",
+           "run bed.yaml -o touching --overwrite " EXACT " --set contacts.interval_taps=0.5");
+    contacts = read_file("touching/contacts.csv", NULL);
+    for (int i = 1; i < count_lines("touching/contacts.csv"); i++) {
+        assert_true(fmod(cell_of(line_of(contacts, i), 0), 500) == 0);
     }
     free(contacts);
     expect(0, "30 grains", "run bed.yaml -o touching --overwrite --until 0");

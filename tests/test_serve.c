@@ -110,7 +110,7 @@ static void test_hears_of_edits(void **state)
         start_orzo("run edited.yaml -o edited --watch --serve --set time.taps=2000 --no-video");
     find_page();
     await_answer("{\"key\": \"walls.1.contact.friction\", \"value\": 0.2,");
-    await_answer("{\"key\": \"observe.contacts_interval\", \"value\": null,");
+    await_answer("{\"key\": \"export_interval\", \"value\": null,");
     for (int i = 0; i < 500 && !contains("said", "first step"); i++) {
         sleep_a_little();
     }

@@ -33,6 +33,14 @@ static double phase_of(const OzScene *scene)
     return share[scene->observe.at] * scene->period;
 }
 
+/* s between the moments of contacts.csv; 0: those of the rows. */
+static double contacts_interval(const OzScene *scene)
+{
+    const OzContactTable *table = &scene->contacts;
+    double interval = table->interval > 0 ? table->interval : table->interval_taps * scene->period;
+    return table->present ? interval : 0;
+}
+
 /* s between events of each kind; 0: there are none. */
 static void intervals_of(const OzScene *scene, double until, double intervals[OZ_TRACKS])
 {
@@ -44,7 +52,7 @@ static void intervals_of(const OzScene *scene, double until, double intervals[OZ
                                                      : 0;
     intervals[OZ_TRACK_FRAME] = frame_interval(scene, duration);
     intervals[OZ_TRACK_STROBE] = scene->snapshots.strobe;
-    intervals[OZ_TRACK_CONTACTS] = scene->observe.contacts ? scene->observe.contacts_interval : 0;
+    intervals[OZ_TRACK_CONTACTS] = contacts_interval(scene);
     intervals[OZ_TRACK_EXPORT] = scene->export_count > 0 ? scene->export_interval : 0;
     intervals[OZ_TRACK_CHECKPOINT] = scene->checkpoint.interval_taps * scene->period;
 }
@@ -165,7 +173,7 @@ static int64_t next_step(OzSchedule *s)
 /* What is due because something else is. */
 static int due_with(const OzSchedule *s, int due)
 {
-    bool contacts = s->scene->observe.contacts && s->track[OZ_TRACK_CONTACTS].interval == 0;
+    bool contacts = s->scene->contacts.present && s->track[OZ_TRACK_CONTACTS].interval == 0;
     bool exports = s->scene->export_count > 0 && s->track[OZ_TRACK_EXPORT].interval == 0;
     int leads = s->scene->movie.present ? OZ_DUE_MOVIE : OZ_DUE_ROW;
     return (contacts && (due & OZ_DUE_ROW) ? OZ_DUE_CONTACTS : 0) |
@@ -229,6 +237,7 @@ static OzTrack track_after(double zero, double interval, double from)
 static bool is_by_tap(const OzScene *scene, int kind)
 {
     return kind == OZ_TRACK_SAMPLE || kind == OZ_TRACK_CHECKPOINT ||
+           (kind == OZ_TRACK_CONTACTS && scene->contacts.interval_taps > 0) ||
            (kind == OZ_TRACK_ROW && (scene->observe.interval_taps > 0 || phase_of(scene) > 0));
 }
 

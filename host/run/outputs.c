@@ -151,7 +151,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     OZ_TRY(claim(&series, outputs->folder, "series.csv", NULL));
     OZ_TRY((outputs->goes_on ? oz_series_go_on : oz_series_create)(&outputs->series, series, scene,
                                                                    grains));
-    if (scene->observe.contacts) {
+    if (scene->contacts.present) {
         OZ_TRY(claim(&contacts, outputs->folder, "contacts.csv", NULL));
         OZ_TRY((outputs->goes_on ? oz_contact_rows_go_on
                                  : oz_contact_rows_create)(&outputs->contact_rows, contacts));

@@ -161,6 +161,7 @@ static void derive_times(Checker *checker)
     OzScene *scene = checker->scene;
     check_taps(checker, "time.taps");
     check_taps(checker, "observe.interval_taps");
+    check_taps(checker, "contacts.interval_taps");
     if (scene->taps > 0) {
         scene->duration = scene->taps * scene->period;
     }
@@ -277,17 +278,15 @@ static void check_interval(Checker *checker, const char *key, double interval, c
 static void check_run_length(Checker *checker)
 {
     const OzScene *scene = checker->scene;
-    const char *own = "observe.contacts_interval";
     double steps = scene->step > 0 ? scene->duration / scene->step : 0;
     if (isfinite(steps) && steps > OZ_CHECK_STEPS_MAX) {
         fault(checker, is_written(checker, "time.taps") ? "time.taps" : "time.duration",
               "%.3g steps; expected at most %g", steps, OZ_CHECK_STEPS_MAX);
     }
     check_interval(checker, "observe.interval", scene->observe.interval, "series.csv");
-    check_interval(checker, own, scene->observe.contacts_interval, "contacts.csv");
-    if (is_written(checker, own) && !scene->observe.contacts) {
-        fault(checker, own, "%s without contacts; expected observe.contacts: true", own);
-    }
+    double taps = scene->contacts.interval_taps * scene->period;
+    check_interval(checker, "contacts.interval", fmax(scene->contacts.interval, taps),
+                   "contacts.csv");
 }
 
 static void check_export(Checker *checker)

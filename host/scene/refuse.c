@@ -20,6 +20,27 @@ static void refuse_item_key(OzFaults *faults, const OzNode *node, const OzKey *k
                   kind->path, kind->help, names);
 }
 
+/* Keys that had another home, and this one now. */
+static const struct {
+    const char *was, *is;
+} moved[] = {
+    {"observe.contacts", "the group contacts, as in contacts: {}"},
+    {"observe.contacts_interval", "contacts.interval"},
+};
+
+/* Whether the key at this path has moved, which is said then. */
+static bool refuse_moved(OzFaults *faults, const OzNode *node, const char *path)
+{
+    for (size_t k = 0; k < sizeof moved / sizeof *moved; k++) {
+        if (strcmp(path, moved[k].was) == 0) {
+            oz_faults_add(faults, node->source, node->line, "%s has another name now; expected %s",
+                          path, moved[k].is);
+            return true;
+        }
+    }
+    return false;
+}
+
 void oz_refuse_unknown(OzFaults *faults, const OzNode *node, int model, unsigned kinds,
                        unsigned shapes)
 {
@@ -27,6 +48,9 @@ void oz_refuse_unknown(OzFaults *faults, const OzNode *node, int model, unsigned
     oz_tree_path(node, true, path, sizeof path);
     oz_tree_path(node->parent, true, group, sizeof group);
     snprintf(kind, sizeof kind, "%s.kind", group);
+    if (refuse_moved(faults, node, path)) {
+        return;
+    }
     bool near = oz_describe_nearest(path, model, text, sizeof text);
     oz_tree_path(node, false, path, sizeof path);
     if (near) {

@@ -88,13 +88,13 @@ typedef struct OzMotion {
     double amplitude;          /* m                                                      written */
     double written_amplitude;  /* m; 0 when the acceleration ratio was written                  */
     bool has_ratio, has_amplitude, has_turning; /* whether these were written, also as 0        */
-    double angular_velocity;   /* rad/s: trigrains about the wall's point; rods about its axis  */
-    double direction[3];       /* rods: a unit vector, along which it is shaken; zero: upwards   */
-    double axis[3];            /* rods: a unit vector along the axis through the wall's point    */
-    double velocity[3];        /* rods, m/s: it goes on so between `from` and `until`; then
-                                * direction is along it                                          */
-    double from, until;        /* s; until 0: for ever */
-    char *file, *column;       /* of a trace; NULL: none; NULL: the only one         */
+    double angular_velocity; /* rad/s: trigrains about the wall's point; rods about its axis  */
+    double direction[3];     /* rods: a unit vector, along which it is shaken; zero: upwards   */
+    double axis[3];          /* rods: a unit vector along the axis through the wall's point    */
+    double velocity[3];      /* rods, m/s: it goes on so between `from` and `until`; then
+                              * direction is along it                                          */
+    double from, until;      /* s; until 0: for ever */
+    char *file, *column;     /* of a trace; NULL: none; NULL: the only one         */
     OzMeasured measured;
     bool closed;    /* accelerations: it ends where it began */
     double scale;   /* SI over what the file has                                                */
@@ -237,19 +237,24 @@ typedef enum OzObserveWalls {
 } OzObserveWalls;
 
 typedef struct OzObserve {
-    double interval;          /* s between rows of series.csv; interval_taps x period is put here */
-    double interval_taps;     /* as written; 0: interval was, or neither                         */
-    int64_t samples_per_tap;  /* for the tap means over all phases                          */
-    OzObserveAt at;           /* when rows are written, and of which phase tap means are     */
-    double layer_thickness;   /* m; default 4e-3                                             */
-    bool ledger;              /* energy columns                                              */
+    double interval;         /* s between rows of series.csv; interval_taps x period is put here */
+    double interval_taps;    /* as written; 0: interval was, or neither                         */
+    int64_t samples_per_tap; /* for the tap means over all phases                          */
+    OzObserveAt at;          /* when rows are written, and of which phase tap means are     */
+    double layer_thickness;  /* m; default 4e-3                                             */
+    bool ledger;             /* energy columns                                              */
     OzObserveWalls walls;
-    bool order;               /* columns of rods' order                                      */
-    bool contacts;            /* contacts.csv                                                */
-    double contacts_interval; /* s between its looks; 0: at every row of series.csv         */
-    double outlet;            /* m, trigrains: grains below this height have flowed out      */
+    bool order;    /* columns of rods' order                                      */
+    double outlet; /* m, trigrains: grains below this height have flowed out      */
     bool has_outlet;
 } OzObserve;
+
+/* contacts.csv */
+typedef struct OzContactTable {
+    bool present;
+    double interval;      /* s between its moments; or:               */
+    double interval_taps; /* periods; both 0: the rows of series.csv  */
+} OzContactTable;
 
 typedef enum OzView {
     OZ_VIEW_LATERAL, /* from the front, a little above the horizon */
@@ -390,6 +395,7 @@ typedef struct OzScene {
     OzSettle settle;
     OzGuards guards;
     OzObserve observe;
+    OzContactTable contacts;
     OzMovieSettings movie;
     OzSnapshotSettings snapshots;
     OzCheckpoints checkpoint;
