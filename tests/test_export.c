@@ -60,6 +60,9 @@ static void what_cannot_be_is_refused(void **state)
     expect(2, "--to is missing", "export kept");
     expect(2, "--every with a whole number above 0", "export kept --to csv --every 0");
     expect(2, "nowhere/scene.yaml", "export nowhere --to csv");
+    expect(2, "scene.yaml is a file; expected the folder that a run has left",
+           "export scene.yaml --to csv");
+    expect(2, "scene.yaml is a file; expected the folder that a run has left", "draw scene.yaml");
     assert_int_equal(mkdir("mine", 0777), 0);
     write_file("mine/grains.xyz", "a user's own\n");
     expect(2, "grains.xyz", "export kept --to xyz -o mine");

@@ -72,6 +72,7 @@ static void what_cannot_be_drawn_is_said(void **state)
     (void)state;
     expect(0, "", "run scene.yaml -o kept");
     expect(2, "has no column nonsense", "plot kept nonsense");
+    expect(2, "`orzo keys --columns` says", "plot kept nonsense");
     expect(2, "column density is empty", "plot kept density");
     expect(2, "--against tap", "plot kept kinetic --against tap"); /* no wall moves */
     expect(1, "nowhere/series.csv", "plot nowhere");

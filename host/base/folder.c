@@ -196,7 +196,13 @@ OzStatus oz_folder_read(OzFolder *folder, const char *path)
 {
     OzStatus status = OZ_OK;
     int descriptor = -1;
+    struct stat info;
     *folder = (OzFolder){0};
+    if (stat(path, &info) == 0 && !S_ISDIR(info.st_mode)) {
+        return oz_status_fail(
+            OZ_ERR_INPUT, "%s is a file; expected the folder that a run has left, as runs/first",
+            path);
+    }
     OZ_TRY(open_marker(path, &descriptor));
     if (descriptor < 0) {
         return OZ_OK;
@@ -431,6 +437,5 @@ OzStatus oz_folder_finish_file(FILE *file, const char *name)
     bool good = fflush(file) == 0 && !ferror(file);
     int cause = errno;
     good = fclose(file) == 0 && good;
-    return good ? OZ_OK
-                : oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", name, strerror(cause));
+    return good ? OZ_OK : oz_status_fail(OZ_ERR_FILE, "cannot write %s: %s", name, strerror(cause));
 }

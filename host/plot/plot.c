@@ -41,7 +41,9 @@ static OzStatus add_column(Work *work, const char *name)
 {
     int column = find_values(work, name);
     if (column < 0) {
-        return oz_status_fail(OZ_ERR_INPUT, "%s has no column %s; expected one of its first line",
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s has no column %s; expected one of its first line (`orzo keys "
+                              "--columns` says what they are)",
                               work->path, name);
     }
     if (!work->table.has_value[column]) {
