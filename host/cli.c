@@ -10,12 +10,15 @@
 
 /* What options a command takes, as letters of option_rows. */
 static const OzCliCommand command_rows[] = {
-    {"run", "SCENE", "oOserdtpgunmlVfSwRP",
+    {"run", "SCENE", "oOseKrdtpgunmlVfSwRP",
      "simulate; leaves movie, pictures, series.csv, final.csv", 1, 1,
      "orzo run scenes/an6.yaml -o an6 --set time.taps=30 --set contact.friction=0.2"},
     {"resume", "DIR", "sdtgumlVS",
      "goes on with a run that was interrupted or killed, or to a later end, from its last state", 1,
      1, "orzo resume runs/an6 --set time.taps=600"},
+    {"gather", "DIR...", "o",
+     "tables of a whole ensemble whose parts ran apart (run --part), into the folder of parts or -o",
+     1, OZ_CLI_PATHS_MAX, "orzo gather runs/an6"},
     {"check", "SCENE", "vsdtpgfS",
      "validate; restitution, stability and cost to expect, what follows from the scene", 1, 1,
      "orzo check scenes/an6.yaml --set time.step=2e-5 --verbose"},
@@ -87,6 +90,17 @@ static OzStatus parse_seeds(OzOptions *options, const char *value)
     options->seed_first = first;
     options->seed_last = last;
     return OZ_OK;
+}
+
+static OzStatus parse_part(OzOptions *options, const char *value)
+{
+    int used = 0;
+    bool good = isdigit((unsigned char)value[0]) && strlen(value) < 20 &&
+                sscanf(value, "%d/%d%n", &options->part, &options->parts, &used) == 2 &&
+                !value[used];
+    return good && options->part >= 1 && options->part <= options->parts
+               ? OZ_OK
+               : wrong(value, "--part K/M, as in 3/20: the K-th of M parts");
 }
 
 static bool read_number(const char *value, double *number)
@@ -188,6 +202,8 @@ static const OzCliOption option_rows[] = {
     {'s', "--set", "key=value", "change a scene key, as in contact.friction=0.2", OWN(add_setting)},
     {'e', "--seeds", "A..B", "a run for each seed, side by side, and a table of all",
      OWN(parse_seeds)},
+    {'K', "--part", "K/M", "only the K-th of M parts of --seeds, into its own folder below (orzo gather)",
+     OWN(parse_part)},
     {'r', "--from", "DIR[@tap=N]",
      "begin with the grains of a run's last state, springs included, or of a kept one (@time=T)",
      TEXT(from)},
@@ -401,13 +417,13 @@ OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
     options->until = -1;
     if (argc < 2) {
         return oz_status_fail(OZ_ERR_INPUT,
-                              "orzo: no command; expected one of run, resume, check, draw, "
+                              "orzo: no command; expected one of run, resume, gather, check, draw, "
                               "export, plot, figures, keys, bench, report, devices (see orzo --help)");
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
-        return wrong(argv[1], "run, resume, check, draw, export, plot, figures, keys, bench, report "
+        return wrong(argv[1], "run, resume, gather, check, draw, export, plot, figures, keys, bench, report "
                               "or devices (see orzo --help)");
     }
     for (int i = 2; i < argc; i++) {

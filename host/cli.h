@@ -23,6 +23,7 @@ typedef struct OzOptions {
     double until;       /* --until, s; negative: not given   */
     bool has_seeds;     /* --seeds                          */
     uint64_t seed_first, seed_last;
+    int part, parts; /* --part, which --seeds are those of; parts 0: not given */
     const char *against; /* --against of plot; NULL: not given */
     const char *only; /* --only of figures; NULL: all */
     const char *to;   /* --to of export, as written; NULL: not given */

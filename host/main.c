@@ -5,6 +5,7 @@
 #include "bench/bench.h"
 #include "cli.h"
 #include "command/export_folder.h"
+#include "command/gather.h"
 #include "command/inspect.h"
 #include "command/manual.h"
 #include "command/plot_folder.h"
@@ -16,6 +17,7 @@
 #include "observe/series.h"
 #include "report/report.h"
 #include "run/run.h"
+#include "run/seed_part.h"
 #include "scene/describe.h"
 
 #include <stdio.h>
@@ -23,14 +25,24 @@
 
 static OzStatus run_command(const OzOptions *options)
 {
+    OzOptions part = *options;
     oz_interrupt_watch();
-    return oz_run_scene(options);
+    OzStatus status = oz_seed_part_take(&part);
+    if (status != OZ_OK) {
+        oz_log_line("%s", oz_status_text());
+    }
+    return status == OZ_OK ? oz_run_scene(&part) : status;
 }
 
 static OzStatus resume_command(const OzOptions *options)
 {
     oz_interrupt_watch();
     return oz_run_resume(options);
+}
+
+static OzStatus gather_command(const OzOptions *options)
+{
+    return oz_gather_run(options);
 }
 
 static OzStatus check_command(const OzOptions *options)
@@ -115,6 +127,7 @@ static const struct {
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
     {"run", run_command},         {"resume", resume_command},   {"check", check_command},
+    {"gather", gather_command},
     {"draw", draw_command},       {"export", export_command},   {"keys", keys_command},
     {"plot", plot_command},       {"bench", bench_command},     {"report", report_command},
     {"figures", figures_command}, {"devices", devices_command},

@@ -99,7 +99,7 @@ static void end_ensemble(const char *key, int count)
         mkdir(name, 0777);
         write_file(file, "step,time,tap,inclination_mean\n0,0,,1\n9,1,,%.17g\n",
                    curve(24, 0.7, 2, speed) + (m % 2 ? 3 : -3));
-        OzEnsembleRow row = {name, (uint64_t)(m % 2), value, "done", true};
+        OzEnsembleRow row = {name, (uint64_t)(m % 2), value, "done", true, NULL};
         assert_int_equal(OZ_OK, oz_ensemble_tables_add(ensemble, &row));
     }
     assert_int_equal(OZ_OK, oz_ensemble_tables_finish(ensemble));

@@ -278,7 +278,7 @@ OzStatus oz_ensemble_tables_add(OzEnsemble *e, const OzEnsembleRow *row)
         OZ_TRY(end_value(e));
         OZ_TRY(oz_memory_text(&e->value, row->value));
     }
-    OZ_TRY(in_folder(e, row->name, &folder));
+    OZ_TRY(oz_file_join(&folder, row->place ? row->place : e->folder, row->name));
     OZ_TRY(oz_file_join(&path, folder, "series.csv"));
     series = row->has_series ? fopen(path, "r") : NULL;
     /* The header is known once the first series is: it comes before the first member's row. */

@@ -17,6 +17,7 @@ typedef struct OzEnsembleRow {
     const char *value;  /* of the swept keys, with commas between; NULL without a sweep */
     const char *status; /* "done", "stopped", ...                 */
     bool has_series;    /* it was opened in this run              */
+    const char *place;  /* where its folder is instead; NULL: below the ensemble's */
 } OzEnsembleRow;
 
 /* key is the swept one or NULL; of several keys, with commas between, each has a column. Both are

@@ -312,7 +312,7 @@ OzStatus oz_groups_write_tables(const OzGroups *groups, const char *folder)
         OZ_TRY(oz_members_name(&groups->plan, i, &name));
         OzEnsembleRow row = {name, oz_members_seed(&groups->plan, i),
                              oz_members_value(&groups->plan, i), outcome_names[groups->outcomes[i]],
-                             groups->outcomes[i] != OZ_OUTCOME_NOT_STARTED};
+                             groups->outcomes[i] != OZ_OUTCOME_NOT_STARTED, NULL};
         OZ_TRY(oz_ensemble_tables_add(ensemble, &row));
     }
 done:

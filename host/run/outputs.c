@@ -61,8 +61,16 @@ OzFolderUse oz_outputs_use(bool overwrite)
 
 OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name)
 {
-    return options->out ? oz_file_join(folder, NULL, options->out)
-                        : oz_file_join(folder, "runs", name);
+    OzStatus status = OZ_OK;
+    char part[32], *whole = NULL;
+    OZ_TRY(options->out ? oz_file_join(&whole, NULL, options->out)
+                        : oz_file_join(&whole, "runs", name));
+    snprintf(part, sizeof part, "part_%05d", options->part);
+    OZ_TRY(oz_file_join(folder, options->parts > 0 ? whole : NULL,
+                        options->parts > 0 ? part : whole));
+done:
+    free(whole);
+    return status;
 }
 
 /* The path of a file that is about to be made there; part: under another name first. */

@@ -66,7 +66,8 @@ typedef struct OzOutputs {
 /* What a run does in its folder and in its members' folders. */
 OzFolderUse oz_outputs_use(bool overwrite);
 
-/* The folder of a command: -o, or runs/<name>. The caller frees. */
+/* The folder of a command: -o, or runs/<name>; below it part_00001 of one that runs a part. The
+ * caller frees. */
 OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const char *name);
 
 /* Opens what the scene asks for in outputs->folder; device is for the movie's metadata; render
