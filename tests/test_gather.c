@@ -29,6 +29,8 @@ static void test_parts_are_the_whole(void **state)
     expect(0, "10 members of 2 parts", "gather parts/part_00002 parts/part_00001 -o all");
     assert_same_tables("whole", "all");
     expect(0, "10 members of 2 parts in parts", "gather parts"); /* again */
+    expect(0, "parts/plot.png", "plot parts angle");             /* without members' own curves */
+    assert_false(contains("said", "annot find"));
 }
 
 static void test_refusals(void **state)

@@ -144,12 +144,22 @@ static void send_label(FILE *gnuplot, const char *axis, const char *name)
     fprintf(gnuplot, "set %s '%s%s%s'\n", axis, name, *unit ? ", " : "", unit);
 }
 
+/* Whether a member's curve lies there: not where it never began, nor where parts were gathered. */
+static bool has_series(const char *folder)
+{
+    char *path = NULL;
+    bool has = oz_file_join(&path, folder, "series.csv") == OZ_OK && oz_file_exists(path);
+    free(path);
+    return has;
+}
+
 /* Every member's own curve, thin and grey. */
 static void send_members(const Work *work, FILE *gnuplot, const char *name)
 {
     for (int i = 0; i < work->members.first_count; i++) {
         char *path = NULL;
-        if (oz_file_join(&path, work->folder, work->members.first[i]) == OZ_OK) {
+        if (oz_file_join(&path, work->folder, work->members.first[i]) == OZ_OK &&
+            has_series(path)) {
             send_text(gnuplot, path);
             fprintf(gnuplot,
                     ".'/series.csv' using '%s':'%s' with lines lw 0.5 lc rgb '#b0b0b0' notitle, ",
