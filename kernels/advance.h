@@ -123,7 +123,7 @@ OZ_PHASE(plan, if (w.item == 0) oz_resort_plan(&w))
 OZ_PHASE(move_out, OZ_EACH_REGION(&w) oz_resort_out(&w, region))
 OZ_PHASE(move_in, OZ_EACH_REGION(&w) oz_resort_in(&w, region))
 #endif
-OZ_PHASE(search, OZ_EACH_REGION(&w) oz_lists_search(&w, region))
+OZ_PHASE(search, OZ_EACH_REGION(&w) oz_search_region(&w, region))
 OZ_PHASE(restore, if (!w.control->full && w.control->truth == OZ_SPRINGS_AT_SAVED)
                       OZ_EACH_REGION(&w) oz_springs_restore(&w, region))
 OZ_PHASE(
@@ -198,7 +198,7 @@ OZ_INLINE int rebuild(OzWork *w)
     OZ_WORK_BARRIER();
     OZ_EACH_REGION(w)
     {
-        oz_lists_search(w, region);
+        oz_search_region(w, region);
     }
     OZ_WORK_BARRIER();
     int holds = !w->control->full;

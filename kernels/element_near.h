@@ -13,6 +13,7 @@
 #define OZ_NEAR_MOVES(w, slot)    ((slot) < (w)->z.free_slots) /* its forces are wanted           */
 #define OZ_NEAR_NONE(w)           0 /* second of a pair that is passed over: lists know their end */
 #define OZ_NEAR_MIXED             0 /* a pair's first has the lower id                           */
+#define OZ_NEAR_PERIODIC          0 /* space does not repeat itself                              */
 
 typedef scalar place_kind;
 
@@ -118,7 +119,8 @@ OZ_INLINE mask oz_near_within(OzVec2 way, real turn, real reach, real most)
     return (left >= REAL(0.0)) & (oz_dot2(way, way) <= left * left);
 }
 
-/* Whether no point of an element can have moved farther than `most` since the reference was taken. */
+/* Whether no point of an element can have moved farther than `most` since the reference was taken.
+ */
 OZ_INLINE mask oz_near_stays(const OzWork *w, global const real *reference, OzPose pose, real most)
 {
     OzVec2 way =

@@ -47,6 +47,7 @@ enum { OZ_CONTACT_LEDGER = 16 };
     X(real, reference_inner, z.blocks *OZ_REFERENCE, LIST)                                         \
     X(real, reference_outer, z.blocks *OZ_REFERENCE, LIST)                                         \
     X(integer, id, z.slots, STATE)                                                                 \
+    X(integer, image, OZ_PERIODIC ? 3 * z.slots : 0, STATE)                                        \
     X(integer, slot_of, z.slots, STATE)                                                            \
     X(integer, cell_of, z.slots, LIST)                                                             \
     X(integer, cell_first, z.cells + 2, LIST)                                                      \

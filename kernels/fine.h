@@ -6,7 +6,7 @@
  * two). All lengths are in units of a place. */
 #pragma once
 
-#include "kernels/vec3.h"
+#include "kernels/space.h"
 
 /* A sum, and what its digits could not hold. */
 typedef struct OzFine {
@@ -67,6 +67,7 @@ typedef struct OzFineVec3 {
 
 /* A grain's place and shaft. */
 typedef struct OzFineGrain {
+    OzSpace space;
     OzFixedPosition position;
     OzVec3 rest; /* of the place                                  */
     real radius;
@@ -99,10 +100,9 @@ OZ_INLINE OzFineVec3 oz_fine_axis(OzQuaternion turn, OzQuaternion rest)
     return axis;
 }
 
-/* The difference of two coordinates with their remainders. */
-OZ_INLINE OzFine oz_fine_apart(fixed_position a, fixed_position b, real rest)
+/* The difference of two coordinates, and that of their remainders. */
+OZ_INLINE OzFine oz_fine_apart(fixed_position count, real rest)
 {
-    fixed_position count = a - b;
     OzFine apart;
     apart.high = oz_fixed_position_to_real(count);
     apart.low = oz_fixed_position_to_real(count - oz_fixed_position_from_real(apart.high)) + rest;
@@ -133,9 +133,12 @@ OZ_INLINE real oz_fine_nearer(OzFine square, real reach)
 OZ_INLINE real oz_fine_pair(OzFineGrain a, OzFineGrain b, real s, real t)
 {
     OzFine sum = {REAL(0.0), REAL(0.0)};
-    OzFine x = oz_fine_apart(a.position.x, b.position.x, a.rest.x - b.rest.x);
-    OzFine y = oz_fine_apart(a.position.y, b.position.y, a.rest.y - b.rest.y);
-    OzFine z = oz_fine_apart(a.position.z, b.position.z, a.rest.z - b.rest.z);
+    OzFine x = oz_fine_apart(oz_space_nearest(a.position.x - b.position.x, a.space, 0),
+                             a.rest.x - b.rest.x);
+    OzFine y = oz_fine_apart(oz_space_nearest(a.position.y - b.position.y, a.space, 1),
+                             a.rest.y - b.rest.y);
+    OzFine z = oz_fine_apart(oz_space_nearest(a.position.z - b.position.z, a.space, 2),
+                             a.rest.z - b.rest.z);
     if (!OZ_ROUND) {
         real along_a = s * a.half_shaft, along_b = -t * b.half_shaft;
         x = oz_fine_add_share(oz_fine_add_share(x, along_a, a.axis.x), along_b, b.axis.x);
@@ -152,9 +155,9 @@ OZ_INLINE real oz_fine_pair(OzFineGrain a, OzFineGrain b, real s, real t)
 OZ_INLINE OzFineVec3 oz_fine_end(OzFineGrain grain, real sign, OzFixedPosition from)
 {
     OzFineVec3 end;
-    end.x = oz_fine_apart(grain.position.x, from.x, grain.rest.x);
-    end.y = oz_fine_apart(grain.position.y, from.y, grain.rest.y);
-    end.z = oz_fine_apart(grain.position.z, from.z, grain.rest.z);
+    end.x = oz_fine_apart(grain.position.x - from.x, grain.rest.x);
+    end.y = oz_fine_apart(grain.position.y - from.y, grain.rest.y);
+    end.z = oz_fine_apart(grain.position.z - from.z, grain.rest.z);
     if (!OZ_ROUND) {
         end.x = oz_fine_add_share(end.x, sign * grain.half_shaft, grain.axis.x);
         end.y = oz_fine_add_share(end.y, sign * grain.half_shaft, grain.axis.y);

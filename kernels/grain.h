@@ -6,6 +6,7 @@
 
 #include "kernels/closest.h"
 #include "kernels/contact_law.h"
+#include "kernels/space.h"
 #if OZ_FINE
 #include "kernels/fine.h"
 #endif

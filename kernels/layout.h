@@ -26,7 +26,9 @@ typedef struct OzParameters {
     scalar length_unit;  /* m per count of a place; 1 in double                              */
     scalar inverse_unit; /* 1/m                                                              */
     scalar domain;       /* units: a grain beyond this distance from the origin has escaped  */
-    scalar gravity[3];   /* m/s^2                                                            */
+    scalar period[3], period_rest[3]; /* units after which space repeats itself (space.h) ...   */
+    scalar inverse_period[3];         /* ... and the inverse; 0: it does not                    */
+    scalar gravity[3]; /* m/s^2                                                            */
     scalar deep_look, deep_warn, deep_stop; /* depths (depth.h) looked at, counted, stopped at */
     OzLawConstants law; /* between grains                                                   */
     OZ_PARAMETERS_LISTS

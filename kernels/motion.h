@@ -6,6 +6,26 @@
 #include "kernels/near.h"
 #include "kernels/lists.h"
 
+#if OZ_PERIODIC
+/* Brings back into the cell what has left it, and counts the cells gone by. */
+OZ_INLINE void oz_motion_wrap(OzWork *w, int block, OzBody *body)
+{
+    OzSpace space = oz_work_space(w);
+    fixed_position *place[3] = {&body->position.x, &body->position.y, &body->position.z};
+    for (int k = 0; k < 3; k++) {
+        real cells = oz_space_cells(*place[k], space, k);
+        if (OZ_PERIODIC >> k & 1 && OZ_ANY(cells != REAL(0.0))) {
+            scalar gone[OZ_LANES];
+            OZ_LANES_STORE(cells, gone);
+            *place[k] = oz_space_nearest(*place[k], space, k);
+            for (int l = 0; l < OZ_LANES; l++) {
+                w->image[3 * w->id[block * OZ_LANES + l] + k] += (int)gone[l];
+            }
+        }
+    }
+}
+#endif
+
 #if OZ_MOVES_BEFORE
 /* The part of a step before the forces. */
 OZ_INLINE void oz_motion_before_block(OzWork *w, int block, int step)
@@ -14,6 +34,9 @@ OZ_INLINE void oz_motion_before_block(OzWork *w, int block, int step)
     OzBody body = oz_grains_load(w, block);
     OzShape shape = oz_grains_shape(w, block);
     oz_integrate_before(&body, shape, dt, w->parameters->inverse_unit);
+#if OZ_PERIODIC
+    oz_motion_wrap(w, block, &body);
+#endif
     oz_grains_store(w, block, body);
     oz_grains_record(w, 0, block, body, shape, oz_integrate_seen_velocity(body, dt),
                      oz_integrate_seen_spin(body, shape, dt));
@@ -48,6 +71,9 @@ OZ_INLINE void oz_motion_block(OzWork *w, int block, int step)
 #endif
     }
     oz_grains_guard(w, block, body, shape, step);
+#if OZ_PERIODIC && !OZ_MOVES_BEFORE
+    oz_motion_wrap(w, block, &body);
+#endif
     oz_grains_store(w, block, body);
 #if !OZ_MOVES_BEFORE || OZ_LEDGER || OZ_TILES
     oz_grains_record(w, 1, block, body, shape, body.velocity, body.spin);

@@ -12,6 +12,7 @@
 #define OZ_NEAR_MOVES(w, slot)    1              /* its forces are wanted                      */
 #define OZ_NEAR_NONE(w)           ((w)->z.slots) /* second of a pair that never touches */
 #define OZ_NEAR_MIXED             (!OZ_EQUAL)    /* a pair's first may have the higher id */
+#define OZ_NEAR_PERIODIC          OZ_PERIODIC
 
 typedef fixed_position_kind place_kind;
 typedef OzGrain OzNear;
@@ -130,7 +131,7 @@ OZ_INLINE mask oz_near_stays(const OzWork *w, global const real *reference, OzPo
     from.x = oz_fixed_position_of_bits(reference[0]);
     from.y = oz_fixed_position_of_bits(reference[1]);
     from.z = oz_fixed_position_of_bits(reference[2]);
-    OzVec3 dx = oz_fixed_position_minus(pose.body.position, from, w->parameters->length_unit);
+    OzVec3 dx = oz_space_minus(pose.body.position, from, oz_work_space(w));
     real moved2 = oz_dot(dx, dx);
     if (!OZ_ROUND) {
         OzVec3 da = oz_minus(pose.shaft, oz_work_load3(reference + 3));

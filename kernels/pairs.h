@@ -15,8 +15,7 @@
 /* The squared distance between the shafts of two grains a lane, and the sum of their radii. */
 OZ_INLINE real oz_pairs_distance2(const OzWork *w, OzGrain one, OzGrain other, real *radii)
 {
-    OzVec3 apart =
-        oz_fixed_position_minus(one.position, other.position, w->parameters->length_unit);
+    OzVec3 apart = oz_space_minus(one.position, other.position, oz_work_space(w));
     *radii = one.radius + other.radius;
     if (OZ_ROUND) {
         return oz_dot(apart, apart);
@@ -285,17 +284,22 @@ OZ_INLINE void oz_pairs_fetch(const OzWork *w, OzSieved *s, int first)
     }
     s->one = oz_work_geometry(w, s->a);
     s->other = oz_work_geometry(w, s->b);
-    s->apart =
-        oz_fixed_position_minus(s->one.position, s->other.position, w->parameters->length_unit);
+    s->apart = oz_space_minus(s->one.position, s->other.position, oz_work_space(w));
 }
 
-OZ_INLINE void oz_pairs_judge(OzSieved *s)
+/* end: of the region's list, which is filled up with pairs of no grain, far away where space is
+ * open. */
+OZ_INLINE void oz_pairs_judge(OzSieved *s, int end)
 {
     s->at = oz_rods_closest(s->apart, s->one.half_shaft, s->other.half_shaft);
     OzVec3 gap =
         oz_along(oz_along(s->apart, s->at.s, s->one.half_shaft), -s->at.t, s->other.half_shaft);
     real far = (s->one.radius + s->other.radius) * REAL(1 + OZ_PAIRS_MARGIN);
-    s->bits = oz_lanes_bits(oz_dot(gap, gap) < far * far);
+    mask near = oz_dot(gap, gap) < far * far;
+    if (OZ_PERIODIC) {
+        near = near & oz_lanes_mask_of(OZ_LANES_IOTA + s->first < end);
+    }
+    s->bits = oz_lanes_bits(near);
 }
 
 /* Picks pairs of a block of the list. */
@@ -333,8 +337,8 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
             int two = block + OZ_LANES < stop;
             oz_pairs_fetch(w, &one, block);
             oz_pairs_fetch(w, &other, two ? block + OZ_LANES : block);
-            oz_pairs_judge(&one);
-            oz_pairs_judge(&other);
+            oz_pairs_judge(&one, end);
+            oz_pairs_judge(&other, end);
             oz_pairs_pick(w, &pairs, &one);
             if (two) {
                 oz_pairs_pick(w, &pairs, &other);

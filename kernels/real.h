@@ -24,7 +24,8 @@ typedef double fixed_position; /* a coordinate that stays exact far from origin 
 #define OZ_HUGE   1e300  /* beyond this, numbers are none that a motion can have */
 #define OZ_PARALLEL                                                                                \
     1e-24 /* sin^2 of the angle below which shafts count as parallel: rounding's limit */
-#define oz_fixed_position_to_real(p) (p)
+#define oz_fixed_position_to_real(p)   (p)
+#define oz_fixed_position_from_real(r) (r)
 
 #elif defined(OZ_LANES)
 
@@ -49,7 +50,8 @@ typedef int mask;
 #define OZ_ANY(m) ((m) != 0)
 #if defined(OZ_DOUBLE)
 typedef double fixed_position;
-#define oz_fixed_position_to_real(p) (p)
+#define oz_fixed_position_to_real(p)   (p)
+#define oz_fixed_position_from_real(r) (r)
 #else
 typedef int fixed_position;
 #define oz_fixed_position_to_real(p)   convert_float(p)
@@ -62,7 +64,8 @@ typedef OZ_PASTE(OZ_REAL_NAME, OZ_LANES) real;
 #if defined(OZ_DOUBLE)
 typedef OZ_PASTE(long, OZ_LANES) mask;
 typedef real fixed_position;
-#define oz_fixed_position_to_real(p) (p)
+#define oz_fixed_position_to_real(p)   (p)
+#define oz_fixed_position_from_real(r) (r)
 #else
 typedef OZ_PASTE(int, OZ_LANES) mask;
 typedef OZ_PASTE(int, OZ_LANES) fixed_position;
@@ -74,8 +77,9 @@ typedef OZ_PASTE(int, OZ_LANES) fixed_position;
 #define OZ_ANY(m) any(m)
 #endif
 
-#define REAL(x)   ((real)((scalar)(x)))
-#ifndef OZ_INLINE /* a simulator of devices may have to be told not to inline (tests/conformance.sh) */
+#define REAL(x) ((real)((scalar)(x)))
+#ifndef OZ_INLINE /* a simulator of devices may have to be told not to inline                      \
+                     (tests/conformance.sh) */
 #define OZ_INLINE static inline __attribute__((always_inline))
 #endif
 

@@ -89,10 +89,10 @@ OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzCloses
     return pair;
 }
 
-OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, scalar length_unit, OzLawConstants law,
+OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, OzSpace space, OzLawConstants law,
                                    OzVec3 *history, scalar dt, scalar share)
 {
-    OzVec3 apart = oz_fixed_position_minus(a.position, b.position, length_unit);
+    OzVec3 apart = oz_space_minus(a.position, b.position, space);
     OzClosest at = oz_rods_closest(apart, a.half_shaft, b.half_shaft);
     return oz_rods_touch(a, b, apart, at, law, history, dt, share);
 }

@@ -67,14 +67,6 @@ OZ_INLINE OzVec3 oz_where(mask condition, OzVec3 a)
     return oz_choose(condition, a, oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)));
 }
 
-/* a - b in metres. */
-OZ_INLINE OzVec3 oz_fixed_position_minus(OzFixedPosition a, OzFixedPosition b, scalar length_unit)
-{
-    return oz_vec3(oz_fixed_position_to_real(a.x - b.x) * length_unit,
-                   oz_fixed_position_to_real(a.y - b.y) * length_unit,
-                   oz_fixed_position_to_real(a.z - b.z) * length_unit);
-}
-
 #if defined(OZ_HOST) || defined(OZ_DOUBLE)
 
 OZ_INLINE void oz_fixed_position_move(OzFixedPosition *position_, OzVec3 *rest, OzVec3 shift,

@@ -3,6 +3,8 @@
 
 #define OZ_TILES OZ_RESORT
 
+#include "kernels/space.h"
+
 #include "kernels/fields.h"
 #include "kernels/integrate.h"
 #include "kernels/layout.h"
@@ -14,6 +16,18 @@
 #define OZ_WORK_ID(w, slot)    ((w)->id[slot])
 
 #include "kernels/member.h"
+
+OZ_INLINE OzSpace oz_work_space(const OzWork *w)
+{
+    OzSpace space;
+    space.unit = w->parameters->length_unit;
+    for (int k = 0; k < 3; k++) {
+        space.period[k] = w->parameters->period[k];
+        space.period_rest[k] = w->parameters->period_rest[k];
+        space.inverse_period[k] = w->parameters->inverse_period[k];
+    }
+    return space;
+}
 
 /* Places, shafts, radii and masses of the grains in slots. */
 OZ_INLINE OzGrain oz_work_geometry(const OzWork *w, const int *slots)
@@ -54,6 +68,7 @@ OZ_INLINE OzFineGrain oz_work_fine(const OzWork *w, const int *slots)
     OzFineGrain fine;
     real counts = REAL(w->parameters->inverse_unit), rest[4];
     oz_lanes_load4(w->fine, slots, OZ_FINE_RECORD, OZ_N_REST, rest);
+    fine.space = oz_work_space(w);
     fine.position = oz_work_geometry(w, slots).position;
     fine.rest = oz_vec3(rest[0], rest[1], rest[2]);
     fine.radius = OZ_EQUAL ? REAL(w->parameters->radius_count)

@@ -39,7 +39,7 @@ static OzPairForce touch(const Pose *pose, OzLawConstants law)
                      radius,
                      2e-6,
                      1e6};
-    return oz_rods_pair(one, other, 1, law, &history, 1e-6, 0.5);
+    return oz_rods_pair(one, other, (OzSpace){.unit = 1}, law, &history, 1e-6, 0.5);
 }
 
 static void use_line(int line)
@@ -273,8 +273,8 @@ static void test_power_of_dashpots(void **state)
         b.velocity = oz_vec3(0.01 * spread(n, 2), 0.01 * spread(n, 3), 0);
         b.rate = oz_vec3(0, 10 * spread(n, 4), 3 * spread(n, 5));
         a.rate = oz_vec3(0, 7 * spread(n, 3), 0);
-        OzPairForce with = oz_rods_pair(a, b, 1, damped, &none, 1e-6, 0.5);
-        OzPairForce without = oz_rods_pair(a, b, 1, elastic, &none, 1e-6, 0.5);
+        OzPairForce with = oz_rods_pair(a, b, (OzSpace){.unit = 1}, damped, &none, 1e-6, 0.5);
+        OzPairForce without = oz_rods_pair(a, b, (OzSpace){.unit = 1}, elastic, &none, 1e-6, 0.5);
         double power = oz_dot(oz_minus(with.force, without.force), b.velocity) +
                        oz_dot(oz_minus(with.torque_b, without.torque_b), b.rate) +
                        oz_dot(oz_minus(with.torque_a, without.torque_a), a.rate);

@@ -9,6 +9,8 @@
 
 #include <stdlib.h>
 
+static const OzBoundary open_space;
+
 static OzCapsule capsule_of(const OzGrains *grains, const double *position, const double *axis,
                             int64_t i)
 {
@@ -61,7 +63,7 @@ static void test_sort_axis_lists_every_near_pair_in_order(void **state)
         int64_t found = 0;
         double skin = seed < 3 ? 0 : 0.4;
         throw_crowd(&grains, axis, seed);
-        must(oz_sort_axis_pairs(&list, &grains, grains.position, axis, skin));
+        must(oz_sort_axis_pairs(&list, &grains, grains.position, axis, skin, &open_space));
         for (int a = 0; a < CROWD; a++) {
             for (int b = 0; b < CROWD; b++) {
                 bool near = a != b && comes_first(&grains, a, b) &&
@@ -88,7 +90,7 @@ static void test_sort_axis_of_few(void **state)
         OzGrains grains;
         double axis[3] = {0, 0, 1};
         must(oz_grains_create(&grains, count));
-        must(oz_sort_axis_pairs(&list, &grains, grains.position, axis, 1));
+        must(oz_sort_axis_pairs(&list, &grains, grains.position, axis, 1, &open_space));
         assert_int_equal(list.count, 0);
         oz_grains_free(&grains);
     }
@@ -105,19 +107,19 @@ static void test_springs_outlive_the_list(void **state)
     double position[9] = {0, 0, 0, 0, 0, 1, 0, 0, 3}, axis[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
     must(oz_grains_create(&grains, 3));
     grains.diameter[0] = grains.diameter[1] = grains.diameter[2] = 1;
-    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
     assert_true(renewed && near.pairs.count == 1);
     near.spring[0] = oz_vec3(1, 2, 3);
     position[0] = 0.4 * near.skin;
-    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
     assert_false(renewed);
     position[8] = -1; /* now before the pair that touched, by ids */
-    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
     assert_true(renewed && near.pairs.count == 2);
     assert_true(near.pairs.pair[0].b == 1 && near.spring[0].y == 2);
     assert_true(near.pairs.pair[1].b == 2 && near.spring[1].y == 0);
     position[5] = 2; /* parted */
-    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis));
+    must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
     assert_true(renewed && near.pairs.count == 1 && near.spring[0].y == 0);
     oz_pair_list_free(&near);
     oz_grains_free(&grains);

@@ -27,6 +27,14 @@ double oz_random_uniform(OzRandom *random, double low, double high)
     return low + (high - low) * (double)(oz_random_bits(random) >> 11) * 0x1p-53;
 }
 
+/* Box and Muller (1958); of their two numbers one. */
+double oz_random_normal(OzRandom *random)
+{
+    const double PI = 3.14159265358979323846;
+    double length = sqrt(-2 * log(1 - oz_random_uniform(random, 0, 1)));
+    return length * cos(oz_random_uniform(random, 0, 2 * PI));
+}
+
 void oz_random_direction(OzRandom *random, double direction[3])
 {
     double height = oz_random_uniform(random, -1, 1);

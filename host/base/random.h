@@ -17,5 +17,8 @@ uint64_t oz_random_bits(OzRandom *random);
 /* The next number, uniform in [low, high). */
 double oz_random_uniform(OzRandom *random, double low, double high);
 
+/* The next number of the normal distribution about 0 with variance 1. */
+double oz_random_normal(OzRandom *random);
+
 /* A unit vector, uniform on the sphere. */
 void oz_random_direction(OzRandom *random, double direction[3]);

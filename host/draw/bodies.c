@@ -79,8 +79,9 @@ static OzBody body_of(const OzSnapshot *snapshot, const OzCamera *camera, bool i
     double width = is_thin ? THIN : 1;
     OzBody body = {.radius = (float)(0.5 * width * snapshot->grains->diameter[i] / camera->unit),
                    .half_shaft = (float)(0.5 * snapshot->grains->length[i] / camera->unit)};
-    double centre[3], axis[3];
-    oz_camera_see(camera, &snapshot->position[3 * i], centre);
+    double place[3], centre[3], axis[3];
+    oz_snapshot_place(snapshot, i, place);
+    oz_camera_see(camera, place, centre);
     oz_camera_turn(camera, &snapshot->axis[3 * i], axis);
     for (int k = 0; k < 3; k++) {
         body.centre[k] = (float)centre[k];

@@ -337,7 +337,7 @@ static void add_plane(OzContainer *container, const Scope *scope, int row)
     }
 }
 
-static void add_lines(OzContainer *container, const Scope *scope, int row)
+static OzWallOutline outline_of(const Scope *scope)
 {
     OzWallOutline outline = {.snapshot = scope->snapshot,
                              .camera = scope->camera,
@@ -347,8 +347,21 @@ static void add_lines(OzContainer *container, const Scope *scope, int row)
                              .reach = 1.5 * scope->look->half_width,
                              .is_cut = scope->view == OZ_VIEW_CUT,
                              .cut = scope->look->cut};
+    return outline;
+}
+
+static void add_lines(OzContainer *container, const Scope *scope, int row)
+{
+    OzWallOutline outline = outline_of(scope);
     oz_wall_outline_add(&outline, row, &container->meshes[OZ_CONTAINER_BEHIND],
                         &container->meshes[OZ_CONTAINER_BEFORE], EDGE);
+}
+
+static void add_cell(OzContainer *container, const Scope *scope)
+{
+    OzWallOutline outline = outline_of(scope);
+    oz_wall_outline_add_cell(&outline, &container->meshes[OZ_CONTAINER_BEHIND],
+                             &container->meshes[OZ_CONTAINER_BEFORE], FAINT);
 }
 
 static void add_sheet(OzContainer *container, const Scope *scope, int row)
@@ -406,6 +419,9 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
     }
     if (has_cylinder) {
         add_cylinder(container, &scope);
+    }
+    if (snapshot->scene->boundary.present) {
+        add_cell(container, &scope);
     }
     container->high = 0;
     for (int i = 0; i < OZ_CONTAINER_COUNT && status == OZ_OK; i++) {

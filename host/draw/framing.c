@@ -5,6 +5,7 @@
 #include "draw/plane.h"
 #include "draw/pressed.h"
 #include "model/motion.h"
+#include "scene/boundary.h"
 #include "scene/wall_mesh.h"
 #include "scene/wall_shape.h"
 
@@ -27,9 +28,16 @@ typedef struct Room {
 static Room grain_room(const OzSnapshot *snapshot)
 {
     Room room = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (int k = 0; k < 3; k++) {
+        double period = oz_boundary_period(&snapshot->scene->boundary, k);
+        room.low[k] = period > 0 ? -period / 2 : room.low[k];
+        room.high[k] = period > 0 ? period / 2 : room.high[k];
+    }
     for (int64_t i = 0; i < snapshot->count; i++) {
+        double place[3];
+        oz_snapshot_place(snapshot, i, place);
         for (int k = 0; k < 3; k++) {
-            double middle = snapshot->position[3 * i + k];
+            double middle = place[k];
             double reach = 0.5 * (snapshot->grains->diameter[i] +
                                   snapshot->grains->length[i] * fabs(snapshot->axis[3 * i + k]));
             room.low[k] = fmin(room.low[k], middle - reach);
@@ -170,9 +178,11 @@ double oz_framing_top(const OzLook *look, const OzCamera *camera, const OzSnapsh
                   camera->panels[0].middle_y / camera->scale * camera->unit;
     double most = camera->centre[2] + 1.1 * rise / fmax(cos(camera->elevation), 0.1);
     for (int64_t i = 0; i < snapshot->count; i++) {
-        double reach = 0.5 * (snapshot->grains->diameter[i] +
-                              snapshot->grains->length[i] * fabs(snapshot->axis[3 * i + 2]));
-        top = fmax(top, snapshot->position[3 * i + 2] + reach);
+        double place[3],
+            reach = 0.5 * (snapshot->grains->diameter[i] +
+                           snapshot->grains->length[i] * fabs(snapshot->axis[3 * i + 2]));
+        oz_snapshot_place(snapshot, i, place);
+        top = fmax(top, place[2] + reach);
     }
     return fmax(fmin(top + 0.01 * height, most), look->height_high);
 }

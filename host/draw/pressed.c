@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "draw/palette.h"
+#include "scene/boundary.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -39,15 +40,23 @@ double oz_pressed_width(const OzChain *chain, const OzLook *look)
 static void add_chain(OzPressed *pressed, const OzSnapshot *snapshot, const OzContactEntry *e,
                       bool follows)
 {
-    const double *to = e->b < 0 ? e->point : snapshot->position + 3 * (size_t)e->b;
+    double from[3], way[3];
     if (follows) {
         pressed->chains[pressed->chain_count - 1].push += e->push;
         return;
     }
     OzChain *chain = &pressed->chains[pressed->chain_count++];
     chain->push = e->push;
-    memcpy(chain->from, snapshot->position + 3 * (size_t)e->a, sizeof chain->from);
-    memcpy(chain->to, to, sizeof chain->to);
+    const double *to = e->b < 0 ? e->point : snapshot->position + 3 * (size_t)e->b;
+    oz_snapshot_place(snapshot, e->a, from);
+    for (int k = 0; k < 3; k++) {
+        way[k] = to[k] - snapshot->position[3 * (size_t)e->a + (size_t)k];
+    }
+    oz_boundary_wrap(&snapshot->scene->boundary, way);
+    for (int k = 0; k < 3; k++) {
+        chain->from[k] = from[k];
+        chain->to[k] = from[k] + way[k];
+    }
 }
 
 static void add_to_grains(OzPressed *pressed, const OzContactEntry *e, const OzLook *look,

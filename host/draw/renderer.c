@@ -290,7 +290,7 @@ static OzLook look_at(const OzLook *look, const OzSnapshot *snapshot)
 {
     OzLook now = *look;
     if (look->has_follow && look->follow < snapshot->count) {
-        memcpy(now.target, snapshot->position + 3 * look->follow, sizeof now.target);
+        oz_snapshot_place(snapshot, look->follow, now.target);
         now.has_target = true;
     }
     return now;

@@ -3,6 +3,7 @@
 
 #include "draw/wall_levels.h"
 #include "model/motion.h"
+#include "scene/boundary.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -47,6 +48,15 @@ static void draw_edge(const Pen *pen, const double middle[3], const double half[
     draw_line(pen, ends[0], ends[1], outwards);
 }
 
+static void draw_edges(const Pen *pen, const double middle[3], const double half[3])
+{
+    for (int k = 0; k < 3; k++) {
+        for (int s = 0; s < 4; s++) {
+            draw_edge(pen, middle, half, k, (double[2]){s & 1 ? 1 : -1, s & 2 ? 1 : -1});
+        }
+    }
+}
+
 static void draw_box(const Pen *pen, const OzWall *wall, const double shift[3])
 {
     double middle[3], half[3];
@@ -54,11 +64,7 @@ static void draw_box(const Pen *pen, const OzWall *wall, const double shift[3])
         half[k] = wall->size[k] / 2;
         middle[k] = wall->point[k] + shift[k] + (k == 2 ? half[k] : 0);
     }
-    for (int k = 0; k < 3; k++) {
-        for (int s = 0; s < 4; s++) {
-            draw_edge(pen, middle, half, k, (double[2]){s & 1 ? 1 : -1, s & 2 ? 1 : -1});
-        }
-    }
+    draw_edges(pen, middle, half);
 }
 
 /* A cylinder's axis, two directions across it, and from where to where it is drawn. */
@@ -121,6 +127,20 @@ static void draw_levels(const Pen *pen, const OzWall *wall, double offset)
                            .line_width = o->line_width,
                            .is_cut = o->is_cut};
     oz_wall_levels_add(&levels, pen->behind, pen->before, pen->rgba);
+}
+
+void oz_wall_outline_add_cell(const OzWallOutline *o, OzMesh *behind, OzMesh *before,
+                              const float rgba[4])
+{
+    Pen pen = {o, behind, before, rgba};
+    double middle[3] = {0}, half[3];
+    for (int k = 0; k < 3; k++) {
+        double period = oz_boundary_period(&o->snapshot->scene->boundary, k);
+        bool is_height = k == 2 && period == 0;
+        middle[k] = is_height ? (o->low + o->high) / 2 : 0;
+        half[k] = is_height ? (o->high - o->low) / 2 : period > 0 ? period / 2 : o->reach / 3;
+    }
+    draw_edges(&pen, middle, half);
 }
 
 void oz_wall_outline_add(const OzWallOutline *o, int w, OzMesh *behind, OzMesh *before,

@@ -19,3 +19,8 @@ typedef struct OzWallOutline {
  * them. */
 void oz_wall_outline_add(const OzWallOutline *outline, int w, OzMesh *behind, OzMesh *before,
                          const float rgba[4]);
+
+/* Adds the edges of the scene's periodic cell; along open directions it is as long as the picture.
+ */
+void oz_wall_outline_add_cell(const OzWallOutline *outline, OzMesh *behind, OzMesh *before,
+                              const float rgba[4]);

@@ -1,6 +1,7 @@
 /* Which points the walls leave to grains placed at random. Knows nothing of other grains. */
 #include "model/fill_region.h"
 
+#include "scene/boundary.h"
 #include "scene/wall_mesh.h"
 #include "scene/wall_shape.h"
 
@@ -263,6 +264,13 @@ OzFillRegion oz_fill_region_make(const OzScene *scene, double volume, double ext
                                 .vessels_low = {INFINITY, INFINITY, INFINITY},
                                 .vessels_high = {-INFINITY, -INFINITY, -INFINITY},
                                 .open_above = INFINITY};
+    for (int k = 0; k < 3; k++) {
+        double period = oz_boundary_period(&scene->boundary, k);
+        if (period > 0) {
+            bound_between(&fill_region, k, -period / 2, period / 2);
+            fill_region.periodic[k] = true;
+        }
+    }
     bound_by_walls(&fill_region, false);
     bound_by_vessels(&fill_region);
     bound_by_walls(&fill_region, true);
@@ -297,7 +305,7 @@ bool oz_fill_region_admits(const OzFillRegion *fill_region, const OzCapsule *cap
 {
     for (int k = 0; k < 3; k++) {
         double extent = 2 * (fabs(capsule->half_shaft[k]) + capsule->radius);
-        if (fill_region->high[k] - fill_region->low[k] < extent) {
+        if (!fill_region->periodic[k] && fill_region->high[k] - fill_region->low[k] < extent) {
             return false;
         }
     }
@@ -308,7 +316,8 @@ bool oz_fill_region_admits(const OzFillRegion *fill_region, const OzCapsule *cap
 void oz_fill_region_draw(const OzFillRegion *fill_region, OzRandom *random, OzCapsule *capsule)
 {
     for (int k = 0; k < 3; k++) {
-        double margin = fabs(capsule->half_shaft[k]) + capsule->radius;
+        double extent = fabs(capsule->half_shaft[k]) + capsule->radius;
+        double margin = fill_region->periodic[k] ? 0 : extent;
         capsule->centre[k] =
             oz_random_uniform(random, fill_region->low[k] + margin, fill_region->high[k] - margin);
     }

@@ -12,7 +12,8 @@ typedef struct OzFillRegion {
     const OzScene *scene;               /* borrowed, for its walls                               */
     double low[3], high[3];             /* m                                                     */
     bool walled_low[3], walled_high[3]; /* that side is a plane or the cylinder        */
-    double radius;                      /* m, of the narrowest cylinder; INFINITY without        */
+    bool periodic[3]; /* what sticks out of one side comes in on the other                       */
+    double radius;    /* m, of the narrowest cylinder; INFINITY without        */
     int vessels; /* cones and open tubes with grains inside, each of which begins where another ends
                   */
     double vessels_low[3], vessels_high[3]; /* m: what they reach                                */

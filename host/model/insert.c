@@ -15,6 +15,9 @@
 /* Values that a grain's stream gives before its direction: diameter and aspect. */
 enum { SIZE_DRAWS = 2 };
 
+/* Where the numbers for its velocity begin: no grain tries so many places. */
+enum { VELOCITY_DRAWS = 1 << 30 };
+
 /* Directions drawn until one fits the empty container. A tube a thousandth as wide as the rod is
  * long admits about one in two million; narrower ones are refused. */
 enum { TURN_LIMIT = 20000000 };
@@ -193,6 +196,27 @@ static OzStatus place_grain(void *own, int64_t i, int64_t placed)
     return oz_overlap_grid_add(&placement->overlap_grid, &capsule);
 }
 
+/* Throws a population's grains in all directions, all together in none. */
+static void throw_population(Rods *rods, int p)
+{
+    OzPlacement *placement = &rods->placement;
+    const int64_t *first = placement->first;
+    double *velocity = placement->grains->velocity, momentum[3] = {0}, mass = 0;
+    for (int64_t i = first[p]; i < first[p + 1]; i++) {
+        OzRandom random = oz_placement_stream(placement, i);
+        random.counter = VELOCITY_DRAWS;
+        mass += placement->grains->mass[i];
+        for (int k = 0; k < 3; k++) {
+            velocity[3 * i + k] =
+                placement->scene->populations[p].velocity_spread * oz_random_normal(&random);
+            momentum[k] += placement->grains->mass[i] * velocity[3 * i + k];
+        }
+    }
+    for (int64_t i = 3 * first[p]; i < 3 * first[p + 1]; i++) {
+        velocity[i] -= momentum[i % 3] / mass;
+    }
+}
+
 static OzStatus make_grains(Rods *rods)
 {
     static const OzPlacementWay way = {told_capsule, make_column, place_grain, "large"};
@@ -206,6 +230,9 @@ static OzStatus make_grains(Rods *rods)
     OZ_PASS(oz_placement_create(&rods->placement, rods->beds));
     for (int p = 0; p < scene->population_count; p++) {
         make_population(rods, p);
+        if (scene->populations[p].velocity_spread > 0) {
+            throw_population(rods, p);
+        }
     }
     return oz_placement_fill(&rods->placement, &way, rods);
 }

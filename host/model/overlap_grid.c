@@ -4,6 +4,7 @@
 #include "model/overlap_grid.h"
 
 #include "base/memory.h"
+#include "scene/boundary.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,6 +26,22 @@ static double dot(const double a[3], const double b[3])
 static double clamp(double value, double low, double high)
 {
     return value < low ? low : value > high ? high : value;
+}
+
+/* The farthest of its points from its centre, m. */
+static double reach_of(const OzCapsule *capsule)
+{
+    return sqrt(dot(capsule->half_shaft, capsule->half_shaft)) + capsule->radius;
+}
+
+/* The same capsule within the cell of a periodic boundary. */
+static OzCapsule wrapped(const OzOverlapGrid *overlap_grid, const OzCapsule *capsule)
+{
+    OzCapsule here = *capsule;
+    if (overlap_grid->boundary) {
+        oz_boundary_wrap(overlap_grid->boundary, here.centre);
+    }
+    return here;
 }
 
 /* The class of diameters that starts above half of level_diameter(level). */
@@ -181,9 +198,10 @@ static double girth(const OzCapsule *capsule)
 
 OzStatus oz_overlap_grid_add(OzOverlapGrid *overlap_grid, const OzCapsule *capsule)
 {
+    OzCapsule here = wrapped(overlap_grid, capsule);
     int level = level_of(girth(capsule));
     double cell = level_cell(level), point[3];
-    Samples samples = sample_shaft(capsule, cell);
+    Samples samples = sample_shaft(&here, cell);
     uint64_t last = 0;
     OZ_PASS(OZ_ROOM(&overlap_grid->members, &overlap_grid->capacity, overlap_grid->count + 1,
                     "placed grains"));
@@ -196,7 +214,8 @@ OzStatus oz_overlap_grid_add(OzOverlapGrid *overlap_grid, const OzCapsule *capsu
         }
         last = hash;
     }
-    overlap_grid->members[overlap_grid->count++] = *capsule;
+    overlap_grid->reach_max = fmax(overlap_grid->reach_max, reach_of(capsule));
+    overlap_grid->members[overlap_grid->count++] = here;
     overlap_grid->levels |= (uint64_t)1 << level;
     return OZ_OK;
 }
@@ -250,7 +269,7 @@ static bool level_touches(const OzOverlapGrid *overlap_grid, int level, const Oz
     return false;
 }
 
-bool oz_overlap_grid_touches(const OzOverlapGrid *overlap_grid, const OzCapsule *capsule)
+static bool image_touches(const OzOverlapGrid *overlap_grid, const OzCapsule *capsule)
 {
     for (int level = 0; level < LEVEL_COUNT; level++) {
         if ((overlap_grid->levels >> level & 1) && level_touches(overlap_grid, level, capsule)) {
@@ -258,6 +277,34 @@ bool oz_overlap_grid_touches(const OzOverlapGrid *overlap_grid, const OzCapsule 
         }
     }
     return false;
+}
+
+/* A capsule's images that may reach into the cell, from one axis on. */
+static bool images_touch(const OzOverlapGrid *overlap_grid, const OzCapsule *capsule, int axis)
+{
+    double period = axis < 3 ? oz_boundary_period(overlap_grid->boundary, axis) : 0;
+    double far = overlap_grid->reach_max + reach_of(capsule);
+    if (axis == 3) {
+        return image_touches(overlap_grid, capsule);
+    }
+    for (int cells = -1; cells <= 1; cells++) {
+        OzCapsule image = *capsule;
+        image.centre[axis] += cells * period;
+        bool meets = period > 0 && fabs(image.centre[axis]) < period / 2 + far;
+        if ((cells == 0 || meets) && images_touch(overlap_grid, &image, axis + 1)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool oz_overlap_grid_touches(const OzOverlapGrid *overlap_grid, const OzCapsule *capsule)
+{
+    OzCapsule here = wrapped(overlap_grid, capsule);
+    if (!overlap_grid->boundary || !overlap_grid->boundary->present) {
+        return image_touches(overlap_grid, capsule);
+    }
+    return images_touch(overlap_grid, &here, 0);
 }
 
 void oz_overlap_grid_free(OzOverlapGrid *overlap_grid)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/status.h"
+#include "scene/scene_types.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -18,7 +19,8 @@ typedef struct OzOverlapGridEntry {
     int64_t member, next;
 } OzOverlapGridEntry;
 
-/* A zeroed overlap grid is empty and may be used at once. Diameters up to 8e6 m. */
+/* A zeroed overlap grid is empty and may be used at once, after its boundary has been set.
+ * Diameters up to 8e6 m. */
 typedef struct OzOverlapGrid {
     OzCapsule *members;
     int64_t count, capacity;
@@ -27,6 +29,9 @@ typedef struct OzOverlapGrid {
     int64_t *heads; /* head_count (0 or a power of two) first entries, -1: none */
     int64_t head_count;
     uint64_t levels; /* bit l: some member has a diameter of size class l */
+    const OzBoundary
+        *boundary;    /* borrowed: of a periodic one all images count; NULL: space is open */
+    double reach_max; /* m, of a member from its centre                        */
 } OzOverlapGrid;
 
 void oz_overlap_grid_free(OzOverlapGrid *overlap_grid);

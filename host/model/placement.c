@@ -26,6 +26,7 @@ OzStatus oz_placement_create(OzPlacement *placement, const OzGrains *beds)
 {
     const OzScene *scene = placement->scene;
     int64_t total = 0;
+    placement->overlap_grid.boundary = &scene->boundary;
     OZ_PASS(OZ_NEW(&placement->first, scene->population_count + 1));
     for (int p = 0; p < scene->population_count; p++) {
         const OzPopulation *population = &scene->populations[p];

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "model/motion.h"
 #include "model/wall_motion.h"
+#include "scene/boundary.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -107,6 +108,12 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy->ledger = snapshot->ledger;
     copy_elements(copy, snapshot);
     return oz_scene_shows_contacts(snapshot->scene) ? copy_contacts(copy, snapshot) : OZ_OK;
+}
+
+void oz_snapshot_place(const OzSnapshot *snapshot, int64_t grain, double place[3])
+{
+    memcpy(place, &snapshot->position[3 * grain], 3 * sizeof *place);
+    oz_boundary_wrap(&snapshot->scene->boundary, place);
 }
 
 void oz_snapshot_move_walls(OzSnapshot *snapshot)

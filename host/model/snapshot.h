@@ -75,6 +75,10 @@ void oz_snapshot_free(OzSnapshot *snapshot);
  * pictures show nothing of them. scene and grains stay borrowed. Frees as above. */
 OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot);
 
+/* Where a grain is shown: its position, of a periodic boundary within the cell, while positions are
+ * paths that go on. */
+void oz_snapshot_place(const OzSnapshot *snapshot, int64_t grain, double place[3]);
+
 /* Fills wall_offset and wall_velocity for snapshot->time. */
 void oz_snapshot_move_walls(OzSnapshot *snapshot);
 

@@ -83,12 +83,11 @@ void oz_report_validate_looks_silo(OzTrialNumbers numbers, const OzSnapshot *now
 /* Kinetic theory of inelastic spheres: the rate of cooling is (1 - e^2)/3 of the rate of hits, and
  * hits are as frequent as Enskog's theory says, with Carnahan and Starling's (1969) g at contact
  * (Brilliantov and Poeschel 2004, chapter 5). Deviations from Maxwell's velocities change it by
- * less than 0.3 % at e = 0.9. Centres are kept in a box of side `room`: a grain has no partners
- * behind a wall, which in the mean over places and directions takes 3/2 d/room of them. */
-static double slope_by_theory(double restitution, double density, double diameter, double room)
+ * less than 0.3 % at e = 0.9. density: grains in a m^3. */
+static double slope_by_theory(double restitution, double density, double diameter)
 {
     double share = density * PI / 6 * pow(diameter, 3);
-    double g = (1 - share / 2) / pow(1 - share, 3) * (1 - 1.5 * diameter / room);
+    double g = (1 - share / 2) / pow(1 - share, 3);
     return 2 * sqrt(PI) / 3 * (1 - restitution * restitution) * density * diameter * diameter * g;
 }
 
@@ -107,9 +106,9 @@ void oz_report_validate_looks_gas(OzTrialNumbers numbers, const OzSnapshot *now,
     }
     double temperature = (square - mean[0] * mean[0] - mean[1] * mean[1] - mean[2] * mean[2]) / 3;
     double slow = 1 / sqrt(temperature);
-    double room = now->scene->walls[0].size[0] - diameter;
-    double theory =
-        slope_by_theory(now->scene->contact.restitution, n / pow(room, 3), diameter, room);
+    const double *size = now->scene->boundary.size;
+    double density = n / (size[0] * size[1] * size[2]);
+    double theory = slope_by_theory(now->scene->contact.restitution, density, diameter);
     numbers[OZ_LOOK_GAS_COUNT]++;
     numbers[OZ_LOOK_GAS_TIME] += now->time;
     numbers[OZ_LOOK_GAS_TIME2] += now->time * now->time;

@@ -1,6 +1,7 @@
 /* The checks of rods' scenes that need more than one value: whether grains find room. */
 #include "scene/check_solid.h"
 
+#include "scene/boundary.h"
 #include "scene/check_motion.h"
 #include "scene/trace.h"
 #include "scene/wall_shape.h"
@@ -214,6 +215,7 @@ static void check_views(const OzScene *scene, OzNode *root, OzFaults *faults)
 void oz_check_solid_scene(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
     check_walls(scene, root, faults);
+    oz_boundary_check(scene, root, faults);
     check_room(scene, root, faults);
     check_singles(scene, root, faults);
     check_views(scene, root, faults);

@@ -181,6 +181,7 @@ typedef struct OzPopulation {
     OzRange aspect;    /* shaft length / diameter; 0 = sphere                     */
     double density;    /* kg/m^3                                                  */
     double fill;       /* volume fraction of the random start column              */
+    double velocity_spread; /* m/s, random: standard deviation of each component       */
     int64_t cells[3];  /* lattice                                                 */
     double spacing[3]; /* m, lattice                                              */
     double position[3], axis[3], velocity[3],
@@ -199,6 +200,16 @@ typedef struct OzPopulation {
     double angle;            /* rad, single and lattice                                 */
     int line;
 } OzPopulation;
+
+typedef enum OzBoundaryKind { OZ_BOUNDARY_OPEN, OZ_BOUNDARY_PERIODIC } OzBoundaryKind;
+
+/* What is at the ends of space, rods. Where it is periodic, what leaves a cell about the origin on
+ * one side comes in on the other, and all of it meets its own images there. */
+typedef struct OzBoundary {
+    bool present;
+    OzBoundaryKind along[3]; /* each axis                                        */
+    double size[3];          /* m, of the cell; not looked at where space is open */
+} OzBoundary;
 
 typedef enum OzOverlaps {
     OZ_OVERLAPS_KEEP,  /* grains start where they are told to                    */
@@ -392,6 +403,7 @@ typedef struct OzScene {
     int population_count;
     OzWall *walls;
     int wall_count;
+    OzBoundary boundary;
     OzSettle settle;
     OzGuards guards;
     OzObserve observe;

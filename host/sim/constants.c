@@ -3,6 +3,7 @@
 
 #include "model/calibrate.h"
 #include "model/motion.h"
+#include "scene/boundary.h"
 #include "scene/wall_shape.h"
 #include "sim/sides.h"
 #include "sim/units.h"
@@ -50,6 +51,9 @@ static double extent(const OzScene *scene, const OzGrains *grains)
 static OzStatus choose_unit(double *unit, const OzScene *scene, const OzGrains *grains)
 {
     double smallest = 1e-3, far = extent(scene, grains);
+    for (int k = 0; k < 3; k++) {
+        far = larger(far, oz_boundary_period(&scene->boundary, k));
+    }
     for (int64_t i = 0; i < grains->count; i++) {
         smallest = i == 0 || grains->diameter[i] < smallest ? grains->diameter[i] : smallest;
     }
@@ -139,6 +143,19 @@ static OzStatus keep_units(OzParameters *parameters, const OzScene *scene, const
     return OZ_OK;
 }
 
+/* Whole counts in single precision, in two floats. */
+static void fill_space(OzParameters *parameters, const OzScene *scene)
+{
+    for (int k = 0; k < 3; k++) {
+        double counts = oz_boundary_period(&scene->boundary, k) / parameters->length_unit;
+        bool is_float = scene->precision == OZ_PRECISION_FLOAT;
+        double whole = is_float ? rint(counts) : counts;
+        parameters->period[k] = is_float ? (double)(float)whole : whole;
+        parameters->period_rest[k] = whole - parameters->period[k];
+        parameters->inverse_period[k] = whole > 0 ? 1 / whole : 0;
+    }
+}
+
 static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene,
                       const OzGrains *grains)
 {
@@ -149,6 +166,7 @@ static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], co
     parameters->deep_warn = scene->guards.overlap_warn;
     parameters->deep_stop = scene->guards.overlap_stop;
     parameters->deep_look = fmin(1, fmin(parameters->deep_warn, parameters->deep_stop));
+    fill_space(parameters, scene);
     fill_walls(parameters, wall_order, scene);
     fill_shapes(parameters, grains);
 }

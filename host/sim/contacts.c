@@ -89,8 +89,8 @@ OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const doub
     bool has_spring = OZ_HISTORY && history, turned = a > b;
     Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
     OzVec3 spring = found.stored;
-    OzPairForce pair =
-        oz_rods_pair(first, second, 1, law, &spring, physics->parameters.dt, physics->share);
+    OzPairForce pair = oz_rods_pair(first, second, oz_dialect_space(physics), law, &spring,
+                                    physics->parameters.dt, physics->share);
     if (!pair.contact.touching) {
         return OZ_OK;
     }

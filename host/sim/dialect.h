@@ -19,6 +19,7 @@
 #define OZ_SMOOTH           oz_host_switches_now.rods.smooth
 #define OZ_AT_CONTACT       oz_host_switches_now.rods.at_contact
 #define OZ_GATED            oz_host_switches_now.rods.gated
+#define OZ_PERIODIC         oz_host_switches_now.rods.periodic
 #define OZ_WALL_EDGED       oz_host_switches_now.rods.edged
 #define OZ_MESHES           oz_host_switches_now.rods.meshes
 #define OZ_WALL_KINDS       0x3fffffff /* the host knows them all */
@@ -41,6 +42,18 @@ OZ_INLINE void oz_dialect_store3(double *to, OzVec3 v)
     to[0] = v.x;
     to[1] = v.y;
     to[2] = v.z;
+}
+
+OZ_INLINE OzSpace oz_dialect_space(const OzPhysics *physics)
+{
+    const OzParameters *p = &physics->parameters;
+    OzSpace space = {.unit = 1};
+    for (int k = 0; k < 3; k++) {
+        space.period[k] = p->period[k];
+        space.period_rest[k] = p->period_rest[k];
+        space.inverse_period[k] = p->inverse_period[k];
+    }
+    return space;
 }
 
 /* How the wall of kernel wall w moves; offset and speed along its direction, rate about its axis.

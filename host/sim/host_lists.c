@@ -148,7 +148,7 @@ static OzStatus find_entries(Work *w)
 {
     const OzParameters *p = oz_rods_parameters(w->sim, w->member);
     OZ_PASS(oz_sort_axis_pairs(&w->pairs, w->now.grains, w->now.position, w->now.axis,
-                               2 * p->outer_most));
+                               2 * p->outer_most, &w->now.scene->boundary));
     OZ_PASS(OZ_NEW(&w->entries, 2 * w->pairs.count));
     for (int64_t k = 0; k < w->pairs.count; k++) {
         add_entries(w, w->pairs.pair[k]);

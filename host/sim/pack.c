@@ -8,6 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A coordinate of a grain, in units, and how many cells it was moved by to be within half of one.
+ */
+static double units_of(const OzParameters *p, const OzGrains *grains, int64_t i, int c, int *cells)
+{
+    double units = grains->position[3 * i + c] / p->length_unit;
+    double period = p->period[c] + p->period_rest[c];
+    *cells = period > 0 ? (int)rint(units / period) : 0;
+    return units - *cells * period;
+}
+
 static void put(void *words, size_t index, double value, bool is_double)
 {
     oz_scalars_put((char *)words + index * (is_double ? sizeof(double) : sizeof(float)), &value, 1,
@@ -69,7 +79,8 @@ static void put_state(void *state, const OzSwitches *s, const OzParameters *p,
     }
     double spin_unit = oz_units_spin(&p->units, s->gyroscopic);
     for (int c = 0; c < 3; c++) {
-        double units = grains->position[3 * i + c] / p->length_unit;
+        int cells;
+        double units = units_of(p, grains, i, c, &cells);
         double whole = wide ? units : rint(units);
         bool present = slot == i;
         put_place(state, oz_pack_lane(s, slot, OZ_STATE, OZ_S_POSITION + c), whole, wide);
@@ -105,7 +116,8 @@ static void put_record(void *record, const OzSwitches *s, const OzParameters *p,
     double axis[3];
     oz_grains_axis(&grains->quaternion[4 * i], axis);
     for (size_t c = 0; c < 3; c++) {
-        double units = grains->position[3 * (size_t)i + c] / p->length_unit;
+        int cells;
+        double units = units_of(p, grains, i, (int)c, &cells);
         put_place(record, base + OZ_R_POSITION + c, wide ? units : rint(units), wide);
         put(record, base + OZ_R_SHAFT + c, grains->length[i] / 2 * axis[c] / p->units.length, wide);
         put(record, base + OZ_R_VELOCITY + c,
@@ -154,6 +166,24 @@ static OzStatus write_records(OzArrays *arrays, OzFieldId field, int member, voi
     return bytes > 0 ? oz_arrays_write(arrays, field, member, records, bytes) : OZ_OK;
 }
 
+/* How many cells grains have gone by, where space repeats itself. */
+static OzStatus write_images(OzArrays *arrays, int member, const OzParameters *p,
+                             const OzGrains *grains)
+{
+    size_t bytes = oz_arrays_bytes(arrays, OZ_FIELD_image);
+    int *image = NULL;
+    if (bytes == 0) {
+        return OZ_OK;
+    }
+    OZ_PASS(oz_memory_new((void **)&image, bytes, 1, "images of grains"));
+    for (int64_t i = 0; i < 3 * grains->count; i++) {
+        units_of(p, grains, i / 3, (int)(i % 3), &image[i]);
+    }
+    OzStatus status = oz_arrays_write(arrays, OZ_FIELD_image, member, image, bytes);
+    free(image);
+    return status;
+}
+
 OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *parameters,
                        const OzGrains *grains)
 {
@@ -184,6 +214,7 @@ OzStatus oz_pack_start(OzArrays *arrays, int member, const OzParameters *paramet
         }
     }
     put_far_record(record, s, z->slots);
+    OZ_TRY(write_images(arrays, member, parameters, grains));
     OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_state, member, state, state_bytes));
     OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_shape, member, shape, shape_bytes));
     OZ_TRY(write_records(arrays, OZ_FIELD_record, member, record, OZ_RECORD));
@@ -266,6 +297,25 @@ static void get_state(const void *state, const OzSwitches *s, const OzParameters
     }
 }
 
+/* Paths go on where grains have left the cell. */
+static OzStatus add_images(const OzArrays *arrays, int member, const OzParameters *p,
+                           OzSnapshot *snapshot)
+{
+    size_t bytes = oz_arrays_bytes(arrays, OZ_FIELD_image);
+    int *image = NULL;
+    if (bytes == 0) {
+        return OZ_OK;
+    }
+    OZ_PASS(oz_memory_new((void **)&image, bytes, 1, "images of grains"));
+    OzStatus status = oz_arrays_read(arrays, OZ_FIELD_image, member, image, bytes);
+    for (int64_t i = 0; i < 3 * snapshot->count && status == OZ_OK; i++) {
+        double period = p->period[i % 3] + p->period_rest[i % 3];
+        snapshot->position[i] += image[i] * period * p->length_unit;
+    }
+    free(image);
+    return status;
+}
+
 OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *parameters,
                        OzSnapshot *snapshot)
 {
@@ -282,6 +332,7 @@ OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *p
     for (int slot = 0; slot < z->count; slot++) {
         get_state(state, s, parameters, slot, id[slot], snapshot);
     }
+    OZ_TRY(add_images(arrays, member, parameters, snapshot));
 done:
     free(state);
     free(id);

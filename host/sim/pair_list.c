@@ -62,7 +62,7 @@ static bool holds(const OzPairList *near, const OzGrains *grains, const double *
 }
 
 OzStatus oz_pair_list_renew(OzPairList *near, bool *renewed, const OzGrains *grains,
-                            const double *position, const double *axis)
+                            const double *position, const double *axis, const OzBoundary *boundary)
 {
     OzStatus status = OZ_OK;
     OzPairList next = {0};
@@ -72,7 +72,7 @@ OzStatus oz_pair_list_renew(OzPairList *near, bool *renewed, const OzGrains *gra
         return OZ_OK;
     }
     next.skin = skin_diameters * smallest_diameter(grains);
-    OZ_TRY(oz_sort_axis_pairs(&next.pairs, grains, position, axis, next.skin));
+    OZ_TRY(oz_sort_axis_pairs(&next.pairs, grains, position, axis, next.skin, boundary));
     OZ_TRY(OZ_NEW(&next.spring, next.pairs.count));
     OZ_TRY(OZ_NEW(&next.position, 3 * grains->count));
     OZ_TRY(OZ_NEW(&next.axis, 3 * grains->count));

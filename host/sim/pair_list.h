@@ -17,6 +17,6 @@ typedef struct OzPairList {
 /* Makes the list hold for grains at position with axes (3 x count each). *renewed tells whether
  * pairs are other ones than before. The caller frees with oz_pair_list_free. */
 OzStatus oz_pair_list_renew(OzPairList *near, bool *renewed, const OzGrains *grains,
-                            const double *position, const double *axis);
+                            const double *position, const double *axis, const OzBoundary *boundary);
 
 void oz_pair_list_free(OzPairList *near);

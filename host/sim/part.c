@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "scene/boundary.h"
 #include "sim/dialect.h"
 #include "sim/gates.h"
 #include "sim/host_mesh.h"
@@ -20,6 +21,7 @@ enum { SWEEPS_MOST = 5000 };
 typedef struct Rods {
     OzGrains *grains;
     OzPhysics physics;
+    const OzBoundary *boundary;
     double *axis; /* 3 x count */
     OzPairs pairs;
 } Rods;
@@ -35,11 +37,20 @@ static void move(Rods *r, int64_t i, OzVec3 normal, double way)
     oz_dialect_store3(&r->grains->position[3 * i], at);
 }
 
+/* The way from the second of a pair to the first. */
+static OzVec3 apart_of(const Rods *r, OzPair pair)
+{
+    const double *a = &r->grains->position[3 * (int64_t)pair.a];
+    const double *b = &r->grains->position[3 * (int64_t)pair.b];
+    double way[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    oz_boundary_wrap(r->boundary, way);
+    return oz_dialect_load3(way);
+}
+
 static void part_pair(Rods *r, OzPair pair, double *deepest)
 {
     const OzGrains *g = r->grains;
-    OzVec3 apart = oz_minus(oz_dialect_load3(&g->position[3 * (int64_t)pair.a]),
-                            oz_dialect_load3(&g->position[3 * (int64_t)pair.b]));
+    OzVec3 apart = apart_of(r, pair);
     OzVec3 one = half_shaft(r, pair.a), other = half_shaft(r, pair.b);
     OzClosest at = oz_closest(apart, one, other);
     OzVec3 gap = oz_minus(oz_along(oz_scale(other, at.t), -at.s, one), apart);
@@ -88,7 +99,7 @@ static void part_walls(Rods *r, int64_t i, double *deepest)
 static OzStatus sweep_rods(Rods *r, double *deepest)
 {
     OZ_USE_SWITCHES(oz_host_switches_rods(&r->physics.switches));
-    OZ_PASS(oz_sort_axis_pairs(&r->pairs, r->grains, r->grains->position, r->axis, 0));
+    OZ_PASS(oz_sort_axis_pairs(&r->pairs, r->grains, r->grains->position, r->axis, 0, r->boundary));
     for (int64_t k = 0; k < r->pairs.count; k++) {
         part_pair(r, r->pairs.pair[k], deepest);
     }
@@ -100,7 +111,7 @@ static OzStatus sweep_rods(Rods *r, double *deepest)
 
 static OzStatus open_rods(Rods *r, OzGrains *grains, const OzScene *scene)
 {
-    *r = (Rods){.grains = grains};
+    *r = (Rods){.grains = grains, .boundary = &scene->boundary};
     OZ_PASS(oz_physics_derive(&r->physics, scene, grains));
     oz_gates_set(&r->physics, scene, 0, true);
     OZ_PASS(OZ_NEW(&r->axis, 3 * grains->count));

@@ -71,7 +71,8 @@ static OzStatus renew_list(OzReference *r)
 {
     bool renewed;
     write_places(r, r->position, r->axis);
-    OZ_PASS(oz_pair_list_renew(&r->near, &renewed, r->grains, r->position, r->axis));
+    OZ_PASS(oz_pair_list_renew(&r->near, &renewed, r->grains, r->position, r->axis,
+                               &r->scene->boundary));
     if (renewed) {
         free(r->pair_force);
         OZ_PASS(OZ_NEW(&r->pair_force, r->near.pairs.count));
@@ -104,10 +105,11 @@ static void move_before(OzReference *r, double dt)
 
 static void touch_pairs(OzReference *r, double dt)
 {
+    OzSpace space = oz_dialect_space(&r->physics);
     for (int64_t p = 0; p < r->near.pairs.count; p++) {
         OzPair pair = r->near.pairs.pair[p];
         r->pair_force[p] =
-            oz_rods_pair(r->seen[pair.a], r->seen[pair.b], 1, r->physics.parameters.law,
+            oz_rods_pair(r->seen[pair.a], r->seen[pair.b], space, r->physics.parameters.law,
                          &r->near.spring[p], dt, r->physics.share);
     }
 }

@@ -3,6 +3,7 @@
 #include "sim/sort_axis.h"
 
 #include "base/memory.h"
+#include "scene/boundary.h"
 
 #define OZ_HOST
 #include "kernels/closest.h"
@@ -16,7 +17,13 @@ typedef struct Ball {
     OzVec3 centre, half_shaft;
     double radius; /* of the grain */
     int id;
+    bool is_image;
 } Ball;
+
+typedef struct Balls {
+    Ball *ball;
+    int64_t count, capacity;
+} Balls;
 
 static Ball enclose(const OzGrains *grains, const double *x, const double *u, int id)
 {
@@ -65,13 +72,15 @@ static OzStatus add(OzPairs *list, const Ball *one, const Ball *other)
     return OZ_OK;
 }
 
-static OzStatus sweep(OzPairs *list, const Ball *balls, int64_t count, double skin)
+static OzStatus sweep(OzPairs *list, const Balls *balls, double skin)
 {
-    for (int64_t i = 0; i < count; i++) {
-        double lowest = balls[i].bottom - skin;
-        for (int64_t j = i + 1; j < count && balls[j].top > lowest; j++) {
-            OzStatus status =
-                near(&balls[i], &balls[j], skin) ? add(list, &balls[i], &balls[j]) : OZ_OK;
+    for (int64_t i = 0; i < balls->count; i++) {
+        const Ball *one = &balls->ball[i];
+        double lowest = one->bottom - skin;
+        for (int64_t j = i + 1; j < balls->count && balls->ball[j].top > lowest; j++) {
+            const Ball *other = &balls->ball[j];
+            bool meets = !(one->is_image && other->is_image) && one->id != other->id;
+            OzStatus status = meets && near(one, other, skin) ? add(list, one, other) : OZ_OK;
             if (status != OZ_OK) {
                 return status;
             }
@@ -80,27 +89,88 @@ static OzStatus sweep(OzPairs *list, const Ball *balls, int64_t count, double sk
     return OZ_OK;
 }
 
+static OzStatus add_ball(Balls *balls, const Ball *ball, const double shift[3])
+{
+    OZ_PASS(OZ_ROOM(&balls->ball, &balls->capacity, balls->count + 1, "balls"));
+    Ball *to = &balls->ball[balls->count++];
+    *to = *ball;
+    to->centre = oz_add(ball->centre, oz_vec3(shift[0], shift[1], shift[2]));
+    to->top += shift[2];
+    to->bottom += shift[2];
+    to->is_image = shift[0] != 0 || shift[1] != 0 || shift[2] != 0;
+    return OZ_OK;
+}
+
+/* A ball and its images that may meet something of the cell. */
+static OzStatus add_images(Balls *balls, const Ball *ball, double far, const OzBoundary *boundary)
+{
+    const double at[3] = {ball->centre.x, ball->centre.y, ball->centre.z};
+    for (int n = 0; n < 27; n++) {
+        const int cells[3] = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+        double shift[3];
+        bool meets = true;
+        for (int k = 0; k < 3; k++) {
+            double period = oz_boundary_period(boundary, k);
+            shift[k] = cells[k] * period;
+            meets &= cells[k] == 0 || (period > 0 && fabs(at[k] + shift[k]) < period / 2 + far);
+        }
+        if (meets) {
+            OZ_PASS(add_ball(balls, ball, shift));
+        }
+    }
+    return OZ_OK;
+}
+
+static OzStatus make_balls(Balls *balls, const OzGrains *grains, const double *position,
+                           const double *axis, double skin, const OzBoundary *boundary)
+{
+    double reach = 0;
+    for (int64_t i = 0; i < grains->count; i++) {
+        reach = fmax(reach, (grains->length[i] + grains->diameter[i]) / 2);
+    }
+    for (int i = 0; i < (int)grains->count; i++) {
+        double place[3];
+        memcpy(place, &position[3 * (int64_t)i], sizeof place);
+        oz_boundary_wrap(boundary, place);
+        Ball ball = enclose(grains, place, &axis[3 * (int64_t)i], i);
+        OZ_PASS(add_images(balls, &ball, ball.reach + reach + skin, boundary));
+    }
+    return OZ_OK;
+}
+
+/* A pair that meets across the border is found from both sides. */
+static void leave_out_twins(OzPairs *list)
+{
+    int64_t kept = 0;
+    for (int64_t k = 0; k < list->count; k++) {
+        if (k == 0 || by_ids(&list->pair[kept - 1], &list->pair[k]) != 0) {
+            list->pair[kept++] = list->pair[k];
+        }
+    }
+    list->count = kept;
+}
+
 OzStatus oz_sort_axis_pairs(OzPairs *list, const OzGrains *grains, const double *position,
-                            const double *axis, double skin)
+                            const double *axis, double skin, const OzBoundary *boundary)
 {
     OzStatus status = OZ_OK;
-    Ball *balls = NULL;
+    Balls balls = {0};
     list->count = 0;
     if (grains->count > INT_MAX) {
         return oz_status_fail(OZ_ERR_INPUT, "%lld grains, at most %d", (long long)grains->count,
                               INT_MAX);
     }
-    OZ_TRY(OZ_NEW(&balls, grains->count));
-    for (int i = 0; i < (int)grains->count; i++) {
-        balls[i] = enclose(grains, &position[3 * (int64_t)i], &axis[3 * (int64_t)i], i);
+    OZ_TRY(make_balls(&balls, grains, position, axis, skin, boundary));
+    if (balls.count > 0) {
+        qsort(balls.ball, (size_t)balls.count, sizeof *balls.ball, from_the_top);
     }
-    qsort(balls, (size_t)grains->count, sizeof *balls, from_the_top);
-    OZ_TRY(sweep(list, balls, grains->count, skin));
+    OZ_TRY(sweep(list, &balls, skin));
     if (list->count > 0) {
         qsort(list->pair, (size_t)list->count, sizeof *list->pair, by_ids);
+        leave_out_twins(list);
     }
 done:
-    free(balls);
+    free(balls.ball);
     return status;
 }
 

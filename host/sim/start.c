@@ -83,7 +83,8 @@ static OzStatus look_at_rods(OzStart *start, const OzScene *scene, const OzGrain
         memcpy(&look.now.position[3 * i], &grains->position[3 * i], 3 * sizeof(double));
     }
     OZ_TRY(oz_contacts_begin(&look.contacts, &look.now, &look.now.contacts));
-    OZ_TRY(oz_sort_axis_pairs(&pairs, grains, grains->position, look.now.axis, 0));
+    OZ_TRY(
+        oz_sort_axis_pairs(&pairs, grains, grains->position, look.now.axis, 0, &scene->boundary));
     for (int64_t k = 0; k < pairs.count; k++) {
         OZ_TRY(look_at_pair(&look, pairs.pair[k]));
     }

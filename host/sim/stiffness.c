@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "model/calibrate.h"
 #include "model/predict.h"
+#include "scene/boundary.h"
 #include "sim/contacts.h"
 #include "sim/dialect.h"
 #include "sim/sort_axis.h"
@@ -55,7 +56,10 @@ static OzStatus add(Bed *bed, const OzContactValues *values, double mass, Spring
 static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
 {
     const OzGrains *g = bed->now->grains;
-    OzVec3 apart = oz_minus(load(&bed->now->position[3 * a]), load(&bed->now->position[3 * b]));
+    const double *x = &bed->now->position[3 * a], *y = &bed->now->position[3 * b];
+    double between[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+    oz_boundary_wrap(&bed->now->scene->boundary, between);
+    OzVec3 apart = load(between);
     double reach = 0.5 * (g->diameter[a] + g->diameter[b]);
     OzVec3 half_a = oz_scale(load(&bed->now->axis[3 * a]), 0.5 * g->length[a]);
     OzVec3 half_b = oz_scale(load(&bed->now->axis[3 * b]), 0.5 * g->length[b]);
@@ -97,7 +101,8 @@ static OzStatus find_springs(Bed *bed)
     OzContactList at_walls = {0};
     OzContacts contacts;
     OZ_TRY(oz_contacts_begin(&contacts, bed->now, &at_walls));
-    OZ_TRY(oz_sort_axis_pairs(&pairs, bed->now->grains, bed->now->position, bed->now->axis, 0));
+    OZ_TRY(oz_sort_axis_pairs(&pairs, bed->now->grains, bed->now->position, bed->now->axis, 0,
+                              &bed->now->scene->boundary));
     for (int64_t k = 0; k < pairs.count; k++) {
         OZ_TRY(add_pair(bed, pairs.pair[k].a, pairs.pair[k].b));
     }

@@ -3,6 +3,7 @@
 
 #include "model/contact.h"
 #include "model/motion.h"
+#include "scene/boundary.h"
 #include "sim/gates.h"
 #include "sim/resolution.h"
 #include "sim/sides.h"
@@ -99,6 +100,9 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
     s.fine = oz_resolution_is_fine(scene, grains);
     count_kinds(&s, scene);
+    for (int k = 0; k < 3; k++) {
+        s.periodic |= (oz_boundary_period(&scene->boundary, k) > 0) << k;
+    }
     s.ledger = scene->observe.ledger;
     s.impulses = scene->observe.walls == OZ_OBSERVE_WALLS_MEAN && s.walls > 0;
     s.pushed = scene->is_pushed;

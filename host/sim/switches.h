@@ -39,6 +39,7 @@
     X(GATED, gated, "walls that come or go")                                                       \
     X(IMPULSES, impulses, "mean forces on walls")                                                  \
     X(PUSHED, pushed, NULL)                                                                        \
+    X(PERIODIC, periodic, "periodic boundaries")                                                   \
     X(ALL_PAIRS, all_pairs, NULL)
 
 typedef struct OzSwitches {
