@@ -227,7 +227,6 @@ static OzStatus end_export(OzOutputs *o)
     if (any && status == OZ_OK) {
         oz_log_line("%lld frames exported into %s", (long long)count, o->export_folder);
     }
-    o->exporter = NULL;
     oz_folder_close(&o->exported);
     free(o->export_folder);
     o->export_folder = NULL;
@@ -350,7 +349,6 @@ OzStatus oz_outputs_close(OzOutputs *o)
     OZ_OUTPUTS_OWNERS(CLOSE)
 #undef CLOSE
     o->is_open = false;
-    OZ_AFTER(status, end_export(o));
     if (o->final) {
         oz_final_give_up(o->final);
     }

@@ -26,7 +26,8 @@ typedef enum OzOutcome {
 
 /* THE list of what is handed a member's states, in the order in which they are closed: X(type,
  * member, what saves or loads what it remembers of them, what closes it), of OzOutputs *o and
- * OzStateVisit *visit. What later rows or pictures depend on belongs to one of these. */
+ * OzStateVisit *visit. What later rows or pictures depend on belongs to one of these; exports are
+ * made of frames.bin alone, and remember nothing. */
 #define OZ_OUTPUTS_OWNERS(X)                                                                       \
     X(OzPictures, pictures, oz_render_queue_state(o->render_queue, o->pictures, &o->now, visit),   \
       oz_render_queue_finish(o->render_queue, o->pictures))                                        \
@@ -34,21 +35,22 @@ typedef enum OzOutcome {
     X(OzContactRows, contact_rows, oz_contact_rows_state(o->contact_rows, visit),                  \
       oz_contact_rows_free(o->contact_rows))                                                       \
     X(OzSeries, series, oz_series_state(o->series, visit), oz_series_free(o->series))              \
-    X(OzReloadLog, reloads, oz_reload_log_state(o->reloads, visit), oz_reload_log_free(o->reloads))
+    X(OzReloadLog, reloads, oz_reload_log_state(o->reloads, visit),                                \
+      oz_reload_log_free(o->reloads))                                                              \
+    X(OzExporter, exporter, OZ_OK, end_export(o))
 
 /* One member. Zeroed is valid: what was not opened is not closed. It must not move in memory while
  * open. */
 typedef struct OzOutputs {
     OzScene scene;
     OzGrains grains;
-    OzSnapshot now;       /* the state to be written next */
-    char *name;           /* of a member of an ensemble, as in seed_00003; owned */
-    char *folder;         /* owned */
-    char *final;          /* owned: path of final.csv, once its room is reserved */
-    OzFolder owned;       /* of a member of an ensemble: its folder, in use */
-    OzExporter *exporter; /* from the first frame on that is exported */
-    char *export_folder;  /* owned */
-    OzFolder exported;    /* the same, in use */
+    OzSnapshot now;      /* the state to be written next */
+    char *name;          /* of a member of an ensemble, as in seed_00003; owned */
+    char *folder;        /* owned */
+    char *final;         /* owned: path of final.csv, once its room is reserved */
+    OzFolder owned;      /* of a member of an ensemble: its folder, in use */
+    char *export_folder; /* owned, from the first frame on that is exported */
+    OzFolder exported;   /* the same, in use */
 #define OZ_OUTPUTS_MEMBER(type, member, state, close) type *member;
     OZ_OUTPUTS_OWNERS(OZ_OUTPUTS_MEMBER)
 #undef OZ_OUTPUTS_MEMBER
