@@ -10,7 +10,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-enum { FILES_MAX = 64, DEPTH_MAX = 16 };
+enum { FILES_MAX = 128, DEPTH_MAX = 16 };
 
 typedef struct Flat {
     FILE *out;
