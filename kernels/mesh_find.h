@@ -42,7 +42,7 @@ OZ_INLINE OzMeshFace oz_mesh_find_load(const OzWork *w, const OzMeshView *view, 
     place.x = view->place[0];
     place.y = view->place[1];
     place.z = view->place[2];
-    found.from = oz_fixed_position_minus(place, corner, w->parameters->length_unit);
+    found.from = oz_space_minus(place, corner, oz_work_space(w));
     found.from = oz_minus(
         found.from, oz_vec3(REAL(view->shift[0]), REAL(view->shift[1]), REAL(view->shift[2])));
     found.one = oz_vec3(b[0], b[1], b[2]);
