@@ -13,6 +13,9 @@ typedef struct OzLawConstants {
     scalar tangential_stiffness; /* k_t / m*, 1/s^2                                        */
     scalar tangential_damping;   /* c_t / m*, 1/s                                          */
     scalar friction;             /* Coulomb coefficient                                    */
+    scalar rolling_friction,
+        twisting_friction;  /* couple over normal force and radius (contact_rolling.h) */
+    scalar rolling_damping; /* of the rolling spring, over critical damping           */
 } OzLawConstants;
 
 typedef struct OzContact {
@@ -23,8 +26,22 @@ typedef struct OzContact {
     real mass;       /* kg, effective: 1/mass = 1/mass_a + 1/mass_b; of the grain at a wall */
     real radius;     /* m, effective: 1/radius = 1/radius_a + 1/radius_b; of the grain at a wall */
     real lightness;  /* root of (mass that the contact feels, rotation included, / mass)   */
+    OzVec3 turning;  /* rad/s, of b relative to a; this and the next with OZ_ROLLING only  */
+    real inertia;    /* kg m^2: 1/inertia = 1/(mass_a radius_a^2) + 1/(mass_b radius_b^2)  */
     mask touching;
 } OzContact;
+
+/* What a contact remembers between steps, zero before first touch. */
+typedef struct OzMemory {
+    OzVec3 stretch; /* m, the tangential spring; with OZ_HISTORY only                      */
+    OzVec3 turned;  /* rad, by which the rolling spring is turned; with OZ_ROLLING_SPRING  */
+} OzMemory;
+
+/* What a contact does against rotation: couples on b, N m; a feels the opposite. */
+typedef struct OzCouple {
+    OzVec3 spring, dashpot; /* constant couples are the spring's part                      */
+    real stiffness;         /* N m, of the spring                                          */
+} OzCouple;
 
 /* What a law answers to overlap and rate. */
 typedef struct OzResponse {
@@ -48,8 +65,16 @@ typedef struct OzContactForce {
     OzVec3 dashpot;            /* N, on b: the dashpots' part; tangential none while sliding */
     real energy;               /* J, in the normal spring                                   */
     real tangential_stiffness; /* N/m                                                       */
+    OzCouple couple;           /* with OZ_ROLLING only                                      */
     mask slips;
 } OzContactForce;
+
+OZ_INLINE OzCouple oz_contact_no_couple(void)
+{
+    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    OzCouple couple = {none, none, REAL(0.0)};
+    return couple;
+}
 
 /* The stored spring turned with the normal as the pair turns (Pournin et al. 2005 take the normal as
  * constant; real contacts roll): projected on the new tangent plane, its length kept to fourth order of

@@ -7,6 +7,7 @@
 #include "kernels/contact_hertz.h"
 #include "kernels/contact_hertz_mindlin.h"
 #include "kernels/contact_hooke.h"
+#include "kernels/contact_rolling.h"
 #include "kernels/laws.h"
 
 OZ_INLINE OzResponse oz_contact_response(OzContact c, OzLawConstants law)
@@ -43,12 +44,12 @@ OZ_INLINE void oz_contact_limit(OzFriction *f, real limit, real stiffness, OzVec
     f->dashpot = oz_choose(f->slips, oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), f->dashpot);
 }
 
-/* The tangential force, limited by friction times |normal_force|. *history is the tangential spring
- * as stored between steps, zero before first touch; it is replaced. The share of the step by which
+/* The tangential force, limited by friction times |normal_force|. *memory is what is stored between
+ * steps; its stretch is replaced. The share of the step by which
  * it is advanced before the force (the rest after it) is the integrator's: 0 explicit, 1/2 second
  * order, 1 symplectic. */
 OZ_INLINE OzFriction oz_contact_friction(OzContact c, OzResponse response, real normal_force,
-                                         scalar friction, OzVec3 *history, scalar dt, scalar share)
+                                         scalar friction, OzMemory *memory, scalar dt, scalar share)
 {
     OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), stretch = none;
     OzFriction f = {none, none, c.touching};
@@ -58,7 +59,7 @@ OZ_INLINE OzFriction oz_contact_friction(OzContact c, OzResponse response, real 
         f.dashpot = oz_scale(sliding, response.tangential_damping);
         f.force = f.dashpot;
         if (OZ_HISTORY) {
-            OzVec3 turned = oz_contact_turn(*history, c.normal);
+            OzVec3 turned = oz_contact_turn(memory->stretch, c.normal);
             stretch = oz_along(turned, REAL(share * dt), sliding);
             f.force = oz_along(f.force, response.tangential_stiffness, stretch);
         }
@@ -66,24 +67,32 @@ OZ_INLINE OzFriction oz_contact_friction(OzContact c, OzResponse response, real 
                          &stretch);
         if (OZ_HISTORY) {
             OzVec3 next = oz_along(stretch, REAL((1 - share) * dt), sliding);
-            *history = oz_where(c.touching, next);
+            memory->stretch = oz_where(c.touching, next);
         }
     }
     return f;
 }
 
-OZ_INLINE OzContactForce oz_contact_force(OzContact c, OzLawConstants law, OzVec3 *history, scalar dt,
-                                          scalar share)
+/* The overlap, or what may be divided by. */
+OZ_INLINE real oz_contact_depth(OzContact c)
+{
+    return c.touching ? c.overlap : REAL(1.0);
+}
+
+OZ_INLINE OzContactForce oz_contact_force(OzContact c, OzLawConstants law, OzMemory *memory,
+                                          scalar dt, scalar share)
 {
     OzContactForce out;
     OzResponse response = oz_contact_response(c, law);
     real normal_force = response.spring + response.dashpot;
-    OzFriction f = oz_contact_friction(c, response, normal_force, law.friction, history, dt, share);
+    OzFriction f = oz_contact_friction(c, response, normal_force, law.friction, memory, dt, share);
     out.force = oz_where(c.touching, oz_along(f.force, normal_force, c.normal));
     out.spring = oz_where(c.touching, oz_minus(f.force, f.dashpot));
     out.dashpot = oz_where(c.touching, oz_along(f.dashpot, response.dashpot, c.normal));
     out.slips = f.slips;
     out.energy = c.touching ? response.energy : REAL(0.0);
     out.tangential_stiffness = response.tangential_stiffness;
+    out.couple = oz_contact_rolling(c, law, normal_force, response.spring / oz_contact_depth(c),
+                                    memory, dt, share);
     return out;
 }

@@ -31,7 +31,7 @@ typedef struct OzLine {
     OzVec3 dashpot_a, dashpot_b;                   /* N m, the dashpots' torques                */
     OzVec3 normal, arm_a, arm_b;                   /* overlap-weighted sums                     */
     real overlap;                                  /* m, weighted sum                           */
-    real push, energy;                             /* N, J                                      */
+    real push, spring, energy;                     /* N, the spring's part of it, J             */
     real tangential_stiffness, tangential_damping; /* N/m, kg/s                                 */
 } OzLine;
 
@@ -54,6 +54,7 @@ OZ_INLINE void oz_line_add(OzLine *sum, OzContact at, OzVec3 arm_a, OzVec3 arm_b
     sum->arm_b = oz_along(sum->arm_b, depth, arm_b);
     sum->overlap += depth;
     sum->push += share * (response.spring + response.dashpot);
+    sum->spring += share * response.spring;
     sum->energy += share * response.energy;
     sum->tangential_stiffness += share * response.tangential_stiffness;
     sum->tangential_damping += share * response.tangential_damping;
@@ -130,7 +131,8 @@ OZ_INLINE OzLine oz_line_sum(OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants 
 {
     OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), a1 = a.half_shaft, a2 = b.half_shaft;
     real zero = REAL(0.0), aa = oz_dot(a1, a1), bb = oz_dot(a2, a2), reach = a.radius + b.radius;
-    OzLine sum = {none, none, none, none, none, none, none, none, none, zero, zero, zero, zero, zero};
+    OzLine sum = {none, none, none, none, none, none, none, none,
+                  none, zero, zero, zero, zero, zero, zero};
     OzVec3 across = oz_cross(a1, a2);
     real aabb = oz_larger(aa * bb, REAL(OZ_TINY * OZ_TINY));
     real widest = REAL(OZ_LINE_ASIDE * OZ_LINE_ASIDE) * reach * reach /

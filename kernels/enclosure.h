@@ -105,23 +105,19 @@ OZ_INLINE OzWallEnd oz_enclosure_end(const OzWork *w, OzGrain grain, const OzSid
 OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, OzWallEnd where,
                                   const int *slots, int count, int step)
 {
-    OzVec3 history = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
-    if (OZ_HISTORY) {
-        history = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index);
-    }
+    OzMemory memory = oz_enclosure_side_memory(w, side, slots);
     where.wall_velocity = oz_enclosure_side_velocity(
         w, grain.position, oz_rods_wall_arm(grain, where.end, where.wall), side);
-    OzWallForce found = oz_rods_wall(grain, where, w->parameters->wall[side->wall].law, &history,
+    where.wall_turning = oz_enclosure_side_turning(w, side);
+    OzWallForce found = oz_rods_wall(grain, where, w->parameters->wall[side->wall].law, &memory,
                                      w->parameters->dt, oz_integrate_share());
-    if (OZ_HISTORY) {
-        oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index, history);
-    }
-    OzVec3 force = oz_where(OZ_ACTIVE_BEFORE(count), found.parts.force);
-    oz_loads_add(w, slots, force, oz_cross(found.arm, force));
-#if OZ_IMPULSES
-    oz_wall_impulse_add(w, side, grain, slots, count, found.arm, force);
-#endif
+    oz_enclosure_side_remember(w, side->index, slots, memory);
     mask counts = OZ_ACTIVE_BEFORE(count);
+    oz_loads_add(w, slots, oz_where(counts, found.parts.force),
+                 oz_where(counts, oz_rods_wall_torque(found)));
+#if OZ_IMPULSES
+    oz_wall_impulse_add(w, side, grain, slots, count, found);
+#endif
     OzContact whole = found.contact;
     if (oz_enclosure_shares(side)) {
         whole.overlap = grain.radius - where.wall.distance;
@@ -137,6 +133,11 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
                   found.arm);
     oz_lanes_put(w->wall_ledger, slots, OZ_WALL_ENDS * OZ_CONTACT_LEDGER,
                  side->index * OZ_CONTACT_LEDGER + OZ_CONTACT_LEDGER - 1, found.parts.energy);
+    if (OZ_ROLLING) {
+        oz_pairs_note_couple(w->wall_couple, slots, OZ_WALL_ENDS * OZ_COUPLE_LEDGER,
+                             side->index * OZ_COUPLE_LEDGER, found.contact, found.parts,
+                             oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)));
+    }
 #endif
 }
 
@@ -144,8 +145,9 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
 OZ_INLINE void oz_enclosure_forget(OzWork *w, const int *slots, int k)
 {
     OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
-    for (int part = 0; part < OZ_WALL_SHAFT_PARTS && OZ_HISTORY; part++) {
-        oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * (k + part), none);
+    OzMemory memory = {none, none};
+    for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
+        oz_enclosure_side_remember(w, k + part, slots, memory);
     }
 }
 
@@ -177,21 +179,31 @@ OZ_INLINE void oz_enclosure_touch_shafts(OzWork *w, const OzSide *sides, int k, 
     oz_lanes_put(w->wall_relief, slots, 2, OZ_WALL_TAIL, tail);
 }
 
-/* An end that touches another side in the place of this one is not picked here. Its tangential
- * spring goes over to there, unless there is one. */
+/* One spring goes over, unless there is one; is_picked: whether it may. */
+OZ_INLINE void oz_enclosure_hand(global scalar *given, global scalar *taken, int is_picked)
+{
+    int is_free = taken[0] == 0 && taken[OZ_LANES] == 0 && taken[2 * OZ_LANES] == 0;
+    is_free = is_free && is_picked;
+    for (int c = 0; c < 3; c++) {
+        taken[c * OZ_LANES] = is_free ? given[c * OZ_LANES] : taken[c * OZ_LANES];
+        given[c * OZ_LANES] = 0;
+    }
+}
+
+/* An end that touches another side in the place of this one is not picked here. Its springs go over
+ * to there, unless there are some. */
 OZ_INLINE void oz_enclosure_hand_over(OzWork *w, int slot, int from, int to)
 {
     size_t block = (size_t)(slot / OZ_LANES) * OZ_WALL_ENDS;
     int lane = slot % OZ_LANES;
 #if OZ_HISTORY
-    global scalar *given = (global scalar *)(w->wall_history + 3 * (block + from)) + lane;
-    global scalar *taken = (global scalar *)(w->wall_history + 3 * (block + to)) + lane;
-    int is_free = taken[0] == 0 && taken[OZ_LANES] == 0 && taken[2 * OZ_LANES] == 0;
-    is_free = is_free && (w->wall_active[block + to] >> lane) & 1;
-    for (int c = 0; c < 3; c++) {
-        taken[c * OZ_LANES] = is_free ? given[c * OZ_LANES] : taken[c * OZ_LANES];
-        given[c * OZ_LANES] = 0;
-    }
+    int is_picked = (w->wall_active[block + to] >> lane) & 1;
+    oz_enclosure_hand((global scalar *)(w->wall_history + 3 * (block + from)) + lane,
+                      (global scalar *)(w->wall_history + 3 * (block + to)) + lane, is_picked);
+#endif
+#if OZ_ROLLING_SPRING
+    oz_enclosure_hand((global scalar *)(w->wall_rolling + 3 * (block + from)) + lane,
+                      (global scalar *)(w->wall_rolling + 3 * (block + to)) + lane, is_picked);
 #endif
     w->wall_active[block + from] &= ~(1 << lane);
 }
@@ -259,6 +271,10 @@ OZ_INLINE void oz_enclosure_part(OzWork *w, size_t index, int bits)
     for (int l = 0; gone != 0 && l < OZ_LANES; l++) {
         if ((gone >> l) & 1) {
             kept[l] = kept[OZ_LANES + l] = kept[2 * OZ_LANES + l] = 0;
+#if OZ_ROLLING_SPRING
+            global scalar *turned = (global scalar *)(w->wall_rolling + 3 * index);
+            turned[l] = turned[OZ_LANES + l] = turned[2 * OZ_LANES + l] = 0;
+#endif
         }
     }
 #endif
@@ -328,6 +344,10 @@ OZ_INLINE void oz_enclosure_sieve(OzWork *w, const OzSide *sides, int block)
 #if OZ_LEDGER
     global real *words = w->wall_ledger + (size_t)block * OZ_WALL_ENDS * OZ_CONTACT_LEDGER;
     for (int k = 0; k < OZ_WALL_ENDS * OZ_CONTACT_LEDGER; k++) {
+        words[k] = REAL(0.0);
+    }
+    words = w->wall_couple + (size_t)block * OZ_WALL_ENDS * OZ_COUPLE_LEDGER;
+    for (int k = 0; k < (OZ_ROLLING ? OZ_WALL_ENDS * OZ_COUPLE_LEDGER : 0); k++) {
         words[k] = REAL(0.0);
     }
 #endif

@@ -73,6 +73,30 @@ OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
     return side;
 }
 
+/* What a picked end or point remembers of its contact with the side. */
+OZ_INLINE OzMemory oz_enclosure_side_memory(const OzWork *w, const OzSide *side, const int *slots)
+{
+    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    OzMemory memory = {none, none};
+    if (OZ_HISTORY) {
+        memory.stretch = oz_work_fetch3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * side->index);
+    }
+    if (OZ_ROLLING_SPRING) {
+        memory.turned = oz_work_fetch3(w->wall_rolling, slots, 3 * OZ_WALL_ENDS, 3 * side->index);
+    }
+    return memory;
+}
+
+OZ_INLINE void oz_enclosure_side_remember(OzWork *w, int index, const int *slots, OzMemory memory)
+{
+    if (OZ_HISTORY) {
+        oz_work_put3(w->wall_history, slots, 3 * OZ_WALL_ENDS, 3 * index, memory.stretch);
+    }
+    if (OZ_ROLLING_SPRING) {
+        oz_work_put3(w->wall_rolling, slots, 3 * OZ_WALL_ENDS, 3 * index, memory.turned);
+    }
+}
+
 /* How the side's wall moves. */
 OZ_INLINE OzWallDrive oz_enclosure_side_drive(const OzWork *w, const OzSide *side)
 {
@@ -118,6 +142,17 @@ OZ_INLINE OzVec3 oz_enclosure_side_velocity(const OzWork *w, OzFixedPosition pos
     }
     return oz_wall_drive_velocity(oz_enclosure_side_drive(w, side),
                                   oz_enclosure_side_from(w, position_, arm, side));
+}
+
+/* How fast it turns. */
+OZ_INLINE OzVec3 oz_enclosure_side_turning(const OzWork *w, const OzSide *side)
+{
+    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    if (!OZ_FREE_MOTION) {
+        return none;
+    }
+    OzWallDrive drive = oz_enclosure_side_drive(w, side);
+    return oz_scale(drive.axis, drive.rate);
 }
 
 #if OZ_FINE

@@ -24,8 +24,12 @@
  * a contact's words for them (see ledger.h). */
 enum { OZ_CONTACT_LEDGER = 16 };
 
+/* What it has beside that of couples: the dashpots', the rotation, with OZ_ROLLING the springs'. */
+#define OZ_COUPLE_LEDGER (OZ_ROLLING ? 9 : 6)
+
 /* A slot's words in the spare array, where a re-sort puts grains in their new order. */
-#define OZ_SPARE (OZ_STATE + OZ_SHAPE + 3 * OZ_WALL_ENDS + OZ_MESH_WORDS + 1)
+#define OZ_SPARE                                                                                   \
+    (OZ_STATE + OZ_SHAPE + (OZ_ROLLING_SPRING ? 6 : 3) * OZ_WALL_ENDS + OZ_MESH_WORDS + 1)
 
 #define OZ_FIELDS(X)                                                                               \
     X(parameters, parameters, 1, SCRATCH)                                                          \
@@ -34,6 +38,7 @@ enum { OZ_CONTACT_LEDGER = 16 };
     X(real, state, z.blocks *OZ_STATE, STATE)                                                      \
     X(real, shape, OZ_EQUAL ? 0 : z.blocks *OZ_SHAPE, STATE)                                       \
     X(real, wall_history, OZ_HISTORY ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)                     \
+    X(real, wall_rolling, OZ_ROLLING_SPRING ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)              \
     X(integer, wall_active, z.blocks *OZ_WALL_ENDS, SPRING)                                        \
     X(real, wall_relief, OZ_ROUND || OZ_WALL_EDGED == 0 ? 0 : z.blocks * 2, SCRATCH)               \
     X(scalar, mesh_grid, OZ_MESHES *OZ_MESH_GRID, SCRATCH)                                         \
@@ -62,6 +67,7 @@ enum { OZ_CONTACT_LEDGER = 16 };
     X(integer, outer_a, z.regions *z.outer_capacity, ROWS)                                         \
     X(integer, outer_b, z.regions *z.outer_capacity, ROWS)                                         \
     X(scalar, outer_history, OZ_HISTORY ? z.regions *z.outer_capacity * 3 : 0, ROWS)               \
+    X(scalar, outer_rolling, OZ_ROLLING_SPRING ? z.regions *z.outer_capacity * 3 : 0, ROWS)        \
     X(integer, outer_count, z.regions, LIST)                                                       \
     X(integer, outer_first, OZ_HISTORY && !OZ_TILES ? z.slots : 0, LIST)                           \
     X(integer, outer_number, OZ_HISTORY && !OZ_TILES ? z.slots : 0, LIST)                          \
@@ -69,6 +75,7 @@ enum { OZ_CONTACT_LEDGER = 16 };
     X(integer, pair_b, z.regions *z.inner_capacity, LIST)                                          \
     X(integer, pair_outer, OZ_HISTORY ? z.regions *z.inner_capacity : 0, LIST)                     \
     X(scalar, pair_history, OZ_HISTORY ? z.regions *z.inner_capacity *OZ_SPRING : 0, LIST)         \
+    X(scalar, pair_rolling, OZ_ROLLING_SPRING ? z.regions *z.inner_capacity *OZ_SPRING : 0, LIST)  \
     X(scalar, load, (z.slots + (OZ_TILES ? 2 * z.regions : 0)) * OZ_LOAD, SCRATCH)                 \
     X(scalar, pair_force, OZ_GATHER ? (z.regions * z.inner_capacity + 1) * OZ_PAIR_FORCE : 0,      \
       SCRATCH)                                                                                     \
@@ -85,11 +92,16 @@ enum { OZ_CONTACT_LEDGER = 16 };
     X(integer, saved_a, OZ_HISTORY ? z.regions *z.inner_capacity : 0, SPRING)                      \
     X(integer, saved_b, OZ_HISTORY ? z.regions *z.inner_capacity : 0, SPRING)                      \
     X(scalar, saved_history, OZ_HISTORY ? z.regions *z.inner_capacity * 3 : 0, SPRING)             \
+    X(scalar, saved_rolling, OZ_ROLLING_SPRING ? z.regions *z.inner_capacity * 3 : 0, SPRING)      \
     X(integer, saved_count, OZ_HISTORY ? z.regions : 0, SPRING)                                    \
     X(ledger, ledger, OZ_LEDGER ? z.slots *OZ_LEDGER_WORDS : 0, STATE)                             \
     X(real, pair_ledger,                                                                           \
       OZ_LEDGER ? z.regions *z.inner_capacity / OZ_LANES *OZ_CONTACT_LEDGER : 0, SCRATCH)          \
-    X(real, pair_couple, OZ_LEDGER &OZ_LINE ? z.regions *z.inner_capacity / OZ_LANES * 6 : 0,      \
+    X(real, pair_couple,                                                                           \
+      OZ_LEDGER &(OZ_LINE | OZ_ROLLING) ? z.regions *z.inner_capacity / OZ_LANES *OZ_COUPLE_LEDGER \
+                                        : 0,                                                       \
+      SCRATCH)                                                                                     \
+    X(real, wall_couple, OZ_LEDGER &OZ_ROLLING ? z.blocks *OZ_WALL_ENDS *OZ_COUPLE_LEDGER : 0,     \
       SCRATCH)                                                                                     \
     X(real, wall_ledger, OZ_LEDGER ? z.blocks *OZ_WALL_ENDS *OZ_CONTACT_LEDGER : 0, SCRATCH)       \
     X(ledger, wall_impulse, OZ_IMPULSES ? z.slots *OZ_WALL_COUNT *OZ_IMPULSE_WORDS : 0, STATE)     \

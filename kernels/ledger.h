@@ -39,13 +39,16 @@ OZ_INLINE void oz_ledger_add(OzWork *w, const int *slots, int bits, global const
 }
 
 /* Adds what dashpots took in that act elsewhere than at the mean of a pair's points
- * (contact_line.h). */
-OZ_INLINE void oz_ledger_add_couple(OzWork *w, const int *slots, int bits, int block, OzVec3 after)
+ * (contact_line.h), and what resists rotation. */
+OZ_INLINE void oz_ledger_add_couple(OzWork *w, const int *slots, int bits, global const real *words,
+                                    OzVec3 after)
 {
-    global const real *words = w->pair_couple + 6 * (size_t)block;
     OzVec3 mean = oz_scale(oz_add(oz_work_load3(words + 3), after), REAL(0.5));
-    oz_ledger_give(w, slots, bits, OZ_L_DISSIPATED, oz_dot(oz_work_load3(words), mean),
-                   -(double)w->parameters->dt);
+    double dt = w->parameters->dt;
+    oz_ledger_give(w, slots, bits, OZ_L_DISSIPATED, oz_dot(oz_work_load3(words), mean), -dt);
+    if (OZ_ROLLING) {
+        oz_ledger_give(w, slots, bits, OZ_L_SPRING, oz_dot(oz_work_load3(words + 6), mean), -dt);
+    }
 }
 
 OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
@@ -67,9 +70,10 @@ OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
         OzVec3 after = oz_minus(oz_grain_velocity_at(other, oz_work_load3(words + 12)),
                                 oz_grain_velocity_at(one, oz_work_load3(words + 9)));
         oz_ledger_add(w, a, bits, words, after);
-        if (OZ_LINE) {
+        if (OZ_LINE || OZ_ROLLING) {
             OzVec3 turning = oz_minus(other.rate, one.rate);
-            oz_ledger_add_couple(w, a, bits, first / OZ_LANES, turning);
+            size_t at = (size_t)(first / OZ_LANES) * OZ_COUPLE_LEDGER;
+            oz_ledger_add_couple(w, a, bits, w->pair_couple + at, turning);
         }
     }
 }
@@ -91,6 +95,23 @@ OZ_INLINE OzVec3 oz_ledger_wall_velocity(const OzWork *w, OzGrain grain, OzVec3 
     OzSide side = oz_enclosure_side_of(w, index, step);
     return oz_enclosure_side_velocity(w, grain.position, arm, &side);
 }
+
+#if OZ_ROLLING
+/* What resists rotation at a wall, and the work of one that turns. */
+OZ_INLINE void oz_ledger_wall_couple(OzWork *w, const int *slots, int bits, OzVec3 rate, int index,
+                                     int step)
+{
+    global const real *words =
+        w->wall_couple + ((size_t)(slots[0] / OZ_LANES) * OZ_WALL_ENDS + index) * OZ_COUPLE_LEDGER;
+    OzSide old_side = oz_enclosure_side_of(w, index, step);
+    OzSide new_side = oz_enclosure_side_of(w, index, step + 1 - OZ_MOVES_BEFORE);
+    OzVec3 turning = oz_enclosure_side_turning(w, &new_side);
+    oz_ledger_add_couple(w, slots, bits, words, oz_minus(rate, turning));
+    OzVec3 couple = oz_add(oz_work_load3(words), oz_work_load3(words + 6));
+    real power = oz_dot(couple, oz_add(turning, oz_enclosure_side_turning(w, &old_side)));
+    oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, power, 0.5 * w->parameters->dt);
+}
+#endif
 
 #if OZ_GATED
 /* A wall that comes into a grain puts in what the contact stores, and one that goes takes away what
@@ -146,6 +167,9 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
             oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, words[11], mean * w->parameters->dt);
 #endif
             oz_ledger_add(w, slots, bits, words, after);
+#if OZ_ROLLING
+            oz_ledger_wall_couple(w, slots, bits, grain.rate, index, step);
+#endif
 #if OZ_GATED
             oz_ledger_gate(w, slots, bits, index, after, words, step);
 #endif

@@ -9,7 +9,7 @@
 /* The kernels' SPRING is what tangential springs were given: what they do not hold is friction. */
 #define OZ_LEDGER_LOSSES(X)                                                                        \
     X(DISSIPATED, dissipated, energy_dissipated, "lost in dashpots so far")                        \
-    X(SPRING, friction, energy_friction, "lost by sliding so far")
+    X(SPRING, friction, energy_friction, "lost by sliding and resisted rolling so far")
 
 #define OZ_ELEMENT_LEDGER_LOSSES(X)                                                                \
     X(BEAM_AXIAL, beam_axial, energy_beam_axial, "lost along beams so far")                        \

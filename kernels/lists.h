@@ -100,11 +100,8 @@ OZ_INLINE void oz_lists_take(OzWork *w, int outer, int to, int back)
     }
 #endif
 #if OZ_HISTORY
-    global scalar *history = w->pair_history + (size_t)to * OZ_SPRING;
     w->pair_outer[to] = outer;
-    history[0] = w->outer_history[3 * (size_t)outer];
-    history[1] = w->outer_history[3 * (size_t)outer + 1];
-    history[2] = w->outer_history[3 * (size_t)outer + 2];
+    oz_springs_take(w, outer, to);
 #endif
 }
 

@@ -165,11 +165,9 @@ OZ_INLINE size_t oz_mesh_find_at(int grain, int mesh, int slot, int words, int w
     return oz_lanes_at(grain, OZ_MESHES * OZ_MESH_SLOTS * words, place);
 }
 
-/* Springs go where their touches go on. first: the mesh's first slot among all ends. */
-OZ_INLINE void oz_mesh_find_hand_over(OzWork *w, int grain, int first, const int *spring_to)
+/* Springs, of one kind, go where their touches go on. first: the mesh's first slot among all ends. */
+OZ_INLINE void oz_mesh_find_hand(global scalar *history, int grain, int first, const int *spring_to)
 {
-#if OZ_HISTORY
-    global scalar *history = (global scalar *)w->wall_history;
     for (int c = 0; c < 3; c++) {
         scalar kept[OZ_MESH_SLOTS];
         for (int k = 0; k < OZ_MESH_SLOTS; k++) {
@@ -185,6 +183,15 @@ OZ_INLINE void oz_mesh_find_hand_over(OzWork *w, int grain, int first, const int
             history[oz_lanes_at(grain, 3 * OZ_WALL_ENDS, 3 * (first + k) + c)] = kept[k];
         }
     }
+}
+
+OZ_INLINE void oz_mesh_find_hand_over(OzWork *w, int grain, int first, const int *spring_to)
+{
+#if OZ_HISTORY
+    oz_mesh_find_hand((global scalar *)w->wall_history, grain, first, spring_to);
+#endif
+#if OZ_ROLLING_SPRING
+    oz_mesh_find_hand((global scalar *)w->wall_rolling, grain, first, spring_to);
 #endif
 }
 

@@ -113,13 +113,26 @@ OZ_INLINE void oz_pairs_note(global real *words, const int *items, int stride, i
     oz_work_put3(words, items, stride, word + 12, arm);
 }
 
+/* What it needs of their resistance against rotation; dashpot: other dashpots' couple. */
+OZ_INLINE void oz_pairs_note_couple(global real *words, const int *items, int stride, int word,
+                                    OzContact contact, OzContactForce parts, OzVec3 dashpot)
+{
+    oz_work_put3(words, items, stride, word, oz_add(parts.couple.dashpot, dashpot));
+    oz_work_put3(words, items, stride, word + 3, contact.turning);
+    oz_work_put3(words, items, stride, word + 6, parts.couple.spring);
+}
+
 OZ_INLINE void oz_pairs_note_pair(OzWork *w, const int *items, OzPairForce pair)
 {
     oz_pairs_note(w->pair_ledger, items, OZ_CONTACT_LEDGER, 0, pair.contact, pair.parts, pair.arm_a,
                   pair.arm_b);
     if (OZ_LINE) {
-        oz_work_put3(w->pair_couple, items, 6, 0, pair.couple);
-        oz_work_put3(w->pair_couple, items, 6, 3, pair.turning);
+        oz_work_put3(w->pair_couple, items, OZ_COUPLE_LEDGER, 0, pair.couple);
+        oz_work_put3(w->pair_couple, items, OZ_COUPLE_LEDGER, 3, pair.turning);
+    }
+    if (OZ_ROLLING) {
+        oz_pairs_note_couple(w->pair_couple, items, OZ_COUPLE_LEDGER, 0, pair.contact, pair.parts,
+                             pair.couple);
     }
 }
 
@@ -129,8 +142,8 @@ OZ_INLINE void oz_pairs_note_none(OzWork *w, size_t block)
     for (int k = 0; k < OZ_CONTACT_LEDGER; k++) {
         w->pair_ledger[block * OZ_CONTACT_LEDGER + k] = REAL(0.0);
     }
-    for (int k = 0; k < (OZ_LINE ? 6 : 0); k++) {
-        w->pair_couple[block * 6 + k] = REAL(0.0);
+    for (int k = 0; k < (OZ_LINE || OZ_ROLLING ? OZ_COUPLE_LEDGER : 0); k++) {
+        w->pair_couple[block * OZ_COUPLE_LEDGER + k] = REAL(0.0);
     }
 }
 #endif
@@ -199,24 +212,35 @@ OZ_INLINE void oz_pairs_finish(OzWork *w, const OzPairs *pairs, int at, mask cou
 #endif
 }
 
-/* The springs of picked pairs. */
-OZ_INLINE OzVec3 oz_pairs_load_springs(const OzWork *w, const int *items)
+/* The springs of picked pairs, those of `list`. */
+OZ_INLINE OzVec3 oz_pairs_load_springs(global const scalar *list, const int *items)
 {
-    real words[4] = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
-    if (OZ_HISTORY) {
-        oz_lanes_load4(w->pair_history, items, OZ_SPRING, 0, words);
-    }
+    real words[4];
+    oz_lanes_load4(list, items, OZ_SPRING, 0, words);
     return oz_vec3(words[0], words[1], words[2]);
 }
 
-OZ_INLINE void oz_pairs_store_springs(OzWork *w, const int *items, OzVec3 springs)
+OZ_INLINE void oz_pairs_store_springs(global scalar *list, const int *items, OzVec3 springs)
 {
     scalar4 rows[OZ_LANES];
     oz_lanes_rows3(springs, rows);
 #pragma unroll
     for (int l = 0; l < OZ_LANES; l++) {
-        *(global scalar4 *)(w->pair_history + (size_t)items[l] * OZ_SPRING) = rows[l];
+        *(global scalar4 *)(list + (size_t)items[l] * OZ_SPRING) = rows[l];
     }
+}
+
+OZ_INLINE OzMemory oz_pairs_load_memory(const OzWork *w, const int *items)
+{
+    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    OzMemory memory = {none, none};
+    if (OZ_HISTORY) {
+        memory.stretch = oz_pairs_load_springs(w->pair_history, items);
+    }
+    if (OZ_ROLLING_SPRING) {
+        memory.turned = oz_pairs_load_springs(w->pair_rolling, items);
+    }
+    return memory;
 }
 
 /* Forces of one block of picked pairs, one pair a lane, from number `at` on. Only the first `count`
@@ -228,13 +252,16 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
     const int *items = pairs->active.item + at;
     OzGrain one = oz_pairs_grains(w, pairs, 0, at), other = oz_pairs_grains(w, pairs, 1, at);
     OzVec3 apart = oz_pairs_vector(pairs, OZ_P_APART, at);
-    OzVec3 springs = oz_pairs_load_springs(w, items);
+    OzMemory memory = oz_pairs_load_memory(w, items);
     OzClosest closest = {OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST] + at),
                          OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST + 1] + at)};
-    OzPairForce pair = oz_rods_touch(one, other, apart, closest, law, &springs, w->parameters->dt,
+    OzPairForce pair = oz_rods_touch(one, other, apart, closest, law, &memory, w->parameters->dt,
                                      oz_integrate_share());
     if (OZ_HISTORY) {
-        oz_pairs_store_springs(w, items, springs);
+        oz_pairs_store_springs(w->pair_history, items, memory.stretch);
+    }
+    if (OZ_ROLLING_SPRING) {
+        oz_pairs_store_springs(w->pair_rolling, items, memory.turned);
     }
     oz_pairs_finish(w, pairs, at, OZ_ACTIVE_BEFORE(count), pair);
     OzDeep deep = {pair.depth,
@@ -261,6 +288,9 @@ OZ_INLINE void oz_pairs_part(OzWork *w, int first, int bits)
     for (int l = 0; OZ_HISTORY && gone != 0 && l < OZ_LANES; l++) {
         if ((gone >> l) & 1) {
             *(global scalar4 *)(w->pair_history + (size_t)(first + l) * OZ_SPRING) = (scalar4)(0);
+#if OZ_ROLLING_SPRING
+            *(global scalar4 *)(w->pair_rolling + (size_t)(first + l) * OZ_SPRING) = (scalar4)(0);
+#endif
         }
     }
 }

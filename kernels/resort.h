@@ -6,8 +6,10 @@
 #include "kernels/lists.h"
 #include "kernels/near.h"
 
-/* Words of a slot's springs at walls. */
+/* Words of a slot's springs at walls, tangential and rolling. */
 #define OZ_RESORT_SPRINGS (OZ_HISTORY ? 3 * OZ_WALL_ENDS : 0)
+#define OZ_RESORT_ROLLING (OZ_ROLLING_SPRING ? 3 * OZ_WALL_ENDS : 0)
+#define OZ_RESORT_WALLS   (1 + OZ_STATE + OZ_SHAPE)
 
 OZ_INLINE void oz_resort_out_words(global scalar *to, global const scalar *from, int slot,
                                    int words)
@@ -67,10 +69,12 @@ OZ_INLINE void oz_resort_out(OzWork *w, int region)
         if (!OZ_EQUAL) {
             oz_resort_out_words(to + 1 + OZ_STATE, (global const scalar *)w->shape, from, OZ_SHAPE);
         }
-        to += 1 + OZ_STATE + OZ_SHAPE;
+        to += OZ_RESORT_WALLS;
         oz_resort_out_words(to, (global const scalar *)w->wall_history, from, OZ_RESORT_SPRINGS);
-        oz_resort_out_words(to + 3 * OZ_WALL_ENDS, (global const scalar *)w->mesh_memory, from,
-                            OZ_MESH_WORDS);
+        to += OZ_RESORT_SPRINGS;
+        oz_resort_out_words(to, (global const scalar *)w->wall_rolling, from, OZ_RESORT_ROLLING);
+        to += OZ_RESORT_ROLLING;
+        oz_resort_out_words(to, (global const scalar *)w->mesh_memory, from, OZ_MESH_WORDS);
     }
 }
 
@@ -100,10 +104,12 @@ OZ_INLINE void oz_resort_in(OzWork *w, int region)
         if (!OZ_EQUAL) {
             oz_resort_in_words((global scalar *)w->shape, from + 1 + OZ_STATE, slot, OZ_SHAPE);
         }
-        from += 1 + OZ_STATE + OZ_SHAPE;
+        from += OZ_RESORT_WALLS;
         oz_resort_in_words((global scalar *)w->wall_history, from, slot, OZ_RESORT_SPRINGS);
-        oz_resort_in_words((global scalar *)w->mesh_memory, from + 3 * OZ_WALL_ENDS, slot,
-                           OZ_MESH_WORDS);
+        from += OZ_RESORT_SPRINGS;
+        oz_resort_in_words((global scalar *)w->wall_rolling, from, slot, OZ_RESORT_ROLLING);
+        from += OZ_RESORT_ROLLING;
+        oz_resort_in_words((global scalar *)w->mesh_memory, from, slot, OZ_MESH_WORDS);
     }
     for (int k = oz_work_block_begin(w, region) * OZ_WALL_ENDS;
          k < oz_work_block_end(w, region) * OZ_WALL_ENDS; k++) {

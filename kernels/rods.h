@@ -34,7 +34,7 @@ OZ_INLINE OzClosest oz_rods_closest(OzVec3 apart, OzVec3 half_shaft_a, OzVec3 ha
 /* Replaces the contact at the closest points by the mean of the pair's points, and adds what they
  * do. */
 OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apart,
-                            OzLawConstants law, OzVec3 *history, scalar dt, scalar share)
+                            OzLawConstants law, OzMemory *memory, scalar dt, scalar share)
 {
     OzContact *c = &pair->contact;
     OzLine sum = oz_line_sum(a, b, apart, law, *c, pair->arm_a, pair->arm_b);
@@ -52,7 +52,7 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
     c->velocity =
         oz_minus(oz_grain_velocity_at(b, pair->arm_b), oz_grain_velocity_at(a, pair->arm_a));
     c->rate = -oz_dot(c->velocity, c->normal);
-    OzFriction f = oz_contact_friction(*c, response, sum.push, law.friction, history, dt, share);
+    OzFriction f = oz_contact_friction(*c, response, sum.push, law.friction, memory, dt, share);
     OzVec3 tangential = oz_where(c->touching, f.force), dashpot = oz_where(c->touching, f.dashpot);
     pair->parts.force = oz_add(sum.force, tangential);
     pair->parts.spring = oz_minus(tangential, dashpot);
@@ -60,6 +60,8 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
     pair->parts.slips = f.slips;
     pair->parts.energy = sum.energy;
     pair->parts.tangential_stiffness = sum.tangential_stiffness;
+    pair->parts.couple =
+        oz_contact_rolling(*c, law, sum.push, sum.spring / oz_contact_depth(*c), memory, dt, share);
     pair->torque_a = oz_add(sum.torque_a, oz_cross(tangential, pair->arm_a));
     pair->torque_b = oz_add(sum.torque_b, oz_cross(pair->arm_b, tangential));
     OzVec3 couple_a = oz_minus(sum.dashpot_a, oz_cross(sum.dashpot, pair->arm_a));
@@ -71,7 +73,7 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
 /* What a and b do to each other, whose closest points are at `at`; their places are not looked at.
  */
 OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at,
-                                    OzLawConstants law, OzVec3 *history, scalar dt, scalar share)
+                                    OzLawConstants law, OzMemory *memory, scalar dt, scalar share)
 {
     OzPairForce pair;
     pair.contact = oz_grain_contact(a, b, apart, at, &pair.arm_a, &pair.arm_b, &pair.crossed);
@@ -79,22 +81,28 @@ OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzCloses
     pair.depth = pair.contact.overlap;
     pair.closing = pair.contact.rate;
     if (OZ_LINE) {
-        oz_rods_line(&pair, a, b, apart, law, history, dt, share);
+        oz_rods_line(&pair, a, b, apart, law, memory, dt, share);
     } else {
-        pair.parts = oz_contact_force(pair.contact, law, history, dt, share);
+        pair.couple = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+        pair.parts = oz_contact_force(pair.contact, law, memory, dt, share);
         pair.torque_a = oz_cross(pair.parts.force, pair.arm_a);
         pair.torque_b = oz_cross(pair.arm_b, pair.parts.force);
+    }
+    if (OZ_ROLLING) {
+        OzVec3 couple = oz_add(pair.parts.couple.spring, pair.parts.couple.dashpot);
+        pair.torque_a = oz_minus(pair.torque_a, couple);
+        pair.torque_b = oz_add(pair.torque_b, couple);
     }
     pair.force = pair.parts.force;
     return pair;
 }
 
 OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, OzSpace space, OzLawConstants law,
-                                   OzVec3 *history, scalar dt, scalar share)
+                                   OzMemory *memory, scalar dt, scalar share)
 {
     OzVec3 apart = oz_space_minus(a.position, b.position, space);
     OzClosest at = oz_rods_closest(apart, a.half_shaft, b.half_shaft);
-    return oz_rods_touch(a, b, apart, at, law, history, dt, share);
+    return oz_rods_touch(a, b, apart, at, law, memory, dt, share);
 }
 
 /* Where an end touches a wall, from the grain's centre. */
@@ -115,6 +123,7 @@ typedef struct OzWallEnd {
     real share;           /* of the overlap that counts here (wall_shaft.h); with OZ_WALL_SHARES */
     OzWallDistance wall;  /* where the cap's centre stands                                   */
     OzVec3 wall_velocity; /* m/s, the wall's own                                             */
+    OzVec3 wall_turning;  /* rad/s, the wall's own; with OZ_ROLLING only                     */
     mask present;         /* else it does not touch                                          */
 } OzWallEnd;
 
@@ -125,8 +134,20 @@ typedef struct OzWallForce {
     OzVec3 arm; /* m, from the grain's centre to where the force acts */
 } OzWallForce;
 
-OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants law, OzVec3 *history,
-                                   scalar dt, scalar share)
+/* Its couple on the grain, and the torque of all of it about the grain's centre, N m. */
+OZ_INLINE OzVec3 oz_rods_wall_couple(OzWallForce wall)
+{
+    return oz_add(wall.parts.couple.spring, wall.parts.couple.dashpot);
+}
+
+OZ_INLINE OzVec3 oz_rods_wall_torque(OzWallForce wall)
+{
+    OzVec3 torque = oz_cross(wall.arm, wall.parts.force);
+    return OZ_ROLLING ? oz_add(torque, oz_rods_wall_couple(wall)) : torque;
+}
+
+OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants law,
+                                   OzMemory *memory, scalar dt, scalar share)
 {
     OzWallForce force;
     OzContact *contact = &force.contact;
@@ -147,12 +168,16 @@ OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants l
     }
     contact->mass = grain.mass;
     contact->radius = grain.radius;
+    if (OZ_ROLLING) {
+        contact->turning = oz_minus(grain.rate, at.wall_turning);
+        contact->inertia = grain.mass * grain.radius * grain.radius;
+    }
     contact->lightness = REAL(1.0);
     if (OZ_AT_CONTACT) {
         real inverse_mass_turn = oz_grain_inverse_mass_turn(grain, at.end, wall.normal);
         contact->lightness = REAL(1.0) / sqrt(REAL(1.0) + contact->mass * inverse_mass_turn);
     }
-    force.parts = oz_contact_force(*contact, law, history, dt, share);
+    force.parts = oz_contact_force(*contact, law, memory, dt, share);
     if (OZ_WALL_SHARES) {
         force.parts.energy /= at.share; /* a.K.a / 2 is a.e / 2 */
     }

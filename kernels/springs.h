@@ -1,8 +1,39 @@
-/* Tangential springs on their way through a rebuild of the lists: inner -> outer -> saved by ids ->
- * outer -> inner (control->truth says where they are). OpenCL C only. */
+/* Tangential springs, and rolling ones beside them, on their way through a rebuild of the lists:
+ * inner -> outer -> saved by ids -> outer -> inner (control->truth says where they are). OpenCL C
+ * only. */
 #pragma once
 
 #include "kernels/member.h"
+
+#if OZ_HISTORY
+OZ_INLINE void oz_springs_copy(global scalar *to, global const scalar *from)
+{
+    to[0] = from[0];
+    to[1] = from[1];
+    to[2] = from[2];
+}
+
+/* Whether a pair of the outer list remembers anything. */
+OZ_INLINE int oz_springs_any(const OzWork *w, int outer)
+{
+    global const scalar *h = w->outer_history + (size_t)outer * 3;
+    int any = h[0] != 0 || h[1] != 0 || h[2] != 0;
+#if OZ_ROLLING_SPRING
+    global const scalar *r = w->outer_rolling + (size_t)outer * 3;
+    any = any || r[0] != 0 || r[1] != 0 || r[2] != 0;
+#endif
+    return any;
+}
+
+/* A spring of the outer list to the inner one. */
+OZ_INLINE void oz_springs_take(OzWork *w, int outer, int to)
+{
+    oz_springs_copy(w->pair_history + (size_t)to * OZ_SPRING, w->outer_history + (size_t)outer * 3);
+#if OZ_ROLLING_SPRING
+    oz_springs_copy(w->pair_rolling + (size_t)to * OZ_SPRING, w->outer_rolling + (size_t)outer * 3);
+#endif
+}
+#endif
 
 /* Inner springs back to the outer list. */
 OZ_INLINE void oz_springs_harvest(OzWork *w, int region)
@@ -10,11 +41,11 @@ OZ_INLINE void oz_springs_harvest(OzWork *w, int region)
 #if OZ_HISTORY
     int begin = region * w->z.inner_capacity, count = w->pair_count[region];
     for (int p = begin; p < begin + count; p++) {
-        global const scalar *from = w->pair_history + (size_t)p * OZ_SPRING;
-        global scalar *to = w->outer_history + (size_t)w->pair_outer[p] * 3;
-        to[0] = from[0];
-        to[1] = from[1];
-        to[2] = from[2];
+        size_t to = (size_t)w->pair_outer[p] * 3, from = (size_t)p * OZ_SPRING;
+        oz_springs_copy(w->outer_history + to, w->pair_history + from);
+#if OZ_ROLLING_SPRING
+        oz_springs_copy(w->outer_rolling + to, w->pair_rolling + from);
+#endif
     }
 #endif
 }
@@ -26,10 +57,17 @@ OZ_INLINE void oz_springs_forget(OzWork *w, int region)
 #if OZ_HISTORY
     int blocks = (w->outer_count[region] + OZ_LANES - 1) / OZ_LANES;
     global real *words = (global real *)w->outer_history;
-    words += 3 * (size_t)(region * w->z.outer_capacity / OZ_LANES);
+    size_t first = 3 * (size_t)(region * w->z.outer_capacity / OZ_LANES);
+    words += first;
     for (int k = 0; k < 3 * blocks; k++) {
         words[k] = REAL(0.0);
     }
+#if OZ_ROLLING_SPRING
+    words = (global real *)w->outer_rolling + first;
+    for (int k = 0; k < 3 * blocks; k++) {
+        words[k] = REAL(0.0);
+    }
+#endif
 #endif
 }
 
@@ -40,15 +78,15 @@ OZ_INLINE void oz_springs_save(OzWork *w, int region)
     oz_work_tile(w, region);
     int begin = region * w->z.outer_capacity, saved = region * w->z.inner_capacity, count = 0;
     for (int o = begin; o < begin + w->outer_count[region]; o++) {
-        global const scalar *h = w->outer_history + (size_t)o * 3;
         int own = oz_work_is_own(w, w->outer_a[o]); /* else another tile saves its copy */
-        if (own && (h[0] != 0 || h[1] != 0 || h[2] != 0)) {
+        if (own && oz_springs_any(w, o)) {
             int to = saved + count++;
             w->saved_a[to] = w->id[w->outer_a[o]];
             w->saved_b[to] = w->id[w->outer_b[o]];
-            w->saved_history[3 * (size_t)to] = h[0];
-            w->saved_history[3 * (size_t)to + 1] = h[1];
-            w->saved_history[3 * (size_t)to + 2] = h[2];
+            oz_springs_copy(w->saved_history + (size_t)to * 3, w->outer_history + (size_t)o * 3);
+#if OZ_ROLLING_SPRING
+            oz_springs_copy(w->saved_rolling + (size_t)to * 3, w->outer_rolling + (size_t)o * 3);
+#endif
         }
     }
     w->saved_count[region] = count;
@@ -59,9 +97,10 @@ OZ_INLINE void oz_springs_save(OzWork *w, int region)
 OZ_INLINE void oz_springs_put(OzWork *w, int from, int to)
 {
 #if OZ_HISTORY
-    w->outer_history[3 * (size_t)to] = w->saved_history[3 * (size_t)from];
-    w->outer_history[3 * (size_t)to + 1] = w->saved_history[3 * (size_t)from + 1];
-    w->outer_history[3 * (size_t)to + 2] = w->saved_history[3 * (size_t)from + 2];
+    oz_springs_copy(w->outer_history + (size_t)to * 3, w->saved_history + (size_t)from * 3);
+#if OZ_ROLLING_SPRING
+    oz_springs_copy(w->outer_rolling + (size_t)to * 3, w->saved_rolling + (size_t)from * 3);
+#endif
 #endif
 }
 

@@ -8,13 +8,14 @@
 
 #if OZ_IMPULSES && OZ_WALL_COUNT > 0
 
-/* Adds a step's force on the first `count` grains in slots, padding left out; arm: from their
- * centres to where it acts. The torque is about the side's point, where that is now. */
+/* Adds what a step's forces do to the first `count` grains in slots, padding left out. The torque is
+ * about the side's point, where that is now. */
 OZ_INLINE void oz_wall_impulse_add(OzWork *w, const OzSide *side, OzGrain grain, const int *slots,
-                                   int count, OzVec3 arm, OzVec3 force)
+                                   int count, OzWallForce found)
 {
-    OzVec3 place = oz_enclosure_side_from(w, grain.position, arm, side);
-    OzVec3 torque = oz_cross(place, force);
+    OzVec3 force = found.parts.force;
+    OzVec3 place = oz_enclosure_side_from(w, grain.position, found.arm, side);
+    OzVec3 torque = oz_add(oz_cross(place, force), oz_rods_wall_couple(found));
     scalar lane[OZ_IMPULSE_WORDS][OZ_LANES];
     OZ_LANES_STORE(force.x, lane[0]);
     OZ_LANES_STORE(force.y, lane[1]);

@@ -29,8 +29,11 @@ static OzLawConstants constants_of(const char *contact, int law)
     OzContactConstants c = oz_contact_constants_of(&rig.scene.contact, &rig.scene.contact);
     rig_close(&rig);
     oz_host_switches_rods(&(OzSwitches){.law = law, .friction = 1, .history = 1});
-    return (OzLawConstants){c.stiffness, c.damping, c.tangential_stiffness, c.tangential_damping,
-                            1e9};
+    return (OzLawConstants){.stiffness = c.stiffness,
+                            .damping = c.damping,
+                            .tangential_stiffness = c.tangential_stiffness,
+                            .tangential_damping = c.tangential_damping,
+                            .friction = 1e9};
 }
 
 static const char *const laws[] = {
@@ -181,11 +184,13 @@ static void test_spring_of_a_sliding_contact(void **state)
     OzContact contact = contact_at(1e-5, 0);
     contact.velocity = (OzVec3){-0.3, 0.4, 0}; /* b against a */
     for (int slides = 0; slides < 2; slides++) {
-        OzVec3 spring = {3e-6, -4e-6, 0}, before = spring;
+        OzMemory memory = {.stretch = {3e-6, -4e-6, 0}};
+        OzVec3 before = memory.stretch;
         double dt = 1e-6, stiffness = mass * constants.tangential_stiffness;
         double dashpot = mass * constants.tangential_damping * 0.5;
         double limit = mass * constants.stiffness * 1e-5 * (constants.friction = slides ? 0.05 : 5);
-        OzContactForce force = oz_contact_force(contact, constants, &spring, dt, 1);
+        OzContactForce force = oz_contact_force(contact, constants, &memory, dt, 1);
+        OzVec3 spring = memory.stretch;
         /* along (3, -4) / 5, against the sliding */
         double carried = (0.6 * spring.x - 0.8 * spring.y) * stiffness;
         double tangential = 0.6 * force.force.x - 0.8 * force.force.y;
@@ -209,8 +214,8 @@ static void test_friction_of_a_contact_that_pulls(void **state)
     constants.friction = 0.3;
     OzContact contact = contact_at(1e-7, -0.2); /* parting */
     contact.velocity.x = 0.5;
-    OzVec3 spring = {0};
-    OzContactForce force = oz_contact_force(contact, constants, &spring, 1e-6, 1);
+    OzMemory memory = {.stretch = {0, 0, 0}};
+    OzContactForce force = oz_contact_force(contact, constants, &memory, 1e-6, 1);
     double pull = mass * (constants.damping * 0.2 - constants.stiffness * 1e-7);
     /* rounding of some products */
     assert_true(pull > 0 && fabs(force.force.z / -pull - 1) < 1e-14);

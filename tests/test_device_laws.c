@@ -37,6 +37,7 @@ static void assert_close(const char *what, double a, double b, double part)
 static void assert_same_contacts(const OzContactList *a, const OzContactList *b, double part)
 {
     double push = 0, spring = 0, off_push = 0, off_spring = 0;
+    double couple = 0, off_couple = 0;
     assert_int_equal(a->count, b->count);
     for (int64_t i = 0; i < a->count; i++) {
         const OzContactEntry *x = &a->entry[i], *y = &b->entry[i];
@@ -44,10 +45,13 @@ static void assert_same_contacts(const OzContactList *a, const OzContactList *b,
         push = fmax(push, fabs(y->push));
         off_push = fmax(off_push, fabs(x->push - y->push));
         off_push = fmax(off_push, farthest(x->tangential, y->tangential, 3));
+        couple = fmax(couple, sqrt(dot3(y->couple, y->couple)));
+        off_couple = fmax(off_couple, farthest(x->couple, y->couple, 3));
         spring = fmax(spring, sqrt(dot3(y->spring, y->spring)));
         off_spring = fmax(off_spring, farthest(x->spring, y->spring, 3));
     }
     assert_true(push > 0 && off_push <= part * push && off_spring <= part * spring);
+    assert_true(off_couple <= part * couple);
 }
 
 /* Upright rods that press against one another from all sides. */
@@ -110,7 +114,7 @@ static void test_hertz_mindlin(void **state)
     (void)state;
     check("double", "symplectic-euler",
           "law: hertz-mindlin, youngs_modulus: 3e6, poisson_ratio: 0.3, restitution: 0.5, "
-          "friction: 0.4",
+          "friction: 0.4, rolling_friction: 0.2, twisting_friction: 0.1",
           false, 1e-9);
 }
 
@@ -121,7 +125,8 @@ static void test_options_together(void **state)
     check(
         "float", "symplectic-euler",
         "law: hertz, hertz_stiffness: 2e3, normal_damping_rate: 2e3, tangential_damping_rate: 3e3,"
-        " friction: 0.4, parallel: line, attraction: clamp",
+        " friction: 0.4, parallel: line, attraction: clamp, rolling: constant, rolling_friction: "
+        "0.2",
         true, 1e-2);
 }
 

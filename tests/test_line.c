@@ -28,7 +28,8 @@ static OzVec3 turned(OzVec3 v, const double by[3])
 
 static OzPairForce touch(const Pose *pose, OzLawConstants law)
 {
-    OzVec3 none = {0}, history = {0};
+    OzVec3 none = {0};
+    OzMemory memory = {.stretch = {0, 0, 0}};
     OzVec3 a = turned(oz_vec3(0, 0, pose->half_a), pose->turn_a);
     OzVec3 b = turned(oz_vec3(0, 0, pose->half_b), pose->turn_b);
     OzGrain one = {{0, 0, 0}, a, none, none, radius, 2e-6, 1e6};
@@ -39,7 +40,7 @@ static OzPairForce touch(const Pose *pose, OzLawConstants law)
                      radius,
                      2e-6,
                      1e6};
-    return oz_rods_pair(one, other, (OzSpace){.unit = 1}, law, &history, 1e-6, 0.5);
+    return oz_rods_pair(one, other, (OzSpace){.unit = 1}, law, &memory, 1e-6, 0.5);
 }
 
 static void use_line(int line)
@@ -265,7 +266,8 @@ static void test_power_of_dashpots(void **state)
     damped.damping = 1e3;
     use_line(1);
     for (int n = 1; n < 50; n++) {
-        OzVec3 u = turned(oz_vec3(0, 0, half), (double[3]){0, 0.002 * spread(n, 0), 0}), none = {0};
+        OzVec3 u = turned(oz_vec3(0, 0, half), (double[3]){0, 0.002 * spread(n, 0), 0});
+        OzMemory none = {.stretch = {0, 0, 0}};
         OzGrain a = {.half_shaft = {0, 0, half}, .radius = radius, .mass = 2e-6};
         OzGrain b = {.position = {1.97 * radius, 0, 1e-3 * spread(n, 1)}, .half_shaft = u};
         b.radius = radius;

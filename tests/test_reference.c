@@ -109,18 +109,18 @@ static void test_springs_outlive_the_list(void **state)
     grains.diameter[0] = grains.diameter[1] = grains.diameter[2] = 1;
     must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
     assert_true(renewed && near.pairs.count == 1);
-    near.spring[0] = oz_vec3(1, 2, 3);
+    near.memory[0].stretch = oz_vec3(1, 2, 3);
     position[0] = 0.4 * near.skin;
     must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
     assert_false(renewed);
     position[8] = -1; /* now before the pair that touched, by ids */
     must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
     assert_true(renewed && near.pairs.count == 2);
-    assert_true(near.pairs.pair[0].b == 1 && near.spring[0].y == 2);
-    assert_true(near.pairs.pair[1].b == 2 && near.spring[1].y == 0);
+    assert_true(near.pairs.pair[0].b == 1 && near.memory[0].stretch.y == 2);
+    assert_true(near.pairs.pair[1].b == 2 && near.memory[1].stretch.y == 0);
     position[5] = 2; /* parted */
     must(oz_pair_list_renew(&near, &renewed, &grains, position, axis, &open_space));
-    assert_true(renewed && near.pairs.count == 1 && near.spring[0].y == 0);
+    assert_true(renewed && near.pairs.count == 1 && near.memory[0].stretch.y == 0);
     oz_pair_list_free(&near);
     oz_grains_free(&grains);
 }

@@ -100,7 +100,7 @@ void oz_contact_list_turn_walls(const OzContactList *list, const double (*about)
         }
         for (int k = 0; e->b < 0 && k < 3; k++) {
             int l = (k + 1) % 3, m = (k + 2) % 3;
-            torque[-1 - e->b][k] += arm[l] * force[m] - arm[m] * force[l];
+            torque[-1 - e->b][k] += arm[l] * force[m] - arm[m] * force[l] + e->couple[k];
         }
     }
 }

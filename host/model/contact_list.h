@@ -33,6 +33,7 @@ typedef struct OzContactEntry {
     double normal[3];     /* unit vector from a to b                                           */
     double push;          /* N, the force's part along the normal, > 0 pushes apart            */
     double tangential[3]; /* N, the rest of the force, on b; a feels the opposite of both      */
+    double couple[3];     /* N m, on b, against rolling and twisting; rods only                */
     double overlap;       /* m; m^2 of triangles                                               */
     double rate, mass;    /* m/s, d(overlap)/dt; kg, effective; rods only, else 0              */
     double energy;        /* J, stored in the overlap                                          */
@@ -69,6 +70,6 @@ OzContactSums oz_contact_list_sum(const OzContactList *list);
 /* The force of all grains on each of the first `count` walls, N. */
 void oz_contact_list_push_walls(const OzContactList *list, double (*force)[3], int count);
 
-/* The torque of these forces on each of them about a point of its own (m), N m. */
+/* The torque of these forces, and couples, on each of them about a point of its own (m), N m. */
 void oz_contact_list_turn_walls(const OzContactList *list, const double (*about)[3],
                                 double (*torque)[3], int count);

@@ -27,6 +27,8 @@ static const char *const LAWS[] = {OZ_LAWS(OZ_CHOICES_LAW) NULL};
 static const char *const FLAT_LAWS[] = {[OZ_LAW_HOOKE] = "hooke", [OZ_LAW_HERTZ] = "hertz", NULL};
 static const char *const OVERLAPS[] = {
     [OZ_OVERLAPS_KEEP] = "keep", [OZ_OVERLAPS_REMOVE] = "remove", NULL};
+static const char *const ROLLINGS[] = {
+    [OZ_ROLLING_RESISTS_BY_SPRING] = "spring", [OZ_ROLLING_RESISTS_CONSTANTLY] = "constant", NULL};
 static const char *const SLIPS[] = {[OZ_SLIP_CUT] = "cut", [OZ_SLIP_SCALE] = "scale", NULL};
 static const char *const ATTRACTIONS[] = {
     [OZ_ATTRACTION_ALLOW] = "allow", [OZ_ATTRACTION_CLAMP] = "clamp", NULL};

@@ -18,6 +18,7 @@ typedef enum OzBroadphase {
     OZ_BROADPHASE_SORT_AXIS  /* P's sort by highest point, on the host        */
 } OzBroadphase;
 typedef enum OzSlip { OZ_SLIP_CUT, OZ_SLIP_SCALE } OzSlip;
+typedef enum OzRolling { OZ_ROLLING_RESISTS_BY_SPRING, OZ_ROLLING_RESISTS_CONSTANTLY } OzRolling;
 typedef enum OzAttraction { OZ_ATTRACTION_ALLOW, OZ_ATTRACTION_CLAMP } OzAttraction;
 typedef enum OzDamping { OZ_DAMPING_CONSTANT, OZ_DAMPING_SMOOTH } OzDamping;
 typedef enum OzParallel { OZ_PARALLEL_SINGLE, OZ_PARALLEL_LINE } OzParallel;
@@ -53,6 +54,10 @@ typedef struct OzContactValues {
     double friction;             /* Coulomb coefficient                                      */
     double tangential_stiffness; /* k_t / k_n                                                */
     double tangential_damping;   /* c_t / c_n; defaults to tangential_stiffness              */
+    OzRolling rolling;           /* how contacts resist rolling                            */
+    double rolling_friction;     /* couple over normal force and radius; 0: none           */
+    double rolling_damping;      /* of the rolling spring, over critical damping           */
+    double twisting_friction;    /* couple about the normal, likewise                      */
     OzSlip slip;
     OzAttraction attraction;
     OzDamping damping; /* hooke: how the dashpot begins                            */

@@ -17,7 +17,10 @@ static OzLawConstants law_of(const OzScene *scene, const OzContactValues *values
                           .damping = constants.damping,
                           .tangential_stiffness = constants.tangential_stiffness,
                           .tangential_damping = constants.tangential_damping,
-                          .friction = values->friction};
+                          .friction = values->friction,
+                          .rolling_friction = values->rolling_friction,
+                          .twisting_friction = values->twisting_friction,
+                          .rolling_damping = values->rolling_damping};
     return law;
 }
 

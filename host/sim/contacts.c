@@ -42,7 +42,7 @@ static OzGrain grain_of(const OzSnapshot *snapshot, int64_t id)
 typedef struct Found {
     OzContact contact;
     OzContactForce parts;
-    OzVec3 stored; /* m, the tangential spring as stored */
+    OzMemory stored;
 } Found;
 
 /* Energy of a contact's tangential spring, J, advanced by the integrator's share of a step: what it
@@ -52,13 +52,34 @@ static double spring_energy(const OzContacts *contacts, const Found *found, doub
 {
     const OzContact *c = &found->contact;
     OzVec3 sliding = oz_scale(oz_along(c->velocity, c->rate, c->normal), -1);
-    OzVec3 stretch = oz_along(oz_contact_turn(found->stored, c->normal),
+    OzVec3 stretch = oz_along(oz_contact_turn(found->stored.stretch, c->normal),
                               contacts->share * contacts->physics.parameters.dt, sliding);
     double length = sqrt(oz_dot(stretch, stretch));
     double full = found->parts.tangential_stiffness * length;
     double limit = friction * fabs(oz_dot(found->parts.force, c->normal));
     double force = OZ_SLIP_SCALE ? fmin(full, limit) : full;
     return full > 0 ? force * (length - 0.5 * length * force / full) : 0;
+}
+
+/* Of its rolling spring. */
+static double rolling_energy(const OzContacts *contacts, const Found *found)
+{
+    const OzContact *c = &found->contact;
+    OzVec3 rolling = oz_along(c->turning, -oz_dot(c->turning, c->normal), c->normal);
+    OzVec3 turned = oz_along(oz_contact_turn(found->stored.turned, c->normal),
+                             contacts->share * contacts->physics.parameters.dt, rolling);
+    return 0.5 * found->parts.couple.stiffness * oz_dot(turned, turned);
+}
+
+static double springs_energy(const OzContacts *contacts, const Found *found, double friction)
+{
+    double energy = OZ_HISTORY ? spring_energy(contacts, found, friction) : 0;
+    return energy + (OZ_ROLLING_SPRING ? rolling_energy(contacts, found) : 0);
+}
+
+static OzVec3 couple_of(const Found *found)
+{
+    return oz_add(found->parts.couple.spring, found->parts.couple.dashpot);
 }
 
 /* turn: 1, or -1 where the kernels' a is the entry's b; arm: from the centre of grain, the entry's
@@ -72,7 +93,8 @@ static void fill(OzContactEntry *entry, const Found *found, double turn, OzGrain
     oz_dialect_store3(entry->point, oz_add(oz_vec3(at.x, at.y, at.z), arm));
     oz_dialect_store3(entry->normal, normal);
     oz_dialect_store3(entry->tangential, oz_along(force, -entry->push, normal));
-    oz_dialect_store3(entry->spring, oz_scale(found->stored, turn));
+    oz_dialect_store3(entry->spring, oz_scale(found->stored.stretch, turn));
+    oz_dialect_store3(entry->couple, oz_scale(couple_of(found), turn));
     entry->slips = found->parts.slips;
     entry->overlap = found->contact.overlap;
     entry->rate = found->contact.rate;
@@ -80,24 +102,32 @@ static void fill(OzContactEntry *entry, const Found *found, double turn, OzGrain
     entry->energy = found->parts.energy;
 }
 
-OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const double history[3])
+/* What a contact remembers; NULL: nothing. */
+static OzMemory stored_of(const OzMemory *memory)
+{
+    OzVec3 none = oz_vec3(0, 0, 0);
+    return memory && OZ_HISTORY ? *memory : (OzMemory){none, none};
+}
+
+OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const OzMemory *memory)
 {
     const OzPhysics *physics = &contacts->physics;
     OzGrain first = grain_of(contacts->snapshot, a), second = grain_of(contacts->snapshot, b);
     OzLawConstants law = physics->parameters.law;
     OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
-    bool has_spring = OZ_HISTORY && history, turned = a > b;
-    Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
-    OzVec3 spring = found.stored;
-    OzPairForce pair = oz_rods_pair(first, second, oz_dialect_space(physics), law, &spring,
-                                    physics->parameters.dt, physics->share);
+    bool turned = a > b;
+    Found found = {.stored = stored_of(memory)};
+    OzMemory next = found.stored;
+    OzPairForce pair =
+        oz_rods_pair(first, second, oz_dialect_space(physics), law, &next,
+                     physics->parameters.dt, physics->share);
     if (!pair.contact.touching) {
         return OZ_OK;
     }
     OzContactEntry entry = {.a = (int32_t)(turned ? b : a), .b = (int32_t)(turned ? a : b)};
     found.contact = pair.contact;
     found.parts = pair.parts;
-    entry.spring_energy = has_spring ? spring_energy(contacts, &found, law.friction) : 0;
+    entry.spring_energy = memory ? springs_energy(contacts, &found, law.friction) : 0;
     fill(&entry, &found, turned ? -1 : 1, turned ? second : first,
          turned ? pair.arm_b : pair.arm_a);
     return oz_contact_list_add(contacts->list, &entry);
@@ -108,38 +138,37 @@ static OzWallEnd mesh_end(OzContacts *contacts, int64_t id, OzGrain grain, int w
 {
     const OzPhysics *physics = &contacts->physics;
     if (contacts->found_grain != id || contacts->found_wall != w) {
-        double memory[OZ_MESH_SLOTS * OZ_MESH_MEMORY] = {0};
+        double words[OZ_MESH_SLOTS * OZ_MESH_MEMORY] = {0};
         int mesh = w - (physics->wall_count - physics->edged - physics->meshes);
         for (int k = 0; contacts->memory && k < OZ_MESH_SLOTS * OZ_MESH_MEMORY; k++) {
-            memory[k] = contacts->memory[mesh * OZ_MESH_SLOTS * OZ_MESH_MEMORY + k];
+            words[k] = contacts->memory[mesh * OZ_MESH_SLOTS * OZ_MESH_MEMORY + k];
         }
         OzVec3 from =
             oz_dialect_from(physics, w, grain.position, oz_vec3(0, 0, 0), contacts->drives[w]);
         oz_host_mesh_find(&contacts->found, physics, w, from, grain.half_shaft, grain.radius,
-                          memory);
+                          words);
         contacts->found_grain = id;
         contacts->found_wall = w;
     }
     return oz_dialect_mesh_end(&contacts->found.at[slot], grain);
 }
 
-OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const double history[3])
+OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const OzMemory *memory)
 {
     const OzPhysics *physics = &contacts->physics;
     const OzSnapshot *snapshot = contacts->snapshot;
     OzGrain one = grain_of(snapshot, grain);
     int wall, part = oz_dialect_part(physics, index, &wall);
     OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
-    bool has_spring = OZ_HISTORY && history;
-    Found found = {.stored = has_spring ? oz_dialect_load3(history) : oz_vec3(0, 0, 0)};
-    OzVec3 spring = found.stored;
+    Found found = {.stored = stored_of(memory)};
+    OzMemory next = found.stored;
     double dt = physics->parameters.dt;
     OzWallForce at =
         part < OZ_WALL_PARTS
-            ? oz_dialect_touch_wall(physics, index, one, contacts->drives, dt, &spring)
+            ? oz_dialect_touch_wall(physics, index, one, contacts->drives, dt, &next)
             : oz_dialect_touch_end(physics, wall,
                                    mesh_end(contacts, grain, one, wall, part - OZ_WALL_PARTS), one,
-                                   contacts->drives, dt, &spring);
+                                   contacts->drives, dt, &next);
     found.parts = at.parts;
     found.contact = at.contact;
     if (!found.contact.touching) {
@@ -148,7 +177,7 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const 
     OzContactEntry entry = {
         .a = (int32_t)grain, .b = -1 - physics->wall_order[wall], .part_a = index};
     double friction = physics->parameters.wall[wall].law.friction;
-    entry.spring_energy = has_spring ? spring_energy(contacts, &found, friction) : 0;
+    entry.spring_energy = memory ? springs_energy(contacts, &found, friction) : 0;
     fill(&entry, &found, -1, one, at.arm); /* to the kernels a wall is a */
     return oz_contact_list_add(contacts->list, &entry);
 }

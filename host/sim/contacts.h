@@ -28,10 +28,9 @@ typedef struct OzContacts {
  * free. Fails with OZ_ERR_INPUT as oz_constants_fill does. */
 OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzContactList *list);
 
-/* Grains a and b (ids; a is the one whose reach is larger, or the lower id). history is the pair's
- * tangential spring (m) as the integrator keeps it between steps. NULL: none. Fails when memory
- * does. */
-OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const double history[3]);
+/* Grains a and b (ids; a is the one whose reach is larger, or the lower id). memory is what the
+ * pair keeps between steps. NULL: none. Fails when memory does. */
+OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const OzMemory *memory);
 
 /* An end of a grain at a wall, a point of its shaft or a slot of a mesh, one of physics.touches. */
-OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const double history[3]);
+OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const OzMemory *memory);

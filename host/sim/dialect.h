@@ -10,6 +10,8 @@
 #define OZ_EQUAL            oz_host_switches_now.rods.equal
 #define OZ_FRICTION         oz_host_switches_now.rods.friction
 #define OZ_HISTORY          oz_host_switches_now.rods.history
+#define OZ_ROLLING          oz_host_switches_now.rods.rolling
+#define OZ_ROLLING_SPRING   oz_host_switches_now.rods.rolling_spring
 #define OZ_SLIP_SCALE       oz_host_switches_now.rods.slip_scale
 #define OZ_ATTRACTION_CLAMP oz_host_switches_now.rods.attraction_clamp
 #define OZ_SURFACES         oz_host_switches_now.rods.surfaces
@@ -235,21 +237,22 @@ OZ_INLINE OzWallEnd oz_dialect_mesh_end(const OzHostTouch *touch, OzGrain grain)
 }
 
 /* That of a grain which stands so against kernel wall w, but for the wall's velocity; drives: of
- * every wall; history as for oz_rods_wall. */
+ * every wall; memory as for oz_rods_wall. */
 OZ_INLINE OzWallForce oz_dialect_touch_end(const OzPhysics *physics, int w, OzWallEnd at,
                                            OzGrain grain, const OzWallDrive *drives, double dt,
-                                           OzVec3 *history)
+                                           OzMemory *memory)
 {
     at.wall_velocity = oz_dialect_wall_velocity(
         physics, w, grain.position, oz_rods_wall_arm(grain, at.end, at.wall), drives[w]);
-    return oz_rods_wall(grain, at, physics->parameters.wall[w].law, history, dt, physics->share);
+    at.wall_turning = oz_scale(drives[w].axis, drives[w].rate);
+    return oz_rods_wall(grain, at, physics->parameters.wall[w].law, memory, dt, physics->share);
 }
 
 /* The same of an end or a point of a shaft, no slot. */
 OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int index, OzGrain grain,
-                                            const OzWallDrive *drives, double dt, OzVec3 *history)
+                                            const OzWallDrive *drives, double dt, OzMemory *memory)
 {
     int w, part = oz_dialect_part(physics, index, &w);
     OzWallEnd at = oz_dialect_end(physics, w, part, grain, drives);
-    return oz_dialect_touch_end(physics, w, at, grain, drives, dt, history);
+    return oz_dialect_touch_end(physics, w, at, grain, drives, dt, memory);
 }

@@ -17,10 +17,10 @@ typedef struct Entry {
     int region, a, b;
 } Entry;
 
-/* A tangential spring by the slots of its pair. */
+/* A tangential and a rolling spring by the slots of their pair. */
 typedef struct Spring {
     int a, b;
-    double words[3];
+    double words[3], turned[3];
 } Spring;
 
 typedef struct Work {
@@ -34,7 +34,7 @@ typedef struct Work {
     Entry *entries;
     int64_t entry_count;
     int *a, *b, *count, *first, *number; /* the new list's fields */
-    void *history, *reference;
+    void *history, *rolling, *reference;
 } Work;
 
 static const OzSizes *sizes_of(const Work *w)
@@ -60,14 +60,19 @@ static int by_slots(const void *one, const void *other)
     return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->b > y->b) - (x->b < y->b);
 }
 
-static void keep_spring(Work *w, int a, int b, const void *history, int64_t pair)
+static void keep_spring(Work *w, int a, int b, const void *history, const void *rolling,
+                        int64_t pair)
 {
     Spring spring = {.a = a, .b = b};
+    const OzSwitches *s = switches_of(w);
+    bool any = false;
     for (int c = 0; c < 3; c++) {
-        spring.words[c] =
-            oz_scalars_get(history, (size_t)(3 * pair + c), switches_of(w)->is_double);
+        size_t at = (size_t)(3 * pair + c);
+        spring.words[c] = oz_scalars_get(history, at, s->is_double);
+        spring.turned[c] = s->rolling_spring ? oz_scalars_get(rolling, at, s->is_double) : 0;
+        any |= spring.words[c] != 0 || spring.turned[c] != 0;
     }
-    if (spring.words[0] != 0 || spring.words[1] != 0 || spring.words[2] != 0) {
+    if (any) {
         w->springs[w->spring_count++] = spring;
     }
 }
@@ -81,7 +86,7 @@ static OzStatus read_springs(Work *w)
     int *a = NULL, *b = NULL, *count = NULL, truth = oz_rods_control(w->sim, w->member)->truth;
     bool saved = truth == OZ_SPRINGS_AT_SAVED;
     int64_t capacity = saved ? z->inner_capacity : z->outer_capacity;
-    void *history = NULL;
+    void *history = NULL, *rolling = NULL;
     if (!switches_of(w)->history || truth == OZ_SPRINGS_AT_NONE) {
         return OZ_OK;
     }
@@ -90,13 +95,14 @@ static OzStatus read_springs(Work *w)
     OZ_TRY(oz_arrays_download(arrays, FIELD(b), w->member, &b));
     OZ_TRY(oz_arrays_download(arrays, FIELD(count), w->member, &count));
     OZ_TRY(oz_arrays_download(arrays, FIELD(history), w->member, &history));
+    OZ_TRY(oz_arrays_download(arrays, FIELD(rolling), w->member, &rolling));
 #undef FIELD
     OZ_TRY(OZ_NEW(&w->springs, (int64_t)z->regions * capacity));
     for (int r = 0; r < z->regions; r++) {
         int64_t begin = (int64_t)r * capacity;
         for (int64_t p = begin; p < begin + count[r]; p++) {
             keep_spring(w, saved ? w->slot_of[a[p]] : a[p], saved ? w->slot_of[b[p]] : b[p],
-                        history, p);
+                        history, rolling, p);
         }
     }
     qsort(w->springs, (size_t)w->spring_count, sizeof *w->springs, by_slots);
@@ -105,6 +111,7 @@ done:
     free(b);
     free(count);
     free(history);
+    free(rolling);
     return status;
 }
 
@@ -183,9 +190,10 @@ static void put_history(Work *w, int64_t to, int a, int b)
                                                         sizeof key, by_slots)
                                               : NULL;
     if (found) {
-        size_t size = switches_of(w)->is_double ? sizeof(double) : sizeof(float);
-        oz_scalars_put((char *)w->history + 3 * (size_t)to * size, found->words, 3,
-                       switches_of(w)->is_double);
+        bool is_double = switches_of(w)->is_double;
+        size_t at = 3 * (size_t)to * (is_double ? sizeof(double) : sizeof(float));
+        oz_scalars_put((char *)w->history + at, found->words, 3, is_double);
+        oz_scalars_put((char *)w->rolling + at, found->turned, 3, is_double);
     }
 }
 
@@ -199,6 +207,7 @@ static OzStatus write_list(Work *w)
     OZ_PASS(OZ_NEW(&w->first, z->slots));
     OZ_PASS(OZ_NEW(&w->number, z->slots));
     OZ_PASS(oz_memory_new(&w->history, 3 * (size_t)pairs, sizeof(double), "springs"));
+    OZ_PASS(oz_memory_new(&w->rolling, 3 * (size_t)pairs, sizeof(double), "springs"));
     for (int64_t k = 0; k < w->entry_count; k++) {
         Entry entry = w->entries[k];
         int64_t to = (int64_t)entry.region * z->outer_capacity + w->count[entry.region]++;
@@ -213,6 +222,7 @@ static OzStatus write_list(Work *w)
     OZ_PASS(upload(w, OZ_FIELD_outer_count, w->count));
     OZ_PASS(upload(w, OZ_FIELD_outer_first, w->first));
     OZ_PASS(upload(w, OZ_FIELD_outer_number, w->number));
+    OZ_PASS(upload(w, OZ_FIELD_outer_rolling, w->rolling));
     return upload(w, OZ_FIELD_outer_history, w->history);
 }
 
@@ -285,8 +295,8 @@ static OzStatus make_list(Work *w)
 
 static void free_work(Work *w)
 {
-    void *owned[] = {w->id,    w->slot_of, w->springs, w->entries, w->a,        w->b,
-                     w->count, w->first,   w->number,  w->history, w->reference};
+    void *owned[] = {w->id,    w->slot_of, w->springs, w->entries, w->a,         w->b,
+                     w->count, w->first,   w->number,  w->history, w->reference, w->rolling};
     for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
         free(owned[i]);
     }

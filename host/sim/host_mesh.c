@@ -103,16 +103,18 @@ bool oz_host_mesh_find(OzHostMesh *found, const OzPhysics *physics, int w, OzVec
     return fits;
 }
 
-void oz_host_mesh_hand_over(const OzHostMesh *found, OzVec3 springs[OZ_MESH_SLOTS])
+void oz_host_mesh_hand_over(const OzHostMesh *found, OzMemory memories[OZ_MESH_SLOTS])
 {
-    OzVec3 kept[OZ_MESH_SLOTS] = {{0, 0, 0}};
+    OzMemory kept[OZ_MESH_SLOTS];
+    memset(kept, 0, sizeof kept);
     for (int k = 0; k < OZ_MESH_SLOTS; k++) {
         int to = found->spring_to[k];
         if (to >= 0) {
-            kept[to] = oz_add(kept[to], springs[k]);
+            kept[to].stretch = oz_add(kept[to].stretch, memories[k].stretch);
+            kept[to].turned = oz_add(kept[to].turned, memories[k].turned);
         }
     }
-    memcpy(springs, kept, sizeof kept);
+    memcpy(memories, kept, sizeof kept);
 }
 
 double *oz_host_mesh_memory(const OzPhysics *physics, double *memory, int64_t grain, int mesh)

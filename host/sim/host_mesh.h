@@ -11,8 +11,8 @@
 bool oz_host_mesh_find(OzHostMesh *found, const OzPhysics *physics, int w, OzVec3 from,
                        OzVec3 half_shaft, double radius, double *memory);
 
-/* Springs of a mesh's slots, m, where they go on. */
-void oz_host_mesh_hand_over(const OzHostMesh *found, OzVec3 springs[OZ_MESH_SLOTS]);
+/* What a mesh's slots remember, where it goes on. */
+void oz_host_mesh_hand_over(const OzHostMesh *found, OzMemory memories[OZ_MESH_SLOTS]);
 
 /* Where the memory of a grain's slots at a mesh begins, in an array of all grains. */
 double *oz_host_mesh_memory(const OzPhysics *physics, double *memory, int64_t grain, int mesh);

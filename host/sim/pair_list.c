@@ -18,10 +18,12 @@ static double smallest_diameter(const OzGrains *grains)
     return smallest;
 }
 
-/* The springs of pairs that are still listed; both lists are sorted. */
-static void keep_springs(OzPairList *near, const OzPairList *old)
+/* What pairs remember that are still listed; both lists are sorted. */
+static void keep_memories(OzPairList *near, const OzPairList *old)
 {
     int64_t k = 0;
+    OzVec3 zero = oz_vec3(0, 0, 0);
+    const OzMemory none = {zero, zero};
     for (int64_t p = 0; p < near->pairs.count; p++) {
         OzPair pair = near->pairs.pair[p];
         const OzPair *was = old->pairs.pair;
@@ -30,7 +32,7 @@ static void keep_springs(OzPairList *near, const OzPairList *old)
             k++;
         }
         bool found = k < old->pairs.count && was[k].a == pair.a && was[k].b == pair.b;
-        near->spring[p] = found ? old->spring[k] : oz_vec3(0, 0, 0);
+        near->memory[p] = found ? old->memory[k] : none;
     }
 }
 
@@ -73,12 +75,12 @@ OzStatus oz_pair_list_renew(OzPairList *near, bool *renewed, const OzGrains *gra
     }
     next.skin = skin_diameters * smallest_diameter(grains);
     OZ_TRY(oz_sort_axis_pairs(&next.pairs, grains, position, axis, next.skin, boundary));
-    OZ_TRY(OZ_NEW(&next.spring, next.pairs.count));
+    OZ_TRY(OZ_NEW(&next.memory, next.pairs.count));
     OZ_TRY(OZ_NEW(&next.position, 3 * grains->count));
     OZ_TRY(OZ_NEW(&next.axis, 3 * grains->count));
     memcpy(next.position, position, bytes);
     memcpy(next.axis, axis, bytes);
-    keep_springs(&next, near);
+    keep_memories(&next, near);
     oz_pair_list_free(near);
     *near = next;
 done:
@@ -91,7 +93,7 @@ done:
 void oz_pair_list_free(OzPairList *near)
 {
     oz_sort_axis_free(&near->pairs);
-    free(near->spring);
+    free(near->memory);
     free(near->position);
     free(near->axis);
     memset(near, 0, sizeof *near);

@@ -1,6 +1,6 @@
 /* Which grains are near each other while they move: a pair list that reaches a skin beyond contact,
- * made anew only when a grain has used up its half of the skin, and that keeps each pair's
- * tangential spring when it is. On the host, for the reference simulation. */
+ * made anew only when a grain has used up its half of the skin, and that keeps what each
+ * pair remembers when it is. On the host, for the reference simulation. */
 #pragma once
 
 #include "sim/physics.h"
@@ -10,7 +10,7 @@
 typedef struct OzPairList {
     double skin;             /* m                                                       */
     OzPairs pairs;           /* sorted by a, then b                                     */
-    OzVec3 *spring;          /* of each pair, m; zero for a pair that was not listed    */
+    OzMemory *memory;        /* of each pair; zero for a pair that was not listed       */
     double *position, *axis; /* 3 x count each, when the list was made          */
 } OzPairList;
 

@@ -110,7 +110,7 @@ static void touch_pairs(OzReference *r, double dt)
         OzPair pair = r->near.pairs.pair[p];
         r->pair_force[p] =
             oz_rods_pair(r->seen[pair.a], r->seen[pair.b], space, r->physics.parameters.law,
-                         &r->near.spring[p], dt, r->physics.share);
+                         &r->near.memory[p], dt, r->physics.share);
     }
 }
 
@@ -136,9 +136,9 @@ static void touch_wall(OzReference *r, int i, int index, double dt)
     int64_t k = (int64_t)i * r->physics.touches + index;
     OzWallForce *f = &r->wall_force[k];
     *f = oz_dialect_touch_wall(&r->physics, index, r->seen[i], r->wall_drive, dt,
-                               &r->wall_history[k]);
+                               &r->wall_memory[k]);
     r->load[i].force = oz_add(r->load[i].force, f->parts.force);
-    r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
+    r->load[i].torque = oz_add(r->load[i].torque, oz_rods_wall_torque(*f));
 }
 
 static bool is_empty(OzVec3 spring)
@@ -146,22 +146,28 @@ static bool is_empty(OzVec3 spring)
     return oz_dot(spring, spring) == 0;
 }
 
-/* As the kernels do where walls join: an end that touches another wall instead takes its spring
+static void hand(OzVec3 *own, OzVec3 *other)
+{
+    *other = is_empty(*other) ? *own : *other;
+    *own = oz_vec3(0, 0, 0);
+}
+
+/* As the kernels do where walls join: an end that touches another wall instead takes its springs
  * along. */
 static void hand_over(OzReference *r, int i)
 {
     int first = r->physics.wall_count - r->physics.edged, ends = r->physics.ends;
-    OzVec3 *springs = &r->wall_history[(int64_t)i * r->physics.touches];
+    OzMemory *memories = &r->wall_memory[(int64_t)i * r->physics.touches];
     for (int wall = first; wall < r->physics.wall_count; wall++) {
         for (int end = 0; end < ends; end++) {
-            OzVec3 *own = &springs[wall * ends + end];
-            int hider = is_empty(*own)
+            OzMemory *own = &memories[wall * ends + end];
+            int hider = is_empty(own->stretch) && is_empty(own->turned)
                             ? -1
                             : oz_dialect_hider(&r->physics, wall, end, r->seen[i], r->wall_drive);
             if (hider >= 0) {
-                OzVec3 *other = &springs[hider * ends + end];
-                *other = is_empty(*other) ? *own : *other;
-                *own = oz_vec3(0, 0, 0);
+                OzMemory *other = &memories[hider * ends + end];
+                hand(&own->stretch, &other->stretch);
+                hand(&own->turned, &other->turned);
             }
         }
     }
@@ -181,14 +187,14 @@ static void touch_mesh(OzReference *r, int i, int mesh, int w, double dt)
     if (!oz_host_mesh_find(&found, physics, w, from, grain.half_shaft, grain.radius, memory)) {
         r->crowded = i;
     }
-    oz_host_mesh_hand_over(&found, &r->wall_history[at]);
+    oz_host_mesh_hand_over(&found, &r->wall_memory[at]);
     for (int k = 0; k < OZ_MESH_SLOTS; k++) {
         OzWallForce *f = &r->wall_force[at + k];
         OzWallEnd end = oz_dialect_mesh_end(&found.at[k], grain);
         *f = oz_dialect_touch_end(physics, w, end, grain, r->wall_drive, dt,
-                                  &r->wall_history[at + k]);
+                                  &r->wall_memory[at + k]);
         r->load[i].force = oz_add(r->load[i].force, f->parts.force);
-        r->load[i].torque = oz_add(r->load[i].torque, oz_cross(f->arm, f->parts.force));
+        r->load[i].torque = oz_add(r->load[i].torque, oz_rods_wall_torque(*f));
     }
 }
 
@@ -218,6 +224,16 @@ static void move_after(OzReference *r, double dt)
     }
 }
 
+static void note_rolling(OzReference *r, OzContact contact, OzContactForce parts, OzVec3 after,
+                         double dt)
+{
+    if (OZ_ROLLING) {
+        OzVec3 mean = oz_scale(oz_add(contact.turning, after), 0.5);
+        r->work.spring -= dt * oz_dot(parts.couple.spring, mean);
+        r->work.dissipated -= dt * oz_dot(parts.couple.dashpot, mean);
+    }
+}
+
 static void note_pairs(OzReference *r, double dt)
 {
     for (int64_t p = 0; p < r->near.pairs.count; p++) {
@@ -232,6 +248,7 @@ static void note_pairs(OzReference *r, double dt)
                 oz_ledger_note_couple(&r->work, f->couple, f->turning, oz_minus(b.rate, a.rate),
                                       dt);
             }
+            note_rolling(r, f->contact, f->parts, oz_minus(b.rate, a.rate), dt);
         }
     }
 }
@@ -267,6 +284,12 @@ static void note_wall(OzReference *r, int i, int index, double dt)
         oz_ledger_note(&r->work, f->contact, f->parts, left, dt);
         note_gate(r, wall, f, left, dt);
         oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
+        OzVec3 turning = oz_scale(drive.axis, drive.rate);
+        note_rolling(r, f->contact, f->parts, oz_minus(now.rate, turning), dt);
+        if (OZ_ROLLING) {
+            OzVec3 couple = oz_add(f->parts.couple.spring, f->parts.couple.dashpot);
+            oz_ledger_push(&r->work, couple, turning, dt);
+        }
     }
 }
 
@@ -328,19 +351,16 @@ static void copy_state(const OzReference *r, OzSnapshot *s)
 static OzStatus find_contacts(const OzReference *r, OzSnapshot *snapshot)
 {
     OzContacts contacts;
-    double spring[3];
     snapshot->contacts.count = 0;
     OZ_PASS(oz_contacts_begin(&contacts, snapshot, &snapshot->contacts));
     for (int64_t p = 0; p < r->near.pairs.count; p++) {
-        oz_dialect_store3(spring, r->near.spring[p]);
-        OZ_PASS(
-            oz_contacts_pair(&contacts, r->near.pairs.pair[p].a, r->near.pairs.pair[p].b, spring));
+        OzPair pair = r->near.pairs.pair[p];
+        OZ_PASS(oz_contacts_pair(&contacts, pair.a, pair.b, &r->near.memory[p]));
     }
     int touches = r->physics.touches;
     for (int64_t k = 0; k < (int64_t)r->count * touches; k++) {
-        oz_dialect_store3(spring, r->wall_history[k]);
         contacts.memory = oz_host_mesh_memory(&r->physics, r->mesh_memory, (int)(k / touches), 0);
-        OZ_PASS(oz_contacts_wall(&contacts, k / touches, (int)(k % touches), spring));
+        OZ_PASS(oz_contacts_wall(&contacts, k / touches, (int)(k % touches), &r->wall_memory[k]));
     }
     oz_contact_list_sort(&snapshot->contacts);
     return OZ_OK;
@@ -373,7 +393,7 @@ static OzStatus create_arrays(OzReference *r)
     OZ_PASS(OZ_NEW(&r->axis, 3 * count));
     OZ_PASS(OZ_NEW(&r->wall_force, touches));
     OZ_PASS(OZ_NEW(&r->mesh_memory, count * r->physics.meshes * OZ_MESH_SLOTS * OZ_MESH_MEMORY));
-    return OZ_NEW(&r->wall_history, touches);
+    return OZ_NEW(&r->wall_memory, touches);
 }
 
 static OzStatus fill(OzReference *r, const OzScene *scene, const OzGrains *grains)
@@ -415,7 +435,7 @@ void oz_reference_free(OzReference *reference)
     free(reference->axis);
     free(reference->pair_force);
     free(reference->wall_force);
-    free(reference->wall_history);
+    free(reference->wall_memory);
     free(reference->mesh_memory);
     free(reference);
 }

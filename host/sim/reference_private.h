@@ -24,7 +24,7 @@ struct OzReference {
     OzPairList near;
     OzPairForce *pair_force; /* of each pair of near             */
     OzWallForce *wall_force; /* count x physics.touches          */
-    OzVec3 *wall_history;    /* count x physics.touches          */
+    OzMemory *wall_memory;   /* count x physics.touches          */
     double *mesh_memory;     /* count x physics.meshes x slots x words (kernels/wall_shape.h) */
     int crowded;             /* a grain that touches a mesh in too many places; -1: none       */
     OzWallDrive wall_drive[OZ_WALLS_MAX]; /* when the forces act          */

@@ -14,13 +14,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A word of a spring, m; 0 in a scene without springs. */
-static double spring_word(const OzSim *sim, int member, const void *words, size_t at)
+/* The words of springs, tangential and rolling. */
+typedef struct Words {
+    void *history, *rolling;
+} Words;
+
+static OzStatus download(Words *words, const OzSim *sim, int member, OzFieldId history,
+                         OzFieldId rolling)
+{
+    OZ_PASS(oz_arrays_download(&sim->arrays, history, member, &words->history));
+    return oz_arrays_download(&sim->arrays, rolling, member, &words->rolling);
+}
+
+static void free_words(Words *words)
+{
+    free(words->history);
+    free(words->rolling);
+}
+
+/* One word of each, in m and rad; 0 in a scene without such springs. */
+static void take_word(const OzSim *sim, int member, const Words *words, size_t at, double *stretch,
+                      double *turned)
 {
     const OzSwitches *s = oz_rods_switches(sim);
-    return s->history ? oz_scalars_get(words, at, s->is_double) *
-                            oz_rods_parameters(sim, member)->units.length
-                      : 0;
+    double length = oz_rods_parameters(sim, member)->units.length;
+    *stretch = s->history ? oz_scalars_get(words->history, at, s->is_double) * length : 0;
+    *turned = s->rolling_spring ? oz_scalars_get(words->rolling, at, s->is_double) : 0;
+}
+
+static OzMemory memory_of(const double stretch[3], const double turned[3])
+{
+    return (OzMemory){{stretch[0], stretch[1], stretch[2]}, {turned[0], turned[1], turned[2]}};
 }
 
 static OzStatus find_pairs(OzSim *sim, int member, OzContacts *contacts)
@@ -28,13 +52,13 @@ static OzStatus find_pairs(OzSim *sim, int member, OzContacts *contacts)
     OzStatus status = OZ_OK;
     const OzSizes *z = oz_rods_sizes(sim);
     int *a = NULL, *b = NULL, *count = NULL, *id = NULL;
-    void *springs = NULL;
-    double spring[3];
+    Words words = {0};
+    double stretch[3], turned[3];
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_a, member, &a));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_b, member, &b));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_count, member, &count));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_id, member, &id));
-    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_pair_history, member, &springs));
+    OZ_TRY(download(&words, sim, member, OZ_FIELD_pair_history, OZ_FIELD_pair_rolling));
     for (int r = 0; r < z->regions; r++) {
         int64_t begin = (int64_t)r * z->inner_capacity;
         for (int64_t p = begin; p < begin + count[r]; p++) {
@@ -42,9 +66,11 @@ static OzStatus find_pairs(OzSim *sim, int member, OzContacts *contacts)
                 continue;
             }
             for (int c = 0; c < 3; c++) {
-                spring[c] = spring_word(sim, member, springs, (size_t)(p * OZ_SPRING + c));
+                take_word(sim, member, &words, (size_t)(p * OZ_SPRING + c), &stretch[c],
+                          &turned[c]);
             }
-            OZ_TRY(oz_contacts_pair(contacts, id[a[p]], id[b[p]], spring));
+            OzMemory memory = memory_of(stretch, turned);
+            OZ_TRY(oz_contacts_pair(contacts, id[a[p]], id[b[p]], &memory));
         }
     }
 done:
@@ -52,7 +78,7 @@ done:
     free(b);
     free(count);
     free(id);
-    free(springs);
+    free_words(&words);
     return status;
 }
 
@@ -62,11 +88,12 @@ static OzStatus find_walls(OzSim *sim, int member, OzContacts *contacts)
     int indices = contacts->physics.touches;
     int *id = NULL;
     int words = contacts->physics.meshes * OZ_MESH_SLOTS * OZ_MESH_MEMORY;
-    void *springs = NULL, *kept = NULL;
-    double spring[3], *memory = NULL;
+    Words springs = {0};
+    void *kept = NULL;
+    double stretch[3], turned[3], *memory = NULL;
     OZ_TRY(OZ_NEW(&memory, words));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_id, member, &id));
-    OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_wall_history, member, &springs));
+    OZ_TRY(download(&springs, sim, member, OZ_FIELD_wall_history, OZ_FIELD_wall_rolling));
     OZ_TRY(oz_arrays_download(&sim->arrays, OZ_FIELD_mesh_memory, member, &kept));
     contacts->memory = memory;
     for (int slot = 0; slot < oz_rods_sizes(sim)->count; slot++) {
@@ -77,15 +104,16 @@ static OzStatus find_walls(OzSim *sim, int member, OzContacts *contacts)
         for (int index = 0; index < indices; index++) {
             for (int c = 0; c < 3; c++) {
                 size_t at = oz_pack_lane(oz_rods_switches(sim), slot, 3 * indices, 3 * index + c);
-                spring[c] = spring_word(sim, member, springs, at);
+                take_word(sim, member, &springs, at, &stretch[c], &turned[c]);
             }
-            OZ_TRY(oz_contacts_wall(contacts, id[slot], index, spring));
+            OzMemory stored = memory_of(stretch, turned);
+            OZ_TRY(oz_contacts_wall(contacts, id[slot], index, &stored));
         }
     }
 done:
     contacts->memory = NULL;
     free(id);
-    free(springs);
+    free_words(&springs);
     free(kept);
     free(memory);
     return status;

@@ -26,6 +26,8 @@ typedef struct Spring {
     OzVec3 normal, arm_a, arm_b;
     double stiffness, tangential;       /* N/m */
     double damping, tangential_damping; /* kg/s */
+    double radius, inertia;             /* m, kg m^2, as kernels/contact.h has them */
+    double rolling, rolling_damping;    /* N m, N m s */
 } Spring;
 
 typedef struct Bed {
@@ -49,8 +51,20 @@ static OzStatus add(Bed *bed, const OzContactValues *values, double mass, Spring
     spring.damping = mass * c.damping;
     spring.tangential = sticks ? mass * c.tangential_stiffness : 0;
     spring.tangential_damping = sticks ? mass * c.tangential_damping : 0;
+    if (bed->now->scene->contact.rolling == OZ_ROLLING_RESISTS_BY_SPRING) { /* contact_rolling.h */
+        double lever = values->rolling_friction * spring.radius;
+        spring.rolling = 2.25 * spring.stiffness * lever * lever;
+        spring.rolling_damping =
+            2 * values->rolling_damping * sqrt(1.4 * spring.inertia * spring.rolling);
+    }
     bed->springs[bed->count++] = spring;
     return OZ_OK;
+}
+
+/* kg m^2, but for a sphere's 7/5 about its contact. */
+static double inertia_of(const OzGrains *grains, int64_t i)
+{
+    return 0.25 * grains->mass[i] * grains->diameter[i] * grains->diameter[i];
 }
 
 static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
@@ -74,6 +88,9 @@ static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
     spring.arm_a = oz_along(arm_a, 0.5 * g->diameter[a], spring.normal);
     spring.arm_b = oz_along(arm_b, -0.5 * g->diameter[b], spring.normal);
     double mass = g->mass[a] * g->mass[b] / (g->mass[a] + g->mass[b]);
+    double a2 = inertia_of(g, a), b2 = inertia_of(g, b);
+    spring.inertia = a2 * b2 / (a2 + b2);
+    spring.radius = 0.5 * g->diameter[a] * g->diameter[b] / (g->diameter[a] + g->diameter[b]);
     return add(bed, &bed->now->scene->contact, mass, spring);
 }
 
@@ -88,6 +105,8 @@ static OzStatus add_walls(Bed *bed, OzContacts *contacts, int64_t i)
         const OzContactEntry *e = &found->entry[k];
         OzVec3 arm = oz_minus(load(e->point), load(&bed->now->position[3 * i]));
         Spring spring = {.a = i, .b = -1, .normal = load(e->normal), .arm_a = arm};
+        spring.radius = 0.5 * bed->now->grains->diameter[i];
+        spring.inertia = inertia_of(bed->now->grains, i);
         const OzWall *wall = &bed->now->scene->walls[-1 - e->b];
         OZ_PASS(add(bed, &wall->contact, bed->now->grains->mass[i], spring));
     }
@@ -131,6 +150,25 @@ static void push(double *force, int64_t i, OzVec3 arm, OzVec3 by)
     }
 }
 
+/* The couple of a rolling spring; returns twice the power that its dashpot would take. */
+static double apply_rolling(Bed *bed, const Spring *s)
+{
+    OzVec3 turn = oz_scale(load(&bed->swing[FREEDOMS * s->a + 3]), -1);
+    double *a = &bed->force[FREEDOMS * s->a + 3];
+    if (s->b >= 0) {
+        turn = oz_along(turn, 1, load(&bed->swing[FREEDOMS * s->b + 3]));
+    }
+    turn = oz_along(turn, -oz_dot(turn, s->normal), s->normal);
+    const double couple[3] = {turn.x, turn.y, turn.z};
+    for (int c = 0; c < 3; c++) {
+        a[c] -= s->rolling * couple[c];
+        if (s->b >= 0) {
+            bed->force[FREEDOMS * s->b + 3 + c] += s->rolling * couple[c];
+        }
+    }
+    return s->rolling_damping * oz_dot(turn, turn);
+}
+
 /* force = K swing; returns twice the power that dashpots would take from a swing at these rates. */
 static double apply(Bed *bed)
 {
@@ -150,6 +188,7 @@ static double apply(Bed *bed)
             push(bed->force, s->b, s->arm_b, by);
         }
         power += s->damping * along * along + s->tangential_damping * oz_dot(across, across);
+        power += s->rolling > 0 ? apply_rolling(bed, s) : 0;
     }
     return power;
 }

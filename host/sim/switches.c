@@ -64,6 +64,25 @@ static bool has_spring(const OzContactValues *values, const OzScene *scene)
     return oz_contact_constants_of(values, &scene->contact).tangential_stiffness > 0;
 }
 
+static bool resists(const OzContactValues *values)
+{
+    return values->rolling_friction > 0 || values->twisting_friction > 0;
+}
+
+/* Whether any contact of the scene resists rotation, and whether any with a spring. Springs are
+ * kept beside the tangential ones. */
+static void derive_rolling(OzSwitches *s, const OzScene *scene)
+{
+    bool rolls = scene->contact.rolling_friction > 0;
+    s->rolling = resists(&scene->contact);
+    for (int w = 0; w < scene->wall_count; w++) {
+        s->rolling |= resists(&scene->walls[w].contact);
+        rolls |= scene->walls[w].contact.rolling_friction > 0;
+    }
+    s->rolling_spring = rolls && scene->contact.rolling == OZ_ROLLING_RESISTS_BY_SPRING;
+    s->history |= s->rolling_spring;
+}
+
 /* Whether any contact of the scene has friction, and whether any of these has a spring. */
 static void derive_friction(OzSwitches *s, const OzScene *scene)
 {
@@ -90,6 +109,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.round = all_round(grains);
     s.equal = all_equal(grains);
     derive_friction(&s, scene);
+    derive_rolling(&s, scene);
     s.slip_scale = s.history && scene->contact.slip == OZ_SLIP_SCALE;
     s.attraction_clamp = scene->contact.attraction == OZ_ATTRACTION_CLAMP;
     s.surfaces = scene->contact.contact_point == OZ_POINT_SURFACES;

@@ -20,6 +20,8 @@
     X(EQUAL, equal, NULL)                                                                          \
     X(FRICTION, friction, "friction")                                                              \
     X(HISTORY, history, "tangential springs and their history")                                    \
+    X(ROLLING, rolling, "resistance against rolling")                                              \
+    X(ROLLING_SPRING, rolling_spring, NULL)                                                        \
     X(SLIP_SCALE, slip_scale, NULL)                                                                \
     X(ATTRACTION_CLAMP, attraction_clamp, NULL)                                                    \
     X(SURFACES, surfaces, NULL)                                                                    \
