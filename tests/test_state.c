@@ -20,7 +20,7 @@ static const char rods[] =
     "broadphase: %s\n"
     "gravity: [0, 0, -100]\n"
     "time: {step: 1e-5, duration: 1.2e-2}\n"
-    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4, rolling_friction: 0.2}\n"
+    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4, rolling_friction: 0.02}\n"
     "grains:\n"
     "  - {kind: random, count: 20, diameter: 0.6e-3}\n"
     "  - {kind: random, count: 20, diameter: 0.5e-3, aspect: 3}\n"

@@ -30,7 +30,7 @@ static const char many[] =
     "gravity: [0, 0, -100]\n"
     "integrator: euler\n"
     "time: {step: 1e-5, duration: 3e-3}\n"
-    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4, rolling_friction: 0.2}\n"
+    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4, rolling_friction: 0.02}\n"
     "grains:\n"
     "  - {kind: random, count: 6100, diameter: [0.4e-3, 0.6e-3], aspect: [0.5, 3]}\n"
     "walls:\n"
