@@ -17,6 +17,13 @@ typedef struct OzWallParameters {
     OzLawConstants law;
 } OzWallParameters;
 
+/* A fluid that flows by grains (drag.h). */
+typedef struct OzDragConstants {
+    scalar linear;  /* kg/(m s): 3 pi eta          */
+    scalar square;  /* kg/m^3: pi/8 rho C_d        */
+    scalar wind[3]; /* m/s, of the fluid           */
+} OzDragConstants;
+
 /* The numbers of a scene that kernels read, and what follows from them. They can change without a
  * new kernel program. All are scalars: the host fills the struct in double, and the
  * single-precision one is made by converting it number by number. On the host the numbers are in SI
@@ -31,6 +38,7 @@ typedef struct OzParameters {
     scalar gravity[3]; /* m/s^2                                                            */
     scalar deep_look, deep_warn, deep_stop; /* depths (depth.h) looked at, counted, stopped at */
     OzLawConstants law; /* between grains                                                   */
+    OzDragConstants fluid;
     OZ_PARAMETERS_LISTS
     scalar radius_count; /* units: the radius in a place's units                             */
     scalar radius, half_length, mass; /* of every grain of an equal population                */

@@ -8,7 +8,7 @@
 
 /* The kernels' SPRING is what tangential springs were given: what they do not hold is friction. */
 #define OZ_LEDGER_LOSSES(X)                                                                        \
-    X(DISSIPATED, dissipated, energy_dissipated, "lost in dashpots so far")                        \
+    X(DISSIPATED, dissipated, energy_dissipated, "lost in dashpots, and to a fluid, so far")       \
     X(SPRING, friction, energy_friction, "lost by sliding and resisted rolling so far")
 
 #define OZ_ELEMENT_LEDGER_LOSSES(X)                                                                \

@@ -2,6 +2,7 @@
  * go. OpenCL C only. */
 #pragma once
 
+#include "kernels/drag.h"
 #include "kernels/enclosure.h"
 #include "kernels/near.h"
 #include "kernels/lists.h"
@@ -45,6 +46,45 @@ OZ_INLINE void oz_motion_before_block(OzWork *w, int block, int step)
 }
 #endif
 
+#if OZ_DRAG
+/* A block's drag at the velocity and the rotation that its forces see. */
+OZ_INLINE OzLoad oz_motion_drag(const OzWork *w, OzBody body, OzShape shape)
+{
+    real dt = REAL(w->parameters->dt);
+    OzVec3 spin = oz_integrate_seen_spin(body, shape, dt);
+    return oz_drag_load(w->parameters->fluid, shape, oz_integrate_seen_velocity(body, dt),
+                        oz_body_rate(spin, oz_quaternion_axis(body.turn), shape));
+}
+
+#if OZ_LEDGER
+/* Half of a drag's power at a velocity and a rotation. */
+OZ_INLINE real oz_motion_power(OzLoad drag, OzVec3 velocity, OzVec3 spin, OzBody body,
+                               OzShape shape)
+{
+    OzVec3 rate = oz_body_rate(spin, oz_quaternion_axis(body.turn), shape);
+    return REAL(0.5) * (oz_dot(drag.force, velocity) + oz_dot(drag.torque, rate));
+}
+
+/* What the fluid took from a block in a step, as ledger.h does of contacts: by the mean of the
+ * motion that forces saw and of the one after. */
+OZ_INLINE void oz_motion_note_drag(OzWork *w, int block, OzLoad drag, OzBody before, OzBody after,
+                                   OzShape shape)
+{
+    real dt = REAL(w->parameters->dt);
+    OzVec3 spin = oz_integrate_seen_spin(before, shape, dt);
+    real power =
+        oz_motion_power(drag, oz_integrate_seen_velocity(before, dt), spin, before, shape) +
+        oz_motion_power(drag, after.velocity, after.spin, after, shape);
+    scalar lane[OZ_LANES];
+    OZ_LANES_STORE(power, lane);
+    for (int l = 0; l < OZ_LANES && block * OZ_LANES + l < w->z.count; l++) {
+        size_t row = (size_t)w->id[block * OZ_LANES + l] * OZ_LEDGER_WORDS;
+        w->ledger[row + OZ_L_DISSIPATED] -= (double)w->parameters->dt * (double)lane[l];
+    }
+}
+#endif
+#endif
+
 /* The part of a step after the forces. */
 OZ_INLINE void oz_motion_block(OzWork *w, int block, int step)
 {
@@ -57,7 +97,18 @@ OZ_INLINE void oz_motion_block(OzWork *w, int block, int step)
 #if OZ_PUSHED
     oz_loads_push(w, block, &load);
 #endif
+#if OZ_DRAG
+    OzLoad drag = oz_motion_drag(w, body, shape);
+    load.force = oz_add(load.force, drag.force);
+    load.torque = oz_add(load.torque, drag.torque);
+#endif
+#if OZ_DRAG && OZ_LEDGER
+    OzBody before = body;
+#endif
     oz_integrate_after(&body, shape, load, REAL(p->dt), p->inverse_unit);
+#if OZ_DRAG && OZ_LEDGER
+    oz_motion_note_drag(w, block, drag, before, body, shape);
+#endif
     real keep = REAL(1 - p->drag * p->dt);
     body.velocity = oz_scale(body.velocity, keep);
     body.spin = oz_scale(body.spin, keep);

@@ -5,10 +5,10 @@
 /* The crowd is seen after some hits, the cluster in the middle of its squeeze. */
 enum { CROWD_STEPS = 300, CLUSTER_STEPS = 60 };
 
-/* A shaken box with a slanted lid: precision, contact keys, populations. */
+/* A shaken box with a slanted lid: precision, contact keys, drag, populations. */
 static const char box[] =
     "model: rods\nprecision: %s\ntime: {step: 1e-5, duration: 1}\nintegrator: %s\n"
-    "observe: {ledger: true}\ncontact: {%s}\ngrains:\n%s\n"
+    "observe: {ledger: true}\ncontact: {%s}\n%sgrains:\n%s\n"
     "walls:\n"
     "  - {kind: plane, motion: {frequency: 300, amplitude: 1e-4}}\n"
     "  - {kind: cylinder, diameter: 6e-3, contact: {friction: 0.2}}\n"
@@ -19,6 +19,7 @@ static const char box[] =
     "  - {kind: random, count: 20, diameter: 0.6e-3, fill: 0.2}\n"                                 \
     "  - {kind: random, count: 20, diameter: 0.5e-3, aspect: 3, fill: 0.2}\n"                      \
     "  - {kind: random, count: 21, diameter: [0.4e-3, 0.8e-3], aspect: [0.5, 3], fill: 0.2}"
+#define DRAG "drag: {viscosity: 1e-3, coefficient: 0.4, density: 1000, wind: [0.3, 0, 0.1]}\n"
 /* Upright rods that touch along their length, thrown at one another. */
 #define ALIGNED                                                                                    \
     "  - {kind: lattice, diameter: 0.5e-3, aspect: 3, cells: [5, 5, 1],"                           \
@@ -69,7 +70,8 @@ static void check(const char *precision, const char *integrator, const char *con
 {
     Rig rig;
     int steps = cluster ? CLUSTER_STEPS : CROWD_STEPS;
-    rig_open(&rig, box, precision, integrator, contact, cluster ? ALIGNED : MIXTURE);
+    rig_open(&rig, box, precision, integrator, contact, cluster ? DRAG : "",
+             cluster ? ALIGNED : MIXTURE);
     throw_grains(&rig.grains, cluster ? 0.02 : 0.4, 20);
     if (cluster) {
         squeeze(&rig.grains);

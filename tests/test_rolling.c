@@ -77,6 +77,11 @@ static void test_a_sphere_on_a_slope(void **state)
             assert_true(fabs((rig.now.velocity[0] - before) / (gains * time) - 1) < 1e-3);
         } else if (k == 0) {
             assert_true(fabs(rig.now.velocity[0]) < 1e-9 * gravity * time);
+            /* and has turned until 2.25 kappa m mu_r^2 R^2 of the spring bear m g sin R */
+            double kappa = oz_contact_constants(&rig.scene.contact).stiffness;
+            double turn = gravity * sin(angle) / (2.25 * kappa * mu * mu * radius);
+            /* a turn of 4e-5 in a quaternion of 1e-16, the overlap in the lever */
+            assert_true(fabs(2 * rig.now.quaternion[2] / turn - 1) < 1e-4);
         } else {
             /* below the rate where the couple fades, 8 steps of it at 2/5 m R^2 */
             assert_true(fabs(rig.now.velocity[0]) < mu * gravity * 8 * 3e-6 / 0.4);

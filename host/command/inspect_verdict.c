@@ -285,6 +285,27 @@ static void print_grains(FILE *file, const OzGrains *grains)
             high > large ? "; lengths are metres: were millimetres meant?" : "");
 }
 
+/* How fast grains fall through a fluid in the end: mg = 3 pi eta d v + pi/8 rho C_d d^2 v^2. */
+static void print_fluid(FILE *file, const OzVerdict *v)
+{
+    const OzDrag *drag = &v->scene->drag;
+    const double pi = 3.14159265358979323846, *g = v->scene->gravity;
+    double gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), low = INFINITY, high = 0;
+    for (int64_t i = 0; i < v->grains->count; i++) {
+        double d = cbrt(6 / pi * oz_grains_volume(v->grains->diameter[i], v->grains->length[i]));
+        double linear = 3 * pi * drag->viscosity * d;
+        double square = pi / 8 * drag->density * drag->coefficient * d * d;
+        double weight = v->grains->mass[i] * gravity;
+        double speed = 2 * weight / (linear + sqrt(linear * linear + 4 * square * weight));
+        low = fmin(low, speed);
+        high = fmax(high, speed);
+    }
+    if (drag->viscosity > 0 || drag->coefficient * drag->density > 0) {
+        fprintf(file, "  fluid            a grain alone falls at %.3g to %.3g m/s in the end\n",
+                low, high);
+    }
+}
+
 /* Whether all walls of rods are planes across gravity, or there are none. */
 static bool is_open(const OzScene *scene)
 {
@@ -332,6 +353,7 @@ OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
         OZ_PASS(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
         print_grains(file, verdict->grains);
         if (!flat) {
+            print_fluid(file, verdict);
             print_container(file, verdict);
         }
     }

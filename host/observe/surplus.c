@@ -20,6 +20,10 @@ static bool is_known(const OzSnapshot *snapshot)
     if (snapshot->scene->is_pushed) { /* from outside, whose work nobody counts */
         return false;
     }
+    const double *wind = snapshot->scene->drag.wind;
+    if ((wind[0] != 0 || wind[1] != 0 || wind[2] != 0) && !snapshot->has_ledger) {
+        return false;
+    }
     for (int w = 0; w < snapshot->scene->wall_count && !snapshot->has_ledger; w++) {
         const OzWall *wall = &snapshot->scene->walls[w];
         if (wall->motion.present || wall->since > 0) {

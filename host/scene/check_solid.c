@@ -212,6 +212,30 @@ static void check_views(const OzScene *scene, OzNode *root, OzFaults *faults)
     }
 }
 
+/* A step in which a fluid would stop a grain and more throws it back. Stokes' torque stops a
+ * sphere's rotation at 60 eta / (rho d^2), the wind its motion at 3/4 rho_f C_d v / (rho d). */
+static void check_drag(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    const OzDrag *drag = &scene->drag;
+    const double *v = drag->wind, wind = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    double fastest = 0, of = 0;
+    for (int i = 0; i < scene->population_count; i++) {
+        const OzPopulation *grains = &scene->populations[i];
+        double d = grains->diameter.low, heavy = grains->density * d;
+        double rate = 60 * drag->viscosity / (heavy * d) +
+                      0.75 * drag->density * drag->coefficient * wind / heavy;
+        if (heavy > 0 && rate > fastest) {
+            fastest = rate;
+            of = d;
+        }
+    }
+    if (scene->step * fastest > 1) {
+        oz_tree_fault(root, faults, "time.step",
+                      "a fluid stops grains of %g m within %.3g s; expected a step below that", of,
+                      1 / fastest);
+    }
+}
+
 void oz_check_solid_scene(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
     check_walls(scene, root, faults);
@@ -219,4 +243,5 @@ void oz_check_solid_scene(const OzScene *scene, OzNode *root, OzFaults *faults)
     check_room(scene, root, faults);
     check_singles(scene, root, faults);
     check_views(scene, root, faults);
+    check_drag(scene, root, faults);
 }

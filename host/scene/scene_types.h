@@ -216,6 +216,14 @@ typedef struct OzBoundary {
     double size[3];          /* m, of the cell; not looked at where space is open */
 } OzBoundary;
 
+/* Rods and spheres: what a fluid does to each grain (kernels/drag.h). */
+typedef struct OzDrag {
+    double viscosity;   /* Pa s                            */
+    double coefficient; /* C_d of the sphere of its volume */
+    double density;     /* kg/m^3, of the fluid            */
+    double wind[3];     /* m/s, its velocity               */
+} OzDrag;
+
 typedef enum OzOverlaps {
     OZ_OVERLAPS_KEEP,  /* grains start where they are told to                    */
     OZ_OVERLAPS_REMOVE /* they are moved apart first, without forces (part.h)     */
@@ -402,6 +410,7 @@ typedef struct OzScene {
     double skin; /* m, neighbour list's reach beyond contact; 0: chosen by orzo */
     bool gyroscopic;
     OzContactValues contact;
+    OzDrag drag;
     OzTriangleValues triangles;
     OzBeamValues beams;
     OzPopulation *populations;

@@ -166,6 +166,9 @@ static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], co
     parameters->dt = scene->step;
     memcpy(parameters->gravity, scene->gravity, sizeof scene->gravity);
     parameters->law = law_of(scene, &scene->contact);
+    parameters->fluid.linear = 3 * M_PI * scene->drag.viscosity;
+    parameters->fluid.square = M_PI / 8 * scene->drag.density * scene->drag.coefficient;
+    memcpy(parameters->fluid.wind, scene->drag.wind, sizeof scene->drag.wind);
     parameters->deep_warn = scene->guards.overlap_warn;
     parameters->deep_stop = scene->guards.overlap_stop;
     parameters->deep_look = fmin(1, fmin(parameters->deep_warn, parameters->deep_stop));

@@ -29,6 +29,7 @@
 #define OZ_INTEGRATOR_ID    oz_host_switches_now.rods.integrator
 #define OZ_MOVES_BEFORE     oz_host_switches_now.rods.moves_before
 
+#include "kernels/drag.h"
 #include "kernels/integrate.h"
 #include "kernels/rods.h"
 #include "kernels/wall_drive.h"

@@ -220,7 +220,15 @@ static void move_after(OzReference *r, double dt)
     for (int i = 0; i < r->count; i++) {
         OzLoad load = r->load[i];
         load.force = oz_along(load.force, r->shape[i].mass, gravity);
+        OzLoad drag = oz_drag_load(r->physics.parameters.fluid, r->shape[i], r->seen[i].velocity,
+                                   r->seen[i].rate);
+        load.force = oz_add(load.force, drag.force);
+        load.torque = oz_add(load.torque, drag.torque);
         oz_integrate_after(&r->body[i], r->shape[i], load, dt, 1);
+        OzGrain now = grain_now(r, i);
+        OzVec3 way = oz_scale(oz_add(r->seen[i].velocity, now.velocity), 0.5 * dt);
+        OzVec3 turn = oz_scale(oz_add(r->seen[i].rate, now.rate), 0.5 * dt);
+        r->work.dissipated -= oz_dot(drag.force, way) + oz_dot(drag.torque, turn);
     }
 }
 

@@ -118,6 +118,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.smooth = scene->contact.law == OZ_LAW_HOOKE && scene->contact.damping == OZ_DAMPING_SMOOTH;
     s.at_contact = scene->contact.restitution_at == OZ_RESTITUTION_CONTACT && !s.round;
     s.gyroscopic = scene->gyroscopic && !s.round; /* a sphere has no gyroscopic term */
+    s.drag = scene->drag.viscosity > 0 || scene->drag.coefficient > 0;
     s.fine = oz_resolution_is_fine(scene, grains);
     count_kinds(&s, scene);
     for (int k = 0; k < 3; k++) {

@@ -142,6 +142,11 @@ OzParameters oz_units_parameters(const OzParameters *si, int law)
     for (int c = 0; c < 3; c++) {
         p.gravity[c] *= u->time * u->time / u->length;
     }
+    p.fluid.linear /= u->mass / (u->length * u->time);
+    p.fluid.square /= u->mass / (u->length * u->length * u->length);
+    for (int c = 0; c < 3; c++) {
+        p.fluid.wind[c] /= oz_units_speed(u);
+    }
     count_law(&p.law, u, law);
     for (int w = 0; w < OZ_WALLS_MAX; w++) {
         count_wall(&p.wall[w], u, law);
