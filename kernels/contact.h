@@ -15,6 +15,7 @@ typedef struct OzLawConstants {
     scalar friction;             /* Coulomb coefficient                                    */
     scalar rolling_friction,
         twisting_friction;  /* couple over normal force and radius (contact_rolling.h) */
+    scalar adhesion;        /* N/m: a contact pulls with this times its radius; all laws' */
     scalar rolling_damping; /* of the rolling spring, over critical damping           */
 } OzLawConstants;
 
@@ -25,6 +26,7 @@ typedef struct OzContact {
     OzVec3 velocity; /* m/s, of b relative to a at the contact                             */
     real mass;       /* kg, effective: 1/mass = 1/mass_a + 1/mass_b; of the grain at a wall */
     real radius;     /* m, effective: 1/radius = 1/radius_a + 1/radius_b; of the grain at a wall */
+    real share;      /* of a contact that several points share; for adhesion               */
     real lightness;  /* root of (mass that the contact feels, rotation included, / mass)   */
     OzVec3 turning;  /* rad/s, of b relative to a; this and the next with OZ_ROLLING only  */
     real inertia;    /* kg m^2: 1/inertia = 1/(mass_a radius_a^2) + 1/(mass_b radius_b^2)  */
@@ -49,6 +51,7 @@ typedef struct OzResponse {
     real energy;               /* J, in the normal spring                                   */
     real tangential_stiffness; /* N/m                                                       */
     real tangential_damping;   /* kg/s                                                      */
+    real adhesion;             /* N, pulling, beside the spring                             */
 } OzResponse;
 
 /* What friction does, and whether it is all that it can: a contact without friction slips. */
@@ -61,6 +64,7 @@ typedef struct OzFriction {
  * lists of contacts, and costs nothing when nobody asks. */
 typedef struct OzContactForce {
     OzVec3 force;              /* N, on b                                                   */
+    real press;                /* N, spring and dashpot: what friction is limited by        */
     OzVec3 spring;             /* N, on b: the tangential spring's part                     */
     OzVec3 dashpot;            /* N, on b: the dashpots' part; tangential none while sliding */
     real energy;               /* J, in the normal spring                                   */

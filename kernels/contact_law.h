@@ -1,7 +1,10 @@
 /* The law of the scene, Coulomb friction, and both put together: from a contact to what it does.
- * Switches (constant on a device): OZ_LAW_ID (the law's row in laws.h), OZ_ATTRACTION_CLAMP (f_n >= 0),
- * OZ_FRICTION, OZ_HISTORY (a tangential spring exists), OZ_SLIP_SCALE (P: the force alone is limited and the
- * spring grows on; otherwise the spring is cut back to what the sliding contact carries). */
+ * Switches (constant on a device): OZ_LAW_ID (the law's row in laws.h), OZ_ATTRACTION_CLAMP (f_n >=
+ * 0), OZ_ADHESION (any law: while bodies overlap they pull with 2 pi w R*, w the work of adhesion,
+ * as Derjaguin, Muller & Toporov 1975 find for hard spheres; friction goes by what presses without
+ * it), OZ_FRICTION, OZ_HISTORY (a tangential spring exists), OZ_SLIP_SCALE (P: the force alone is
+ * limited and the spring grows on; otherwise the spring is cut back to what the sliding contact
+ * carries). */
 #pragma once
 
 #include "kernels/contact_hertz.h"
@@ -12,7 +15,7 @@
 
 OZ_INLINE OzResponse oz_contact_response(OzContact c, OzLawConstants law)
 {
-    OzResponse response = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+    OzResponse response = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 #define OZ_CONTACT_LAW_ROW(NAME, name, choice, linear, stiffness, damping)                         \
     if (OZ_LAW_ID == OZ_LAW_##NAME) {                                                              \
         response = oz_contact_##name(c, law);                                                      \
@@ -21,6 +24,11 @@ OZ_INLINE OzResponse oz_contact_response(OzContact c, OzLawConstants law)
 #undef OZ_CONTACT_LAW_ROW
     if (OZ_ATTRACTION_CLAMP) {
         response.dashpot = oz_larger(response.dashpot, -response.spring);
+    }
+    response.adhesion = REAL(0.0);
+    if (OZ_ADHESION) {
+        response.adhesion = law.adhesion * c.radius * c.share;
+        response.energy -= response.adhesion * oz_larger(c.overlap, REAL(0.0));
     }
     return response;
 }
@@ -86,7 +94,9 @@ OZ_INLINE OzContactForce oz_contact_force(OzContact c, OzLawConstants law, OzMem
     OzResponse response = oz_contact_response(c, law);
     real normal_force = response.spring + response.dashpot;
     OzFriction f = oz_contact_friction(c, response, normal_force, law.friction, memory, dt, share);
-    out.force = oz_where(c.touching, oz_along(f.force, normal_force, c.normal));
+    real net = OZ_ADHESION ? normal_force - response.adhesion : normal_force;
+    out.force = oz_where(c.touching, oz_along(f.force, net, c.normal));
+    out.press = normal_force;
     out.spring = oz_where(c.touching, oz_minus(f.force, f.dashpot));
     out.dashpot = oz_where(c.touching, oz_along(f.dashpot, response.dashpot, c.normal));
     out.slips = f.slips;

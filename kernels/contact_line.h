@@ -35,12 +35,19 @@ typedef struct OzLine {
     real tangential_stiffness, tangential_damping; /* N/m, kg/s                                 */
 } OzLine;
 
+/* N, of spring, dashpot and adhesion. */
+OZ_INLINE real oz_line_net(OzResponse response)
+{
+    real press = response.spring + response.dashpot;
+    return OZ_ADHESION ? press - response.adhesion : press;
+}
+
 /* Adds what the law answers at a spring of overlap and rate as in `whole`, acting through one point of it with
  * the given share. */
 OZ_INLINE void oz_line_add(OzLine *sum, OzContact at, OzVec3 arm_a, OzVec3 arm_b, OzResponse response,
                            real overlap, real share)
 {
-    OzVec3 force = oz_scale(at.normal, share * (response.spring + response.dashpot));
+    OzVec3 force = oz_scale(at.normal, share * oz_line_net(response));
     OzVec3 dashpot = oz_scale(at.normal, share * response.dashpot);
     real depth = share * overlap;
     sum->force = oz_add(sum->force, force);
@@ -67,6 +74,7 @@ OZ_INLINE OzResponse oz_line_response(OzContact c, OzLawConstants law)
     OzResponse r = oz_contact_response(c, law);
     r.spring = touching ? r.spring : REAL(0.0);
     r.dashpot = touching ? r.dashpot : REAL(0.0);
+    r.adhesion = touching ? r.adhesion : REAL(0.0);
     r.energy = touching ? r.energy : REAL(0.0);
     r.tangential_stiffness = touching ? r.tangential_stiffness : REAL(0.0);
     r.tangential_damping = touching ? r.tangential_damping : REAL(0.0);

@@ -66,6 +66,7 @@ OZ_INLINE OzContact oz_grain_contact(OzGrain a, OzGrain b, OzVec3 apart, OzClose
     contact.mass = OZ_EQUAL ? REAL(0.5) * a.mass : a.mass * b.mass / (a.mass + b.mass);
     contact.radius =
         a.radius * b.radius / (a.radius + b.radius); /* left out where no law reads it */
+    contact.share = REAL(1.0);
     if (OZ_ROLLING) {
         real a2 = a.mass * a.radius * a.radius, b2 = b.mass * b.radius * b.radius;
         contact.turning = oz_minus(b.rate, a.rate);

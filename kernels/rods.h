@@ -38,8 +38,9 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
 {
     OzContact *c = &pair->contact;
     OzLine sum = oz_line_sum(a, b, apart, law, *c, pair->arm_a, pair->arm_b);
-    OzResponse response = {sum.push, REAL(0.0), sum.energy, sum.tangential_stiffness,
-                           sum.tangential_damping};
+    OzResponse response = {
+        sum.push, REAL(0.0), sum.energy, sum.tangential_stiffness, sum.tangential_damping,
+        REAL(0.0)};
     c->touching = sum.overlap > REAL(0.0);
     real inverse = REAL(1.0) / (c->touching ? sum.overlap : REAL(1.0));
     real length = sqrt(oz_dot(sum.normal, sum.normal));
@@ -55,6 +56,7 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
     OzFriction f = oz_contact_friction(*c, response, sum.push, law.friction, memory, dt, share);
     OzVec3 tangential = oz_where(c->touching, f.force), dashpot = oz_where(c->touching, f.dashpot);
     pair->parts.force = oz_add(sum.force, tangential);
+    pair->parts.press = sum.push;
     pair->parts.spring = oz_minus(tangential, dashpot);
     pair->parts.dashpot = oz_add(sum.dashpot, dashpot);
     pair->parts.slips = f.slips;
@@ -166,6 +168,7 @@ OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants l
         contact->overlap *= at.share;
         contact->rate *= at.share;
     }
+    contact->share = at.share;
     contact->mass = grain.mass;
     contact->radius = grain.radius;
     if (OZ_ROLLING) {

@@ -116,7 +116,7 @@ static void test_hertz_mindlin(void **state)
     (void)state;
     check("double", "symplectic-euler",
           "law: hertz-mindlin, youngs_modulus: 3e6, poisson_ratio: 0.3, restitution: 0.5, "
-          "friction: 0.4, rolling_friction: 0.2, twisting_friction: 0.1",
+          "friction: 0.4, rolling_friction: 0.2, twisting_friction: 0.1, surface_energy: 1e-3",
           false, 1e-9);
 }
 
@@ -128,7 +128,8 @@ static void test_options_together(void **state)
         "float", "symplectic-euler",
         "law: hertz, hertz_stiffness: 2e3, normal_damping_rate: 2e3, tangential_damping_rate: 3e3,"
         " friction: 0.4, parallel: line, attraction: clamp, rolling: constant, rolling_friction: "
-        "0.2",
+        "0.2, "
+        "surface_energy: 1e-3",
         true, 1e-2);
 }
 

@@ -29,10 +29,11 @@ static void test_a_slow_sphere_falls_as_stokes_says(void **state)
         assert_true(fabs(rig.now.velocity[2] / expected - 1) < 2e-5);
         assert_true(fabs(rig.now.angular_velocity[2] - 5 * exp(-t * 60 / (18 * tau))) < 2e-4 * 5);
     }
-    /* what gravity gave and it does not have, the fluid has */
+    /* what gravity gave and it does not have, the fluid has, but for the half of the last step's
+     * force that velocity-verlet applies in the next: 1e-4 s / 2 of 8 tau */
     double start = 0.5 * rig.grains.inertia_axis[0] * 25;
     double gone = start - mechanical_energy(&rig.now);
-    assert_true(fabs(rig.now.ledger.dissipated / gone - 1) < 1e-5);
+    assert_true(fabs(rig.now.ledger.dissipated / gone - 1) < 2e-3);
     rig_close(&rig);
 }
 
@@ -40,14 +41,14 @@ static void test_a_slow_sphere_falls_as_stokes_says(void **state)
 static void test_a_fast_sphere_falls_as_the_square_says(void **state)
 {
     (void)state;
-    const double most = sqrt(4.0 / 3 * density * gravity * diameter / (1.2 * 0.5));
+    const double most = sqrt(4.0 / 3 * density * gravity * diameter / (1000 * 0.5));
     Rig rig;
-    open_grain(&rig, 0, "coefficient: 0.5");
-    for (int64_t step = 1000; step <= 20000; step *= 4) {
+    open_grain(&rig, 0, "coefficient: 0.5, density: 1000");
+    for (int64_t step = 50; step <= 1000; step *= 4) {
         rig_advance(&rig, step);
         double expected = -most * tanh(gravity * rig.now.time / most);
-        /* second order of a step of v_t / g / 7500 */
-        assert_true(fabs(rig.now.velocity[2] / expected - 1) < 1e-6);
+        /* second order of a step of v_t / g / 260 */
+        assert_true(fabs(rig.now.velocity[2] / expected - 1) < 1e-5);
     }
     assert_true(rig.now.angular_velocity[2] == 5); /* which only viscosity slows */
     rig_close(&rig);

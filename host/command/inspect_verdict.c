@@ -306,6 +306,29 @@ static void print_fluid(FILE *file, const OzVerdict *v)
     }
 }
 
+/* The strongest pull of adhesion, of the largest sphere at a wall or of two, over the lightest's
+ * weight. */
+static void print_adhesion(FILE *file, const OzVerdict *v)
+{
+    const double pi = 3.14159265358979323846, *g = v->scene->gravity;
+    double gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), pull = 0, weight = INFINITY;
+    for (int w = -1; w < v->scene->wall_count; w++) {
+        const OzContactValues *values = w < 0 ? &v->scene->contact : &v->scene->walls[w].contact;
+        for (int64_t i = 0; i < v->grains->count; i++) {
+            double radius = v->grains->diameter[i] * (w < 0 ? 0.25 : 0.5);
+            pull = fmax(pull, 2 * pi * values->surface_energy * radius);
+            weight = fmin(weight, v->grains->mass[i] * gravity);
+        }
+    }
+    if (pull > 0) {
+        fprintf(file, "  adhesion         up to %.3g N", pull);
+        if (weight > 0) {
+            fprintf(file, ", %.3g times the weight of the lightest grain", pull / weight);
+        }
+        fputc('\n', file);
+    }
+}
+
 /* Whether all walls of rods are planes across gravity, or there are none. */
 static bool is_open(const OzScene *scene)
 {
@@ -353,6 +376,7 @@ OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
         OZ_PASS(flat ? print_beams(file, verdict) : print_contacts(file, verdict));
         print_grains(file, verdict->grains);
         if (!flat) {
+            print_adhesion(file, verdict);
             print_fluid(file, verdict);
             print_container(file, verdict);
         }

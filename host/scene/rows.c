@@ -179,6 +179,8 @@ static const OzKey KEYS[] = {
             "tangential over normal damping"),
     {"contact.tangential_damping", RATIO, AT(contact.tangential_damping), DEFAULT("1"), FLAT,
      .help = "of discs, over normal damping (hooke)"},
+    CONTACT(surface_energy, NUMBER(0, 1e9, "J/m^2"), DEFAULT("0"),
+            "w, work of adhesion: bodies that overlap pull each other with 2 pi w R"),
     CONTACT(rolling, CHOICE(ROLLINGS), DEFAULT("spring"),
             "against rolling: a spring that yields, with a dashpot; or a constant couple"),
     CONTACT(rolling_friction, COEFFICIENT, DEFAULT("0"),

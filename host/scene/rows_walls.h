@@ -139,6 +139,7 @@
     WALL_CONTACT(friction, COEFFICIENT, "Coulomb's coefficient"),
     WALL_CONTACT(tangential_stiffness, RATIO, "tangential over normal stiffness"),
     WALL_CONTACT(tangential_damping, RATIO, "tangential over normal damping"),
+    WALL_CONTACT(surface_energy, NUMBER(0, 1e9, "J/m^2"), "work of adhesion"),
     WALL_SHARED(rolling, ROLLINGS),
     WALL_CONTACT(rolling_friction, COEFFICIENT, "greatest couple against rolling"),
     WALL_CONTACT(rolling_damping, RATIO, "of the rolling spring, over critical damping"),

@@ -54,6 +54,7 @@ typedef struct OzContactValues {
     double friction;             /* Coulomb coefficient                                      */
     double tangential_stiffness; /* k_t / k_n                                                */
     double tangential_damping;   /* c_t / c_n; defaults to tangential_stiffness              */
+    double surface_energy;       /* J/m^2, work of adhesion                                */
     OzRolling rolling;           /* how contacts resist rolling                            */
     double rolling_friction;     /* couple over normal force and radius; 0: none           */
     double rolling_damping;      /* of the rolling spring, over critical damping           */

@@ -18,6 +18,7 @@ static OzLawConstants law_of(const OzScene *scene, const OzContactValues *values
                           .tangential_stiffness = constants.tangential_stiffness,
                           .tangential_damping = constants.tangential_damping,
                           .friction = values->friction,
+                          .adhesion = 2 * M_PI * values->surface_energy,
                           .rolling_friction = values->rolling_friction,
                           .twisting_friction = values->twisting_friction,
                           .rolling_damping = values->rolling_damping};

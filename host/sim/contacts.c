@@ -56,7 +56,7 @@ static double spring_energy(const OzContacts *contacts, const Found *found, doub
                               contacts->share * contacts->physics.parameters.dt, sliding);
     double length = sqrt(oz_dot(stretch, stretch));
     double full = found->parts.tangential_stiffness * length;
-    double limit = friction * fabs(oz_dot(found->parts.force, c->normal));
+    double limit = friction * fabs(found->parts.press);
     double force = OZ_SLIP_SCALE ? fmin(full, limit) : full;
     return full > 0 ? force * (length - 0.5 * length * force / full) : 0;
 }

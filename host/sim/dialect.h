@@ -10,6 +10,7 @@
 #define OZ_EQUAL            oz_host_switches_now.rods.equal
 #define OZ_FRICTION         oz_host_switches_now.rods.friction
 #define OZ_HISTORY          oz_host_switches_now.rods.history
+#define OZ_ADHESION         oz_host_switches_now.rods.adhesion
 #define OZ_ROLLING          oz_host_switches_now.rods.rolling
 #define OZ_ROLLING_SPRING   oz_host_switches_now.rods.rolling_spring
 #define OZ_SLIP_SCALE       oz_host_switches_now.rods.slip_scale

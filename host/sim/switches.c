@@ -69,14 +69,16 @@ static bool resists(const OzContactValues *values)
     return values->rolling_friction > 0 || values->twisting_friction > 0;
 }
 
-/* Whether any contact of the scene resists rotation, and whether any with a spring. Springs are
+/* Whether any contact of the scene sticks or resists rotation, and whether any with a spring. Springs are
  * kept beside the tangential ones. */
 static void derive_rolling(OzSwitches *s, const OzScene *scene)
 {
     bool rolls = scene->contact.rolling_friction > 0;
     s->rolling = resists(&scene->contact);
+    s->adhesion = scene->contact.surface_energy > 0;
     for (int w = 0; w < scene->wall_count; w++) {
         s->rolling |= resists(&scene->walls[w].contact);
+        s->adhesion |= scene->walls[w].contact.surface_energy > 0;
         rolls |= scene->walls[w].contact.rolling_friction > 0;
     }
     s->rolling_spring = rolls && scene->contact.rolling == OZ_ROLLING_RESISTS_BY_SPRING;

@@ -30,6 +30,7 @@
     X(SMOOTH, smooth, NULL)                                                                        \
     X(AT_CONTACT, at_contact, NULL)                                                                \
     X(FINE, fine, NULL)                                                                            \
+    X(ADHESION, adhesion, "adhesion")                                                              \
     X(DRAG, drag, "drag of a fluid")                                                               \
     X(GYROSCOPIC, gyroscopic, "gyroscopic term")                                                   \
     X(WALL_COUNT, walls, "walls")                                                                  \

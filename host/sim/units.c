@@ -94,6 +94,7 @@ static void count_law(OzLawConstants *law, const OzUnits *u, int id)
     double stiffness = unit_of(dimensions[id].stiffness, u);
     double damping = unit_of(dimensions[id].damping, u);
     law->stiffness /= stiffness;
+    law->adhesion /= oz_units_force(u) / u->length;
     law->damping /= damping;
     law->tangential_stiffness /= stiffness;
     law->tangential_damping /= damping;
