@@ -2,10 +2,10 @@
  * go. OpenCL C only. */
 #pragma once
 
-#include "kernels/drag.h"
 #include "kernels/enclosure.h"
 #include "kernels/near.h"
 #include "kernels/lists.h"
+#include "kernels/drag.h"
 
 #if OZ_PERIODIC
 /* Brings back into the cell what has left it, and counts the cells gone by. */
