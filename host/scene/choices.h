@@ -55,8 +55,7 @@ static const char *const WALL_SIDES[] = {
 static const char *const FLAT_WALL_KINDS[] = {OZ_WALLS(OZ_CHOICES_NO_WALL) OZ_COMPOUND_WALLS(
     OZ_CHOICES_NO_COMPOUND) OZ_TRIGRAINS_WALLS(OZ_CHOICES_FLAT_WALL) NULL};
 static const char *const BOUNDARIES[] = {
-    [OZ_BOUNDARY_OPEN] = "open", [OZ_BOUNDARY_PERIODIC] = "periodic"};
-
+    [OZ_BOUNDARY_OPEN] = "open", [OZ_BOUNDARY_PERIODIC] = "periodic", NULL};
 static const char *const GRAIN_KINDS[] = {[OZ_GRAINS_RANDOM] = "random",
                                           [OZ_GRAINS_LATTICE] = "lattice",
                                           [OZ_GRAINS_SINGLE] = "single",
