@@ -144,6 +144,52 @@ static void snapshots_come_from_the_nearest_frame(void **state)
     oz_scene_free(&asked);
 }
 
+/* Settling's frames, which come first, are of another time: five, a fifth of a second apart. */
+static OzRedrawPlan plan_settled(const char *const *settings, int count)
+{
+    OzScene run, asked;
+    OzRedrawPlan plan = {0};
+    must(oz_scene_parse(&run, "scene.yaml", text, NULL, 0));
+    must(oz_scene_parse(&asked, "scene.yaml", text, (char *const *)(uintptr_t)settings, count));
+    for (int k = 0; k < 5; k++) {
+        must(oz_redraw_plan_note(&plan, 0.2 * k, OZ_FRAME_MOVIE | OZ_FRAME_SETTLING));
+    }
+    for (int k = 0; k < FRAMES; k++) {
+        must(oz_redraw_plan_note(&plan, 0.1 * k, purpose_of(k)));
+    }
+    must(oz_redraw_plan_choose(&plan, &run, &asked));
+    assert_int_equal(plan.settling, 5);
+    oz_scene_free(&run);
+    oz_scene_free(&asked);
+    return plan;
+}
+
+static void settling_is_drawn_where_it_is_asked_for(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {"movie.settle=true", "movie.speed=4",
+                                           "snapshots.times=[0.4]"};
+    OzRedrawPlan plan = plan_settled(settings, 0);
+    for (int k = 0; k < 5; k++) {
+        assert_int_equal(plan.frames[k].purpose, 0);
+    }
+    oz_redraw_plan_free(&plan);
+    plan = plan_settled(settings, 1);
+    for (int k = 0; k < 5; k++) {
+        assert_int_equal(plan.frames[k].purpose, OZ_FRAME_MOVIE | OZ_FRAME_SETTLING);
+        assert_int_equal(plan.frames[k].repeats, 1);
+    }
+    assert_int_equal(plan.frames[5].purpose, OZ_FRAME_MOVIE);
+    oz_redraw_plan_free(&plan);
+    plan = plan_settled(settings, 3); /* 0.4 s a frame, in settling and after */
+    for (int k = 0; k < 5 + FRAMES; k++) {
+        bool every = k < 5 ? k % 2 == 0 : (k - 5) % 4 == 0;
+        assert_int_equal(plan.frames[k].repeats, every);
+        assert_int_equal((plan.frames[k].purpose & OZ_FRAME_SNAPSHOT) != 0, k == 5 + 4);
+    }
+    oz_redraw_plan_free(&plan);
+}
+
 static void what_is_off_is_said(void **state)
 {
     (void)state;
@@ -153,6 +199,8 @@ static void what_is_off_is_said(void **state)
     expect(0, "movie: 30 frames, each from the stored one nearest in time, up to 0.0483 s off",
            "draw run -o longer --set movie.length=3"); /* 1 / 29 s x 14: 0.4827 s */
     assert_true(is_playable("longer/movie.mp4"));
+    expect(0, "settling is not shown, for the run stored none",
+           "draw run -o settled --set movie.settle=true");
     expect(0, "snapshots.times 7 s beyond the run's end at 1 s are not drawn",
            "draw run -o late --set 'snapshots.times=[0.5, 7]'");
 }
@@ -199,6 +247,7 @@ int main(void)
         cmocka_unit_test(longer_movie_repeats_frames),
         cmocka_unit_test(slower_rate_leaves_frames_out),
         cmocka_unit_test(snapshots_come_from_the_nearest_frame),
+        cmocka_unit_test(settling_is_drawn_where_it_is_asked_for),
         cmocka_unit_test(what_is_off_is_said),
         cmocka_unit_test(physics_is_refused_by_name),
         cmocka_unit_test(stills_without_the_movie_keep_its_size),

@@ -78,14 +78,14 @@ static ino_t inode_of(const char *name)
     return stat(name, &found) == 0 ? found.st_ino : 0;
 }
 
-/* Settling of half a second and more: a run that is left in it, by kill -9 and then by Ctrl-C, goes
- * on in it. */
+/* Settling of half a second and more, whose frames are kept: a run that is left in it, by kill -9
+ * and then by Ctrl-C, goes on in it. */
 static void test_left_while_settling(void **state)
 {
     (void)state;
     static const char more[] =
         "--seeds 1..2 --no-video --set time.taps=0.55 --set checkpoint.every=0.02 --set "
-        "settle.threshold=0 --set settle.time_max=0.5";
+        "settle.threshold=0 --set settle.time_max=0.5 --set movie.settle=true";
     static const int signals[] = {SIGKILL, SIGINT};
     char arguments[300];
     snprintf(arguments, sizeof arguments, "run bed.yaml -o straight %s", more);

@@ -198,8 +198,8 @@ static OzStatus draw_all(Redraw *r)
         if (!more) {
             break; /* the file became shorter meanwhile */
         }
-        if (i == 0) {
-            oz_pictures_frame(r->pictures, &r->snapshot); /* as the run did */
+        if (i == 0 || i == r->plan.settling) { /* as the run did */
+            oz_pictures_frame(r->pictures, &r->snapshot, i < r->plan.settling);
         }
         if (r->plan.frames[i].purpose) {
             OZ_PASS(draw_frame(r, &r->plan.frames[i]));

@@ -15,6 +15,7 @@ OzStatus oz_redraw_plan_note(OzRedrawPlan *plan, double time, int stored)
 {
     OZ_PASS(OZ_ROOM(&plan->frames, &plan->capacity, plan->count + 1, "stored frames"));
     plan->frames[plan->count++] = (OzRedrawFrame){.time = time, .stored = stored};
+    plan->settling += (stored & OZ_FRAME_SETTLING) && plan->settling == plan->count - 1;
     return OZ_OK;
 }
 
@@ -24,10 +25,20 @@ void oz_redraw_plan_free(OzRedrawPlan *plan)
     *plan = (OzRedrawPlan){0};
 }
 
-/* The frame nearest to time; its distance in time, s, widens *off. */
-static OzRedrawFrame *find_nearest(const OzRedrawPlan *plan, double time, double *off)
+/* Frames one after the other in time: those of settling, or the run's. */
+typedef struct Span {
+    int64_t first, last;
+} Span;
+
+static Span span_of(const OzRedrawPlan *plan, bool settles)
 {
-    int64_t low = 0, high = plan->count - 1;
+    return settles ? (Span){0, plan->settling - 1} : (Span){plan->settling, plan->count - 1};
+}
+
+/* The frame nearest to time; its distance in time, s, widens *off. */
+static OzRedrawFrame *find_nearest(const OzRedrawPlan *plan, Span span, double time, double *off)
+{
+    int64_t low = span.first, high = span.last;
     while (low < high) {
         int64_t middle = (low + high) / 2;
         if (plan->frames[middle].time < time) {
@@ -37,31 +48,31 @@ static OzRedrawFrame *find_nearest(const OzRedrawPlan *plan, double time, double
         }
     }
     OzRedrawFrame *after = &plan->frames[low];
-    OzRedrawFrame *before = low > 0 ? after - 1 : after;
+    OzRedrawFrame *before = low > span.first ? after - 1 : after;
     OzRedrawFrame *nearest = time - before->time < fabs(after->time - time) ? before : after;
     *off = fmax(*off, fabs(nearest->time - time));
     return nearest;
 }
 
 /* What the run kept for one purpose is drawn again. */
-static void take_stored(OzRedrawPlan *plan, int purpose)
+static void take_stored(OzRedrawPlan *plan, Span span, int purpose)
 {
-    for (int64_t i = 0; i < plan->count; i++) {
+    for (int64_t i = span.first; i <= span.last; i++) {
         plan->frames[i].purpose |= plan->frames[i].stored & purpose;
         plan->frames[i].repeats += plan->frames[i].stored & purpose & OZ_FRAME_MOVIE ? 1 : 0;
     }
 }
 
-/* Frames at equal intervals, s, up to the end, each from the nearest. */
-static void take_evenly(OzRedrawPlan *plan, int purpose, double interval, double end,
+/* Frames at equal intervals, s, up to the last one, each from the nearest. */
+static void take_evenly(OzRedrawPlan *plan, Span span, int purpose, double interval,
                         const char *what)
 {
-    double off = 0;
+    double off = 0, end = span.last >= span.first ? plan->frames[span.last].time : -interval;
     int64_t count = interval > 0 ? (int64_t)floor(end / interval * (1 + 1e-9)) + 1 : 0;
     for (int64_t k = 0; k < count; k++) {
-        OzRedrawFrame *frame = find_nearest(plan, (double)k * interval, &off);
+        OzRedrawFrame *frame = find_nearest(plan, span, (double)k * interval, &off);
         frame->purpose |= purpose;
-        frame->repeats += purpose == OZ_FRAME_MOVIE;
+        frame->repeats += (purpose & OZ_FRAME_MOVIE) != 0;
     }
     if (count > 0) {
         oz_log_line("%s: %lld frames, each from the stored one nearest in time, up to %.3g s off",
@@ -86,24 +97,33 @@ static double last_time(const OzRedrawPlan *plan)
 static void choose_movie(OzRedrawPlan *plan, const OzScene *run, const OzScene *asked)
 {
     const OzMovieSettings *a = &run->movie, *b = &asked->movie;
+    const int settling = OZ_FRAME_MOVIE | OZ_FRAME_SETTLING;
     bool same = a->speed == b->speed && a->length == b->length && a->fps == b->fps;
     if (!b->present) {
         return;
     }
+    bool settles = b->settle && plan->settling > 0;
+    if (b->settle && !settles) {
+        oz_log_line("movie: settling is not shown, for the run stored none of it");
+    }
     if (a->present && same && keeps(plan, OZ_FRAME_MOVIE)) {
-        take_stored(plan, OZ_FRAME_MOVIE);
+        take_stored(plan, span_of(plan, false), OZ_FRAME_MOVIE);
+        take_stored(plan, settles ? span_of(plan, true) : (Span){0, -1}, settling);
         return;
     }
     OzSchedule schedule = oz_schedule_create(asked, last_time(plan));
-    take_evenly(plan, OZ_FRAME_MOVIE, schedule.track[OZ_TRACK_FRAME].interval, last_time(plan),
-                "movie");
+    double interval = schedule.track[OZ_TRACK_FRAME].interval;
+    if (settles) {
+        take_evenly(plan, span_of(plan, true), settling, interval, "settling");
+    }
+    take_evenly(plan, span_of(plan, false), OZ_FRAME_MOVIE, interval, "movie");
 }
 
 /* Up to when the run is known to have been: its last frame, and a gap between frames beyond. */
 static double find_end(const OzRedrawPlan *plan)
 {
     double gap = 0;
-    for (int64_t i = 1; i < plan->count; i++) {
+    for (int64_t i = plan->settling + 1; i < plan->count; i++) {
         gap = fmax(gap, plan->frames[i].time - plan->frames[i - 1].time);
     }
     return last_time(plan) + gap;
@@ -115,7 +135,7 @@ static double take_snapshot(OzRedrawPlan *plan, OzScene *asked, int i)
 {
     OzSnapshotSettings *shots = &asked->snapshots;
     double off = 0, wanted = shots->times[i];
-    OzRedrawFrame *frame = find_nearest(plan, wanted, &off);
+    OzRedrawFrame *frame = find_nearest(plan, span_of(plan, false), wanted, &off);
     frame->purpose |= OZ_FRAME_SNAPSHOT;
     if (off <= 0.501 * asked->step) {
         return 0;
@@ -146,7 +166,7 @@ static void choose_snapshots(OzRedrawPlan *plan, const OzScene *run, OzScene *as
     double most = 0;
     if (a->count == b->count &&
         (a->count == 0 || memcmp(a->times, b->times, (size_t)a->count * sizeof *a->times) == 0)) {
-        take_stored(plan, OZ_FRAME_SNAPSHOT);
+        take_stored(plan, span_of(plan, false), OZ_FRAME_SNAPSHOT);
         return;
     }
     OzSchedule schedule = oz_schedule_create(asked, find_end(plan));
@@ -174,16 +194,16 @@ static void choose_strobe(OzRedrawPlan *plan, const OzScene *run, const OzScene 
 {
     double interval = asked->snapshots.strobe;
     if (interval == run->snapshots.strobe) {
-        take_stored(plan, OZ_FRAME_STROBE);
+        take_stored(plan, span_of(plan, false), OZ_FRAME_STROBE);
     } else {
-        take_evenly(plan, OZ_FRAME_STROBE, interval, last_time(plan), "strobe");
+        take_evenly(plan, span_of(plan, false), OZ_FRAME_STROBE, interval, "strobe");
     }
 }
 
 OzStatus oz_redraw_plan_choose(OzRedrawPlan *plan, const OzScene *run, OzScene *asked)
 {
     bool any = false;
-    if (plan->count > 0) {
+    if (plan->count > plan->settling) {
         choose_movie(plan, run, asked);
         choose_snapshots(plan, run, asked);
         choose_strobe(plan, run, asked);
@@ -195,7 +215,8 @@ OzStatus oz_redraw_plan_choose(OzRedrawPlan *plan, const OzScene *run, OzScene *
                : oz_status_fail(
                      OZ_ERR_INPUT,
                      "nothing to draw: %s; expected a movie, or snapshots within the run",
-                     plan->count ? "no movie is asked for and no snapshot that the run "
-                                   "has come to"
-                                 : "the run has stored no frame");
+                     plan->count > plan->settling
+                         ? "no movie is asked for and no snapshot that the run "
+                           "has come to"
+                         : "the run has stored no frame of its time");
 }

@@ -13,6 +13,7 @@ typedef struct OzRedrawFrame {
 typedef struct OzRedrawPlan {
     OzRedrawFrame *frames; /* in the file's order; owned */
     int64_t count, capacity;
+    int64_t settling; /* so many of them, the first, are of settling */
 } OzRedrawPlan;
 
 /* Notes a frame of the file, in order. The caller frees with oz_redraw_plan_free (zeroed is fine).

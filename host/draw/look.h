@@ -38,6 +38,7 @@ typedef struct OzLook {
                            * height_high are of y, views and cut say nothing */
     bool cut_outlines;    /* the cut view: grains before the plane as faint outlines */
     bool outlines, beams; /* flat: of grains                              */
+    bool settles;         /* the time is of settling, before time 0                        */
     const char *caption;  /* above the lower edge; NULL: none; borrowed                    */
     double strobe;        /* flat: s between states that are laid over each other, for the caption;
                            * 0 for a single one */

@@ -82,8 +82,9 @@ static void add_heading(const Page *page)
     const char *title = own && *own ? own : scene->name;
     double y = page->margin + 0.9 * page->size;
     char text[96];
-    int used = snprintf(text, sizeof text, "t = %.3f s", page->snapshot->time);
-    if (scene->period > 0) {
+    int used = snprintf(text, sizeof text, "t = %.3f s%s", page->snapshot->time,
+                        page->look->settles ? " of settling" : "");
+    if (scene->period > 0 && !page->look->settles) {
         snprintf(text + used, sizeof text - (size_t)used, "   tap %.1f",
                  oz_motion_tap(scene, page->snapshot->time));
     }

@@ -21,6 +21,7 @@ struct OzPictures {
     OzRenderer *renderer; /* owned unless shared */
     OzLook look, still;   /* of the movie, of single pictures */
     OzImage image, still_image;
+    bool settles; /* the last picture that a file depends on was of settling */
     bool is_framed;
     bool has_frame; /* perhaps before the looks are there: loaded */
     OzLook frame;   /* looks frame what it frames                 */
@@ -70,12 +71,23 @@ static OzStatus open_renderer(OzPictures *pictures)
     return OZ_OK;
 }
 
-void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot)
+/* Time 0 comes, and pictures are framed anew, or the first ones are of settling. */
+static void turn(OzPictures *pictures, bool settles)
 {
+    if (settles != pictures->settles) {
+        pictures->is_framed = pictures->has_frame = false;
+        pictures->settles = settles;
+    }
+}
+
+void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot, bool settles)
+{
+    turn(pictures, settles);
     pictures->look = oz_renderer_look(&pictures->scene, snapshot);
     if (pictures->has_frame) {
         oz_framing_keep(&pictures->look, &pictures->frame);
     }
+    pictures->look.settles = settles;
     pictures->frame = pictures->look;
     pictures->has_frame = true;
     pictures->still = oz_framing_still(&pictures->scene, &pictures->look);
@@ -233,7 +245,7 @@ static OzStatus draw_on_trial(void *argument)
     const Trial *trial = argument;
     OzPictures *pictures = trial->pictures;
     OZ_PASS(open_renderer(pictures));
-    oz_pictures_frame(pictures, trial->snapshot);
+    oz_pictures_frame(pictures, trial->snapshot, pictures->settles);
     if (pictures->scene.snapshots.count > 0 && !looks_are_one(pictures)) {
         OZ_PASS(draw(pictures, trial->snapshot, 1, &pictures->still, &pictures->still_image));
     }
@@ -295,6 +307,8 @@ static OzStatus draw_frame(OzPictures *pictures, const OzSnapshot *snapshot, int
     if (pictures->caption_frames > 0) {
         pictures->caption_frames -= frames;
         look.caption = pictures->caption;
+    } else if (look.settles && pictures->scene.movie.captions) {
+        look.caption = "settling";
     }
     return draw(pictures, snapshot, 1, &look, &pictures->image);
 }
@@ -305,13 +319,16 @@ OzStatus oz_pictures_add(OzPictures *pictures, const OzSnapshot *added, int purp
     OzSnapshot shown = *added; /* the same arrays */
     const OzSnapshot *snapshot = &shown;
     shown.scene = &pictures->scene;
+    if (purpose & ~OZ_PICTURES_LIVE) {
+        turn(pictures, purpose & OZ_FRAME_SETTLING);
+    }
     if (!pictures->renderer) {
         OZ_PASS(try_drawing(pictures, snapshot));
         OZ_PASS(open_renderer(pictures));
         pictures->drawing += oz_clock_now() - start;
     }
     if (!pictures->is_framed) {
-        oz_pictures_frame(pictures, snapshot);
+        oz_pictures_frame(pictures, snapshot, pictures->settles);
     }
     bool plain = pictures->caption_frames == 0;
     if (purpose & OZ_FRAME_MOVIE) {
@@ -386,7 +403,8 @@ static OzStatus scene_state(OzPictures *pictures, const OzScene *scene, const Oz
 OzStatus oz_pictures_state(OzPictures *pictures, const OzSnapshot *now, OzStateVisit *visit)
 {
     OZ_PASS(scene_state(pictures, now->scene, visit));
-    OZ_PASS(oz_state_enter(visit, "pictures", 4));
+    OZ_PASS(oz_state_enter(visit, "pictures", 5));
+    OZ_PASS(oz_state_bool(visit, "settles", &pictures->settles));
     OZ_PASS(oz_state_bool(visit, "has_frame", &pictures->has_frame));
     OZ_PASS(oz_framing_state(&pictures->frame, visit));
     OZ_PASS(caption_state(pictures, visit));
@@ -412,9 +430,8 @@ OzStatus oz_pictures_finish(OzPictures *pictures)
     if (!pictures) {
         return OZ_OK;
     }
-    OzStatus drawn = draw_strobe(pictures);
-    OzStatus status = oz_movie_finish(pictures->movie);
-    status = status == OZ_OK ? drawn : status;
+    OzStatus status = draw_strobe(pictures);
+    OZ_AFTER(status, oz_movie_finish(pictures->movie));
     if (pictures->settings->live && pictures->image.pixels) {
         oz_live_end(pictures->settings->live, &pictures->image, pictures->settings->folder);
     }

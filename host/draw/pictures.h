@@ -27,8 +27,9 @@ typedef struct OzPicturesSettings {
 OzStatus oz_pictures_create(OzPictures **pictures, const OzPicturesSettings *settings,
                             const OzScene *scene);
 
-/* Fixes the framing of all pictures by this snapshot; left out, the first one added does. */
-void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot);
+/* Fixes the framing of all pictures by this snapshot; left out, the first one added does. settles:
+ * of those of settling, which are framed apart, for their bed is higher. */
+void oz_pictures_frame(OzPictures *pictures, const OzSnapshot *snapshot, bool settles);
 
 /* Draws a snapshot, by the pictures' own scene and not by the snapshot's, and hands it to the movie
  * and (or) writes it into snapshots/ (names: draw/picture_name.h) in the look of `snapshots`;

@@ -59,6 +59,12 @@ done:
     return status;
 }
 
+/* Those of settling have a time that is not the run's. */
+static bool is_wanted(const OzExporter *e, int purpose)
+{
+    return !(purpose & OZ_FRAME_SETTLING) && (e->job.purpose == 0 || (purpose & e->job.purpose));
+}
+
 /* The next frame that the job wants; *more is false at the end. */
 static OzStatus read_next(OzExporter *e, bool *more)
 {
@@ -68,7 +74,7 @@ static OzStatus read_next(OzExporter *e, bool *more)
             return oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted while exporting");
         }
         OZ_PASS(oz_frame_reader_next(e->frames, &e->snapshot, &purpose, more));
-        bool fits = *more && (e->job.purpose == 0 || (purpose & e->job.purpose));
+        bool fits = *more && is_wanted(e, purpose);
         if (!*more || (fits && e->wanted++ % e->job.every == 0)) {
             return OZ_OK;
         }

@@ -12,7 +12,7 @@ typedef struct OzExportJob {
     const char *folder;        /* where to; open (base/folder.h), with oz_export_use */
     const OzExportKind *kinds; /* formats                                                 */
     int kind_count;
-    int purpose;   /* OZ_FRAME_ bits: frames kept for one of these; 0: all */
+    int purpose;   /* OZ_FRAME_ bits: frames kept for one of these; 0: all but settling's */
     int64_t every; /* of those only each so many-th, from the first on     */
     bool grows;    /* the file does: interrupts are left to who writes it  */
 } OzExportJob;

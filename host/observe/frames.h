@@ -23,6 +23,8 @@
  *   frame   f32 element_position[2 elements]; f32 element_angle[elements]; f32 element_velocity[2
  *           elements] in the place of position to angular_velocity
  * Versions 1 and 2 are 3 and 4 without angular_velocity and without contacts; they are read still.
+ * purpose is a sum of OZ_FRAME_ bits. Frames with OZ_FRAME_SETTLING come before all others: of them
+ * step and time count from where settling began, for when it will end is not known before.
  * SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
 #pragma once
 
@@ -32,7 +34,13 @@
 typedef struct OzFrames OzFrames;
 
 /* What a frame is for: bits. */
-enum { OZ_FRAME_MOVIE = 1, OZ_FRAME_SNAPSHOT = 2, OZ_FRAME_STROBE = 4, OZ_FRAME_EXPORT = 8 };
+enum {
+    OZ_FRAME_MOVIE = 1,
+    OZ_FRAME_SNAPSHOT = 2,
+    OZ_FRAME_STROBE = 4,
+    OZ_FRAME_EXPORT = 8,
+    OZ_FRAME_SETTLING = 16 /* besides OZ_FRAME_MOVIE: before time 0 */
+};
 
 /* Opens path for writing; scene and grains are read here only. Fails with OZ_ERR_FILE. */
 OzStatus oz_frames_create(OzFrames **frames, const char *path, const OzScene *scene,

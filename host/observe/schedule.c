@@ -183,7 +183,7 @@ static int due_with(const OzSchedule *s, int due)
 /* Pictures of contacts need them. */
 static int due_with_pictures(const OzSchedule *s, int due)
 {
-    bool is_drawn = due & (OZ_DUE_MOVIE | OZ_DUE_SNAPSHOT | OZ_DUE_STROBE);
+    bool is_drawn = due & (OZ_DUE_MOVIE | OZ_DUE_SNAPSHOT | OZ_DUE_STROBE | OZ_DUE_SETTLING);
     return is_drawn && oz_scene_shows_contacts(s->scene) ? OZ_DUE_SHOWN : 0;
 }
 
@@ -211,6 +211,13 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     }
     *due |= due_with_pictures(s, *due);
     return true;
+}
+
+double oz_schedule_settling(const OzSchedule *s, int *due)
+{
+    const OzMovieSettings *movie = &s->scene->movie;
+    *due = OZ_DUE_SETTLING | due_with_pictures(s, OZ_DUE_SETTLING);
+    return movie->present && movie->settle ? s->track[OZ_TRACK_FRAME].interval : 0;
 }
 
 /* What has taken over is the track from now on. */
@@ -336,6 +343,7 @@ bool oz_schedule_agrees(const OzSchedule *a, const OzSchedule *b)
         }
     }
     return a->last_step == b->last_step && a->phase == b->phase &&
+           x->movie.settle == y->movie.settle &&
            same(x->snapshots.times, x->snapshots.count, y->snapshots.times, y->snapshots.count) &&
            same(x->checkpoint.times, x->checkpoint.count, y->checkpoint.times, y->checkpoint.count);
 }

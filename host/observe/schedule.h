@@ -19,7 +19,8 @@ enum {
     OZ_DUE_CHECKPOINT = 32, /* a state to be kept */
     OZ_DUE_CONTACTS = 64,
     OZ_DUE_EXPORT = 128,
-    OZ_DUE_SHOWN = 256, /* contacts in pictures */
+    OZ_DUE_SHOWN = 256,    /* contacts in pictures */
+    OZ_DUE_SETTLING = 512, /* a frame of the movie, before time 0 */
     OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS | OZ_DUE_EXPORT |
                     OZ_DUE_SHOWN /* what needs the snapshot's contacts */
 };
@@ -76,6 +77,10 @@ void oz_schedule_find_end(OzSchedule *schedule);
  * there is nothing more up to the last step; the last step itself always comes, if
  * with nothing due. */
 bool oz_schedule_next(OzSchedule *schedule, int64_t *step, int *due);
+
+/* s between the movie's frames of settling, as far apart as those that follow, and what is due at
+ * one of them; 0: settling is not in the movie. */
+double oz_schedule_settling(const OzSchedule *schedule, int *due);
 
 /* The snapshots that lie beyond the last step and are never due, in words; false without any. */
 bool oz_schedule_missed(const OzSchedule *schedule, char *text, size_t size);

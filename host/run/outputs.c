@@ -66,8 +66,8 @@ OzStatus oz_outputs_choose_folder(char **folder, const OzOptions *options, const
     OZ_TRY(options->out ? oz_file_join(&whole, NULL, options->out)
                         : oz_file_join(&whole, "runs", name));
     snprintf(part, sizeof part, "part_%05d", options->part);
-    OZ_TRY(oz_file_join(folder, options->parts > 0 ? whole : NULL,
-                        options->parts > 0 ? part : whole));
+    OZ_TRY(
+        oz_file_join(folder, options->parts > 0 ? whole : NULL, options->parts > 0 ? part : whole));
 done:
     free(whole);
     return status;
@@ -187,6 +187,7 @@ static int purpose_of(int due)
     return (due & OZ_DUE_MOVIE ? OZ_FRAME_MOVIE : 0) |
            (due & OZ_DUE_SNAPSHOT ? OZ_FRAME_SNAPSHOT : 0) |
            (due & OZ_DUE_STROBE ? OZ_FRAME_STROBE : 0) |
+           (due & OZ_DUE_SETTLING ? OZ_FRAME_MOVIE | OZ_FRAME_SETTLING : 0) |
            (due & OZ_DUE_EXPORT ? OZ_FRAME_EXPORT : 0);
 }
 

@@ -110,29 +110,6 @@ static OzStatus watch_settling(void *context, double time, double ratio)
     return oz_worker_state_save_if_due(worker);
 }
 
-static OzStatus settle(OzWorker *worker)
-{
-    double seconds = 0, start = oz_clock_now();
-    if (worker->leads) {
-        oz_stage_begin(&worker->stage, "settling");
-    }
-    OzStatus status = oz_settle_run(worker->sim, &seconds, watch_settling, worker);
-    if (worker->leads) {
-        oz_stage_end(&worker->stage);
-    }
-    OZ_AFTER(status, drop_stopped(worker));
-    if (status == OZ_ERR_INTERRUPTED) {
-        OZ_AFTER(status, oz_worker_state_save_if_wanted(worker));
-    }
-    if (status == OZ_OK && seconds > 0) {
-        const char *first = worker->members[0]->name;
-        const char *others = worker->member_count > 1 ? " and companions " : " ";
-        oz_log_line("%s%ssettling took %.3f s (%.1f s of computing)", first, first[0] ? others : "",
-                    seconds, oz_clock_now() - start);
-    }
-    return status;
-}
-
 /* What is doubtful about contacts at this step, for one member of those alike. */
 static OzStatus tell_contacts(const OzWorker *worker)
 {
@@ -174,6 +151,51 @@ static OzStatus look(OzWorker *worker, int due, int64_t *open)
         *open += worker->members[m]->is_open;
     }
     return OZ_OK;
+}
+
+/* A frame of the movie before time 0. */
+static OzStatus show_settling(void *context, int m)
+{
+    int due = 0;
+    OzWorker *worker = context;
+    oz_schedule_settling(&worker->schedule, &due);
+    return worker->members[m]->is_open ? look_at(worker, m, due) : OZ_OK;
+}
+
+/* What settling waited for pictures is not the steps'. */
+static void count_from_here(const OzWorker *worker)
+{
+    if (worker->leads && worker->members[0]->render_queue) {
+        oz_render_queue_take_times(worker->members[0]->render_queue);
+    }
+}
+
+static OzStatus settle(OzWorker *worker)
+{
+    int due = 0;
+    double seconds = 0, start = oz_clock_now();
+    double interval = oz_schedule_settling(&worker->schedule, &due);
+    if (worker->leads) {
+        oz_stage_begin(&worker->stage, "settling");
+    }
+    OzStatus status =
+        oz_settle_show(worker->sim, &seconds, watch_settling, worker, show_settling, interval);
+    if (worker->leads) {
+        oz_stage_end(&worker->stage);
+    }
+    count_from_here(worker);
+    OZ_AFTER(status, drop_stopped(worker));
+    if (status == OZ_ERR_INTERRUPTED) {
+        OZ_AFTER(status, oz_worker_state_save_if_wanted(worker));
+    }
+    if (status == OZ_OK && seconds > 0) {
+        const char *first = worker->members[0]->name;
+        const char *others = worker->member_count > 1 ? " and companions " : " ";
+        oz_log_line("%s%ssettling took %.3f s (%.1f s of computing%s)", first,
+                    first[0] ? others : "", seconds, oz_clock_now() - start,
+                    interval > 0 ? " and pictures" : "");
+    }
+    return status;
 }
 
 static void show_progress(const OzWorker *worker)

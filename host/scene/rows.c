@@ -352,6 +352,8 @@ static const OzKey KEYS[] = {
     {"movie.force_scale", NUMBER(1e-30, 1e30, "N"), AT(movie.force_scale),
      .write = OZ_WRITE_NONZERO, .fallback_help = "what presses a grain on the floor of such a bed",
      .help = "the top of colours by force, and the force of the widest chains"},
+    {"movie.settle", OF(BOOL), AT(movie.settle), SETTLED, DEFAULT("false"),
+     .help = "settling is shown before the run, as fast as that"},
     {"movie.captions", OF(BOOL), AT(movie.captions), DEFAULT("true"),
      .help = "what is changed while it runs is shown for two seconds"},
     {"movie.azimuth", NUMBER(-360, 360, "degrees"), AT(movie.azimuth), DEGREES, SOLID,

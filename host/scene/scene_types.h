@@ -182,14 +182,14 @@ typedef enum OzShapeKind { OZ_SHAPES(OZ_SHAPES_ID) OZ_SHAPES_END } OzShapeKind;
 
 typedef struct OzPopulation {
     OzPopulationKind kind;
-    int64_t count;     /* random: as written; lattice: product of cells; single: 1; file: -1 */
-    OzRange diameter;  /* m                                                       */
-    OzRange aspect;    /* shaft length / diameter; 0 = sphere                     */
-    double density;    /* kg/m^3                                                  */
-    double fill;       /* volume fraction of the random start column              */
+    int64_t count;          /* random: as written; lattice: product of cells; single: 1; file: -1 */
+    OzRange diameter;       /* m                                                       */
+    OzRange aspect;         /* shaft length / diameter; 0 = sphere                     */
+    double density;         /* kg/m^3                                                  */
+    double fill;            /* volume fraction of the random start column              */
     double velocity_spread; /* m/s, random: standard deviation of each component       */
-    int64_t cells[3];  /* lattice                                                 */
-    double spacing[3]; /* m, lattice                                              */
+    int64_t cells[3];       /* lattice                                                 */
+    double spacing[3];      /* m, lattice                                              */
     double position[3], axis[3], velocity[3],
         angular_velocity[3]; /* single, lattice; axis is a unit vector;
                     spin in the world frame, rad/s   */
@@ -331,6 +331,7 @@ typedef struct OzMovieSettings {
     bool cut_outlines; /* cut view: grains before the plane are drawn as faint outlines      */
     bool outlines;     /* trigrains: grains' outlines are drawn                               */
     bool beams;        /* trigrains: beams are drawn                                          */
+    bool settle;       /* settling is shown before the run                                   */
     bool captions;     /* what is changed while it runs is shown for two seconds             */
     double azimuth;    /* rad, of OZ_VIEW_FREE: where the eye stands, from the front (-y) on,
                         * counterclockwise as seen from above                               */

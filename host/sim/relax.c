@@ -69,13 +69,53 @@ static OzStatus judge(const OzRelax *rest, double *worst, int *going)
     return OZ_OK;
 }
 
-static OzStatus advance(const OzRelax *rest, int64_t step)
+/* Of a member, the first step that is shown at `from` or later; its steps are its own, so that what
+ * is shown of it does not depend on companions. */
+static int64_t shown_step(const OzRelax *rest, int member, int64_t from)
 {
-    OzStatus status = OZ_OK;
-    while (status == OZ_OK && rest->batch->step < step) {
-        status = rest->launch(rest->sim, step);
+    double every = rest->show_interval / rest->batch->clock[member].dt;
+    double k = fmax(0, floor((double)from / every) - 1);
+    while (llround(k * every) < from) {
+        k++;
     }
-    return status;
+    return llround(k * every);
+}
+
+/* Shows the members that are at a step to be shown. */
+static OzStatus show(const OzRelax *rest, void *context)
+{
+    const OzBatch *batch = rest->batch;
+    for (int m = 0; rest->show && m < batch->member_count; m++) {
+        int64_t own = batch->reached[m];
+        if (oz_batch_goes_on(batch, m) && shown_step(rest, m, own) == own) {
+            OZ_PASS(rest->show(context, m));
+        }
+    }
+    return OZ_OK;
+}
+
+/* The step at which a member is to be shown next, at most last. */
+static int64_t next_shown(const OzRelax *rest, int64_t last)
+{
+    const OzBatch *batch = rest->batch;
+    for (int m = 0; rest->show && m < batch->member_count; m++) {
+        int64_t own = batch->reached[m];
+        int64_t left = oz_batch_goes_on(batch, m) ? shown_step(rest, m, own + 1) - own : INT64_MAX;
+        last = left < last - batch->step ? batch->step + left : last;
+    }
+    return last;
+}
+
+static OzStatus advance(const OzRelax *rest, int64_t step, void *context)
+{
+    while (rest->batch->step < step) {
+        int64_t next = next_shown(rest, step);
+        while (rest->batch->step < next) {
+            OZ_PASS(rest->launch(rest->sim, next));
+        }
+        OZ_PASS(show(rest, context));
+    }
+    return OZ_OK;
 }
 
 static int count_going(const OzBatch *batch)
@@ -99,7 +139,7 @@ static OzStatus run_part(const OzRelax *rest, bool judging, OzSettleWatch watch,
     int64_t last = batch->settling_last;
     while (batch->step < last && going > 0) {
         int64_t next = batch->step + rest->judge_steps;
-        OZ_PASS(advance(rest, next < last ? next : last));
+        OZ_PASS(advance(rest, next < last ? next : last, context));
         if (judging) {
             OZ_PASS(judge(rest, &worst, &going));
         }
@@ -141,6 +181,7 @@ OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch,
         bool any = scene->settle.present && !rest->is_empty;
         batch->walls_still = any;
         begin_part(batch, any ? OZ_SETTLING_DAMPS : OZ_SETTLING_OVER, scene->settle.time_max);
+        OZ_PASS(any ? show(rest, context) : OZ_OK);
     }
     if (batch->settling == OZ_SETTLING_OVER) {
         return OZ_OK;

@@ -10,6 +10,10 @@
 /* Told between launches how far settling has come; what is not OZ_OK ends it. */
 typedef OzStatus (*OzSettleWatch)(void *context, double time, double energy_ratio);
 
+/* Shown a member that has come to a whole number of intervals since it began to settle, the first
+ * of them 0; what is not OZ_OK ends settling. */
+typedef OzStatus (*OzSettleShow)(void *context, int member);
+
 /* What settling asks of a model's simulation; each function is called with it. */
 typedef struct OzRelax {
     void *sim;       /* borrowed                                                */
@@ -26,6 +30,8 @@ typedef struct OzRelax {
     OzStatus (*take_energy)(void *sim, int member, OzSnapshot *now, double *energy);
     /* Nothing counted nor added up yet, in what the batch does not know. */
     OzStatus (*start_ledger)(void *sim);
+    OzSettleShow show;    /* NULL: nothing is shown                                            */
+    double show_interval; /* s, of it                                                          */
 } OzRelax;
 
 /* Whether members that settle so may do it side by side. */
@@ -36,5 +42,5 @@ bool oz_relax_is_same(const OzSettle *a, const OzSettle *b);
  * (logged), then rest_time without drag. The step count is 0 again afterwards. Does nothing without
  * scene.settle, nor a second time; settling whose state was loaded goes on where it was. *seconds
  * receives the simulated time of the member that took longest. Fails with what watch (may be NULL)
- * fails with. */
+ * or show fails with; both get the context. */
 OzStatus oz_relax_run(const OzRelax *rest, double *seconds, OzSettleWatch watch, void *context);

@@ -4,6 +4,8 @@
 #include "sim/read_snapshot.h"
 #include "sim/sim_private.h"
 
+#include <math.h>
+
 static OzStatus launch(void *of, int64_t step)
 {
     return oz_sim_launch(of, step);
@@ -35,7 +37,8 @@ static OzStatus start_ledger(void *of)
     return oz_read_snapshot_start_ledger(sim);
 }
 
-OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context)
+OzStatus oz_settle_show(OzSim *sim, double *seconds, OzSettleWatch watch, void *context,
+                        OzSettleShow show, double interval)
 {
     const OzRelax rest = {.sim = sim,
                           .batch = &sim->batch,
@@ -44,8 +47,15 @@ OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *c
                           .launch = launch,
                           .set_drag = set_drag,
                           .take_energy = take_energy,
-                          .start_ledger = start_ledger};
+                          .start_ledger = start_ledger,
+                          .show = interval > 0 && isfinite(interval) ? show : NULL,
+                          .show_interval = interval};
     return oz_relax_run(&rest, seconds, watch, context);
+}
+
+OzStatus oz_settle_run(OzSim *sim, double *seconds, OzSettleWatch watch, void *context)
+{
+    return oz_settle_show(sim, seconds, watch, context, NULL, 0);
 }
 
 bool oz_settle_is_over(const OzSim *sim)
