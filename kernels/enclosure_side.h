@@ -4,6 +4,7 @@
 
 #include "kernels/grains.h"
 #include "kernels/wall_drive.h"
+#include "kernels/wall_swing.h"
 
 #if OZ_WALL_COUNT > 0
 
@@ -43,7 +44,28 @@ typedef struct OzSide {
     scalar rise, rise_rest; /* units: the offset with all its digits   */
     scalar rate;            /* rad/s                                   */
     int gate;               /* OZ_GATE_ bits; with OZ_MOVING only      */
+#if OZ_SWUNG
+    OzWallSwing swing;
+#endif
 } OzSide;
+
+#if OZ_SWUNG
+/* Turns a side with its wall. */
+OZ_INLINE void oz_enclosure_side_swing(const OzWork *w, OzSide *side, int step)
+{
+    size_t at = (size_t)OZ_ENCLOSURE_STEP(step) * OZ_WALL_COUNT + side->wall;
+    global const scalar *words = w->swing + OZ_SWING * at;
+    for (int k = 0; k < 9; k++) {
+        side->swing.frame[k] = words[OZ_W_FRAME + k];
+    }
+    for (int c = 0; c < 3; c++) {
+        side->swing.away[c] = words[OZ_W_AWAY + c];
+        side->swing.lead[c] = words[OZ_W_LEAD + c];
+    }
+    oz_wall_swing_turn(side->swing.frame, side->shape.normal);
+    oz_wall_swing_turn(side->swing.frame, side->shape.across);
+}
+#endif
 
 OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
 {
@@ -70,6 +92,9 @@ OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
         side.gate = OZ_GATED ? (int)w->motion[OZ_MOTION * at + OZ_M_GATE] : 0;
         side.shape.gone = side.gate & OZ_GATE_GONE;
     }
+#if OZ_SWUNG
+    oz_enclosure_side_swing(w, &side, step);
+#endif
     return side;
 }
 
@@ -108,6 +133,11 @@ OZ_INLINE OzWallDrive oz_enclosure_side_drive(const OzWork *w, const OzSide *sid
     drive.offset = REAL(side->offset);
     drive.speed = REAL(side->speed);
     drive.rate = REAL(side->rate);
+#if OZ_SWUNG
+    const OzWallSwing swing = side->swing;
+    drive.away = oz_vec3(REAL(swing.away[0]), REAL(swing.away[1]), REAL(swing.away[2]));
+    drive.lead = oz_vec3(REAL(swing.lead[0]), REAL(swing.lead[1]), REAL(swing.lead[2]));
+#endif
     return drive;
 }
 
@@ -124,6 +154,9 @@ OZ_INLINE OzVec3 oz_enclosure_side_from(const OzWork *w, OzFixedPosition positio
         OzWallDrive drive = oz_enclosure_side_drive(w, side);
         from = oz_along(from, -drive.offset, drive.direction);
     }
+#if OZ_SWUNG
+    from = oz_minus(from, oz_enclosure_side_drive(w, side).away);
+#endif
     return from;
 }
 

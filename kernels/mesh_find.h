@@ -195,8 +195,9 @@ OZ_INLINE void oz_mesh_find_hand_over(OzWork *w, int grain, int first, const int
 #endif
 }
 
-/* The touches of a grain to its slots; answers which are in use, a bit each. */
-OZ_INLINE int oz_mesh_find_keep(OzWork *w, int grain, int mesh, int first,
+/* The touches of a grain to its slots, which remember them as the mesh was built; answers which are
+ * in use, a bit each. */
+OZ_INLINE int oz_mesh_find_keep(OzWork *w, int grain, int mesh, const OzSide *side,
                                 const OzMeshTouches *touches)
 {
     global scalar *kept = (global scalar *)w->mesh_memory;
@@ -207,12 +208,15 @@ OZ_INLINE int oz_mesh_find_keep(OzWork *w, int grain, int mesh, int first,
         memory[k] = kept[oz_mesh_find_at(grain, mesh, 0, OZ_MESH_MEMORY, k)];
     }
     oz_mesh_place(touches, memory, slot_of, spring_to);
-    oz_mesh_find_hand_over(w, grain, first, spring_to);
+    oz_mesh_find_hand_over(w, grain, side->index, spring_to);
     for (int k = 0; k < OZ_MESH_SLOTS * OZ_MESH_MEMORY; k++) {
         kept[oz_mesh_find_at(grain, mesh, 0, OZ_MESH_MEMORY, k)] = memory[k];
     }
     for (int i = 0; i < touches->count; i++) {
-        const OzMeshTouch touch = touches->at[i];
+        OzMeshTouch touch = touches->at[i];
+#if OZ_SWUNG
+        oz_wall_swing_turn(side->swing.frame, touch.normal);
+#endif
         scalar words[OZ_MESH_TOUCH] = {touch.place,     touch.normal[0], touch.normal[1],
                                        touch.normal[2], touch.distance,  touch.push};
         for (int k = 0; k < OZ_MESH_TOUCH; k++) {
@@ -244,6 +248,17 @@ OZ_INLINE void oz_mesh_find_cells(const OzWork *w, int mesh, OzVec3 from, int *i
     }
 }
 
+/* Where a block of grains is, seen from the mesh's point as its triangles were built. */
+OZ_INLINE OzVec3 oz_mesh_find_from(const OzWork *w, const OzSide *side, OzBody body)
+{
+    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
+    OzVec3 from = oz_enclosure_side_from(w, body.position, none, side);
+#if OZ_SWUNG
+    from = oz_wall_swing_back(side->swing.frame, from);
+#endif
+    return from;
+}
+
 /* The grain of one lane of a block. */
 OZ_INLINE OzMeshView oz_mesh_find_view(const OzWork *w, int mesh, const OzSide *side, OzBody body,
                                        OzVec3 half_shaft, real radius, int lane)
@@ -254,6 +269,10 @@ OZ_INLINE OzMeshView oz_mesh_find_view(const OzWork *w, int mesh, const OzSide *
     scalar words[4][OZ_LANES];
     OzWallDrive drive = oz_enclosure_side_drive(w, side);
     OzVec3 shift = oz_scale(drive.direction, drive.offset);
+#if OZ_SWUNG
+    half_shaft = oz_wall_swing_back(side->swing.frame, half_shaft);
+    shift = oz_scale(oz_mesh_find_from(w, side, body), REAL(-1.0)); /* of the mesh's point */
+#endif
     OZ_LANES_STORE(body.position.x, place[0]);
     OZ_LANES_STORE(body.position.y, place[1]);
     OZ_LANES_STORE(body.position.z, place[2]);
@@ -262,7 +281,7 @@ OZ_INLINE OzMeshView oz_mesh_find_view(const OzWork *w, int mesh, const OzSide *
     OZ_LANES_STORE(half_shaft.z, words[2]);
     OZ_LANES_STORE(radius, words[3]);
     for (int c = 0; c < 3; c++) {
-        view.place[c] = place[c][lane];
+        view.place[c] = OZ_SWUNG ? side->point[c] : place[c][lane];
         view.half_shaft[c] = OZ_ROUND ? 0 : words[c][lane];
     }
     view.radius = words[3][lane];
@@ -285,9 +304,8 @@ OZ_INLINE void oz_mesh_find_block(OzWork *w, const OzSide *side, int mesh, int b
     OzBody body = oz_grains_load(w, block);
     OzShape shape = oz_grains_shape(w, block);
     OzVec3 half_shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
-    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0));
     int item[OZ_LANES], end[OZ_LANES], before = 0;
-    oz_mesh_find_cells(w, mesh, oz_enclosure_side_from(w, body.position, none, side), item, end);
+    oz_mesh_find_cells(w, mesh, oz_mesh_find_from(w, side, body), item, end);
     for (int k = 0; k < OZ_MESH_SLOTS; k++) {
         before |= w->wall_active[(size_t)block * OZ_WALL_ENDS + side->index + k];
         picked[k] = 0;
@@ -302,7 +320,7 @@ OZ_INLINE void oz_mesh_find_block(OzWork *w, const OzSide *side, int mesh, int b
             if (!oz_mesh_find_touches(w, &view, &touches)) {
                 oz_work_stop(w, OZ_STOP_CROWDED, step, w->id[grain]);
             }
-            int bits = oz_mesh_find_keep(w, grain, mesh, side->index, &touches);
+            int bits = oz_mesh_find_keep(w, grain, mesh, side, &touches);
             for (int k = 0; k < OZ_MESH_SLOTS; k++) {
                 picked[k] |= (bits >> k & 1) << l;
             }

@@ -7,7 +7,7 @@
 #include "model/motion.h"
 #include "scene/boundary.h"
 #include "scene/wall_mesh.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 
@@ -138,6 +138,13 @@ static void surround(Room *room, const OzScene *scene)
         bool is_sheet = oz_wall_shape_is_sheet(wall);
         bool is_tube =
             wall->kind == OZ_WALL_CYLINDER && !oz_wall_shape_is_upright(wall) && !is_sheet;
+        double swept = oz_wall_swing_reach(wall);
+        const double *about = wall->motion.has_point ? wall->motion.point : wall->point;
+        for (int k = 0; k < 3 && swept > 0; k++) {
+            double across = swept * sqrt(1 - wall->motion.axis[k] * wall->motion.axis[k]);
+            room->low[k] = fmin(room->low[k], about[k] - across);
+            room->high[k] = fmax(room->high[k], about[k] + across);
+        }
         for (int k = 0; k < 3 && wall->mesh; k++) {
             room->low[k] = fmin(room->low[k], wall->point[k] + wall->mesh->low[k]);
             room->high[k] = fmax(room->high[k], wall->point[k] + wall->mesh->high[k]);

@@ -1,9 +1,8 @@
 /* Sheets in small quads, each cut off at the plane of a cut. */
 #include "draw/wall_sheet.h"
 
-#include "model/motion.h"
 #include "scene/wall_mesh.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 #include <string.h>
@@ -160,23 +159,38 @@ static void add_band(const OzWallSheet *s, const OzWallShape *shape, const doubl
     }
 }
 
+/* Where a corner of a mesh is, whose point and frame (kernels/wall_swing.h) are given. */
+static void put_corner(double to[3], const double corner[3], const double point[3],
+                       const double frame[9])
+{
+    memcpy(to, corner, 3 * sizeof *to);
+    oz_wall_swing_turn(frame, to);
+    for (int k = 0; k < 3; k++) {
+        to[k] += point[k];
+    }
+}
+
 /* Fronts, where grains are, that look away from the eye are before the grains. */
-static void add_mesh(const OzWallSheet *s, const OzWallMesh *triangles, const double point[3])
+static void add_mesh(const OzWallSheet *s, const OzWallMesh *triangles, const double point[3],
+                     const double frame[9])
 {
     for (int face = 0; face < triangles->count; face++) {
+        const double *corners = triangles->corners + 9 * (size_t)face;
         Patch patch = {.count = 3};
         double normal[3], seen[3];
-        oz_mesh_edges_normal(triangles->corners + 9 * (size_t)face, normal);
-        for (int c = 0; c < 9; c++) {
-            patch.points[c / 3][c % 3] = point[c % 3] + triangles->corners[9 * face + c];
+        oz_mesh_edges_normal(corners, normal);
+        oz_wall_swing_turn(frame, normal);
+        for (int c = 0; c < 3; c++) {
+            put_corner(patch.points[c], corners + 3 * c, point, frame);
         }
         oz_camera_turn(s->camera, normal, seen);
         add_patch(s, &patch, normal, seen[2] < 0);
     }
     for (int crease = 0; crease < triangles->edges.crease_count; crease++) {
         double ends[2][3];
-        for (int c = 0; c < 6; c++) {
-            ends[c / 3][c % 3] = point[c % 3] + triangles->edges.creases[6 * crease + c];
+        for (int e = 0; e < 2; e++) {
+            const double *corner = triangles->edges.creases + 6 * (size_t)crease + 3 * e;
+            put_corner(ends[e], corner, point, frame);
         }
         add_line(s, ends[0], ends[1], false, RIM);
     }
@@ -184,7 +198,9 @@ static void add_mesh(const OzWallSheet *s, const OzWallMesh *triangles, const do
 
 void oz_wall_sheet_add(const OzWallSheet *s, int w)
 {
-    const OzWall *wall = &s->snapshot->scene->walls[w];
+    const OzWall *built = &s->snapshot->scene->walls[w];
+    double turn = oz_snapshot_turn(s->snapshot, w);
+    const OzWall turned = oz_wall_swing_turned(built, turn), *wall = &turned;
     OzWallShape sides[OZ_WALL_SIDES_MAX];
     double point[3];
     oz_wall_shape_sides(wall, sides);
@@ -194,10 +210,10 @@ void oz_wall_sheet_add(const OzWallSheet *s, int w)
         point[k] += wall->point[k];
     }
     if (wall->kind == OZ_WALL_MESH) {
-        add_mesh(s, wall->mesh, point);
+        add_mesh(s, wall->mesh, point, oz_wall_swing_at(built, turn, 0).frame);
     } else if (wall->kind == OZ_WALL_RECTANGLE) {
         add_rectangle(s, &shape, point);
     } else {
-        add_band(s, &shape, point, oz_motion_turn(&wall->motion, s->snapshot->time));
+        add_band(s, &shape, point, turn);
     }
 }

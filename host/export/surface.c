@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "scene/wall_mesh.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -221,13 +221,18 @@ static OzStatus add_box(OzSurface *s, const OzWall *wall, const double shift[3],
     return OZ_OK;
 }
 
+/* frame: of how it stands (kernels/wall_swing.h). */
 static OzStatus add_mesh(OzSurface *s, const OzWallMesh *mesh, const double point[3],
-                         int64_t number)
+                         const double frame[9], int64_t number)
 {
     for (int face = 0; face < mesh->count; face++) {
         double corners[3][3];
-        for (int c = 0; c < 9; c++) {
-            corners[c / 3][c % 3] = point[c % 3] + mesh->corners[9 * face + c];
+        memcpy(corners, mesh->corners + 9 * face, sizeof corners);
+        for (int c = 0; c < 3; c++) {
+            oz_wall_swing_turn(frame, corners[c]);
+            for (int k = 0; k < 3; k++) {
+                corners[c][k] += point[k];
+            }
         }
         OZ_PASS(add_polygon(s, corners, 3, number));
     }
@@ -236,7 +241,9 @@ static OzStatus add_mesh(OzSurface *s, const OzWallMesh *mesh, const double poin
 
 static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, int w)
 {
-    const OzWall *wall = &now->scene->walls[w];
+    const OzWall *built = &now->scene->walls[w];
+    double turn = oz_snapshot_turn(now, w);
+    const OzWall turned = oz_wall_swing_turned(built, turn), *wall = &turned;
     Round round = {.axis = {0, 0, 1}};
     double shift[3];
     oz_wall_shape_shift(wall, now->wall_offset[w], shift);
@@ -250,7 +257,7 @@ static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, 
     }
     oz_wall_shape_across(round.axis, round.across[0], round.across[1]);
     if (wall->mesh) {
-        return add_mesh(s, wall->mesh, round.middle, w);
+        return add_mesh(s, wall->mesh, round.middle, oz_wall_swing_at(built, turn, 0).frame, w);
     }
     if (oz_wall_shape_is_sheet(wall)) {
         return add_sheet(s, wall, &round, w);

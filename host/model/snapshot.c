@@ -125,6 +125,12 @@ void oz_snapshot_move_walls(OzSnapshot *snapshot)
     }
 }
 
+double oz_snapshot_turn(const OzSnapshot *snapshot, int wall)
+{
+    const OzMotion *motion = &snapshot->scene->walls[wall].motion;
+    return snapshot->settling ? 0 : oz_motion_turn(motion, snapshot->time);
+}
+
 bool oz_snapshot_has_wall(const OzSnapshot *snapshot, int64_t wall)
 {
     return oz_wall_motion_present(&snapshot->scene->walls[wall], snapshot->time,

@@ -79,6 +79,9 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot);
  * paths that go on. */
 void oz_snapshot_place(const OzSnapshot *snapshot, int64_t grain, double place[3]);
 
+/* The angle by which a wall has turned, rad; 0 while grains settle. */
+double oz_snapshot_turn(const OzSnapshot *snapshot, int wall);
+
 /* Fills wall_offset and wall_velocity for snapshot->time. */
 void oz_snapshot_move_walls(OzSnapshot *snapshot);
 

@@ -2,7 +2,7 @@
 #include "observe/wall_push.h"
 
 #include "base/memory.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,10 +41,11 @@ static void see_instant(OzWallPush *push, const OzSnapshot *now)
     for (int w = 0; w < push->count; w++) {
         const OzWall *wall = &now->scene->walls[w];
         double shift[3], flat[3] = {0, now->wall_offset[w], 0};
+        OzWall turned = oz_wall_swing_turned(wall, oz_snapshot_turn(now, w));
         oz_wall_shape_shift(wall, now->wall_offset[w], shift);
         for (int k = 0; k < 3; k++) {
             bool in_plane = now->scene->model == OZ_MODEL_TRIGRAINS;
-            push->point[w][k] = wall->point[k] + (in_plane ? flat[k] : shift[k]);
+            push->point[w][k] = turned.point[k] + (in_plane ? flat[k] : shift[k]);
         }
     }
     oz_contact_list_push_walls(&now->contacts, push->force, push->count);

@@ -2,6 +2,7 @@
 #include "run/from_check.h"
 
 #include "model/wall_motion.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -112,7 +113,8 @@ static OzStatus check_walls(const OzFromMember *from, const OzScene *scene)
         OzWallPose pose = oz_wall_motion_pose(then, time, false);
         bool smooth = then->kind == OZ_WALL_DRUM && then->tooth_count == 0;
         double turn = fmod(fabs(pose.turn), 2 * 3.14159265358979323846);
-        double jump = fabs(pose.rise) + (smooth ? 0 : turn * fmax(then->diameter, then->width));
+        double reach = fmax(oz_wall_swing_reach(then), fmax(then->diameter, then->width));
+        double jump = fabs(pose.rise) + (smooth ? 0 : turn * reach);
         bool begins = oz_wall_motion_present(&scene->walls[w], 0, true);
         bool gone = begins && !oz_wall_motion_present(then, time, false);
         if (gone) {

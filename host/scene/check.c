@@ -70,7 +70,7 @@ static void derive_motion(Checker *checker, OzMotion *motion, int i)
     }
 }
 
-/* A wall turns about its own axis; a sphere has none, and is told one. */
+/* A wall turns about its own axis; those that have none are told one. */
 static void derive_axes(Checker *checker, OzWall *wall, int i)
 {
     bool is_axial = wall->kind == OZ_WALL_CYLINDER || wall->kind == OZ_WALL_CONE;
@@ -79,7 +79,9 @@ static void derive_axes(Checker *checker, OzWall *wall, int i)
         memcpy(wall->motion.direction, wall->motion.velocity, sizeof wall->motion.direction);
     }
     make_unit(checker, wall->motion.direction, "walls", i, "motion.direction");
-    if (wall->kind == OZ_WALL_SPHERE) {
+    bool is_told = wall->kind == OZ_WALL_SPHERE || wall->kind == OZ_WALL_MESH ||
+                   wall->kind == OZ_WALL_RECTANGLE;
+    if (is_told) {
         make_unit(checker, wall->motion.axis, "walls", i, "motion.axis");
     } else {
         memcpy(wall->motion.axis, own, sizeof wall->motion.axis);

@@ -75,6 +75,20 @@ static void check_trace(const OzWall *wall, int index, OzNode *root, OzFaults *f
     }
 }
 
+/* Boxes are made of planes without edges, that stand as they were built. */
+static void check_turning(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
+{
+    const OzMotion *motion = &wall->motion;
+    if (wall->kind == OZ_WALL_BOX && motion->angular_velocity != 0) {
+        FAULT(".angular_velocity", "a box does not stay as it is when it turns; expected a mesh, a "
+                                   "rectangle, a plane or a round wall");
+    }
+    if (motion->has_point && !motion->has_turning) {
+        FAULT(".point", "a wall without an angular_velocity has a point to turn about; expected "
+                        "motion.angular_velocity with it");
+    }
+}
+
 void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
 {
     const OzMotion *motion = &wall->motion;
@@ -96,13 +110,5 @@ void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults 
     }
     check_trace(wall, index, root, faults);
     check_steady(wall, index, root, faults);
-    bool is_mesh = wall->kind == OZ_WALL_MESH;
-    bool is_square = wall->kind == OZ_WALL_BOX || wall->kind == OZ_WALL_RECTANGLE || is_mesh;
-    if (is_square && motion->angular_velocity != 0) {
-        FAULT(".angular_velocity",
-              "a %s does not stay as it is when it turns; expected a plane or a round wall",
-              is_mesh                     ? "mesh"
-              : wall->kind == OZ_WALL_BOX ? "box"
-                                          : "rectangle");
-    }
+    check_turning(wall, index, root, faults);
 }

@@ -39,6 +39,10 @@ static double extent(const OzScene *scene, const OzGrains *grains)
     }
     for (int w = 0; w < scene->wall_count; w++) {
         OzWallShape sides[OZ_WALL_SIDES_MAX];
+        const OzMotion *motion = &scene->walls[w].motion;
+        for (int c = 0; c < 3 && motion->has_point; c++) {
+            far = larger(far, fabs(motion->point[c]));
+        }
         for (int k = oz_wall_shape_sides(&scene->walls[w], sides) - 1; k >= 0; k--) {
             far = larger(far, sides[k].radius);
             for (int c = 0; c < 3; c++) {

@@ -4,12 +4,14 @@
 #include "model/motion.h"
 #include "sim/dialect.h"
 #include "sim/gates.h"
+#include "sim/swings.h"
 
 OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzContactList *list)
 {
     *contacts = (OzContacts){.snapshot = snapshot, .list = list, .found_grain = -1};
     OZ_PASS(oz_physics_derive(&contacts->physics, snapshot->scene, snapshot->grains));
     oz_gates_set(&contacts->physics, snapshot->scene, snapshot->time, snapshot->settling);
+    oz_swings_set(&contacts->physics, snapshot->scene, snapshot->time, snapshot->settling);
     contacts->share = contacts->physics.share;
     if (contacts->physics.switches.moves_before) {
         contacts->physics.share -=
@@ -20,6 +22,8 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
         contacts->drives[k] = oz_dialect_drive(
             &contacts->physics, k, snapshot->wall_offset[wall], snapshot->wall_velocity[wall],
             oz_motion_rate(&snapshot->scene->walls[wall].motion));
+        oz_swings_drive(&contacts->drives[k], &snapshot->scene->walls[wall], snapshot->time,
+                        snapshot->settling);
     }
     return OZ_OK;
 }

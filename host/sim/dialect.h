@@ -60,14 +60,17 @@ OZ_INLINE OzSpace oz_dialect_space(const OzPhysics *physics)
     return space;
 }
 
-/* How the wall of kernel wall w moves; offset and speed along its direction, rate about its axis.
- */
+/* How the wall of kernel wall w moves; offset and speed along its direction, rate about its axis;
+ * what its point does by turning (sim/swings.h) is left open. */
 OZ_INLINE OzWallDrive oz_dialect_drive(const OzPhysics *physics, int w, double offset, double speed,
                                        double rate)
 {
     const OzWallParameters *wall = &physics->parameters.wall[w];
-    return (OzWallDrive){oz_dialect_load3(wall->direction), oz_dialect_load3(wall->axis), offset,
-                         speed, rate};
+    return (OzWallDrive){.direction = oz_dialect_load3(wall->direction),
+                         .axis = oz_dialect_load3(wall->axis),
+                         .offset = offset,
+                         .speed = speed,
+                         .rate = rate};
 }
 
 /* A place on a grain, `end` from its centre, seen from the point of kernel wall w where that is
@@ -77,7 +80,8 @@ OZ_INLINE OzVec3 oz_dialect_from(const OzPhysics *physics, int w, OzFixedPositio
 {
     OzVec3 point = oz_dialect_load3(physics->parameters.wall[w].shape.point);
     OzVec3 at = oz_vec3(place.x + end.x, place.y + end.y, place.z + end.z);
-    return oz_minus(at, oz_along(point, drive.offset, drive.direction));
+    at = oz_minus(at, oz_along(point, drive.offset, drive.direction));
+    return oz_minus(at, drive.away);
 }
 
 /* Where one end of a grain (end: from its centre) stands against kernel wall w. */

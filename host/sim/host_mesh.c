@@ -81,7 +81,10 @@ bool oz_host_mesh_find(OzHostMesh *found, const OzPhysics *physics, int w, OzVec
     double low[3], high[3], centre[3], half[3];
     int *faces = NULL, count = 0;
     bool fits = true;
+    const double *frame = physics->swing[w].frame;
     *found = (OzHostMesh){.spring_to = {0}};
+    from = oz_wall_swing_back(frame, from);
+    half_shaft = oz_wall_swing_back(frame, half_shaft);
     oz_dialect_store3(centre, from);
     oz_dialect_store3(half, half_shaft);
     for (int k = 0; k < 3; k++) {
@@ -99,6 +102,9 @@ bool oz_host_mesh_find(OzHostMesh *found, const OzPhysics *physics, int w, OzVec
         fits = find_touches(&view, &touches);
     }
     take(found, &touches, memory);
+    for (int k = 0; k < OZ_MESH_SLOTS; k++) {
+        oz_wall_swing_turn(frame, found->at[k].normal);
+    }
     free(faces);
     return fits;
 }

@@ -29,6 +29,7 @@ OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGra
     for (int k = 0; k < OZ_WALLS_MAX; k++) {
         bool is_there = k < physics->wall_count;
         physics->mesh[k] = is_there ? scene->walls[physics->wall_order[k]].mesh : NULL;
+        physics->swing[k] = (OzWallSwing){.frame = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     }
     return OZ_OK;
 }

@@ -7,7 +7,7 @@
 #include "scene/wall_mesh.h"
 #include "sim/constants.h"
 
-#include "kernels/wall_shape.h"
+#include "kernels/wall_swing.h"
 
 typedef struct OzPhysics {
     OzSwitches switches;
@@ -15,6 +15,8 @@ typedef struct OzPhysics {
     int wall_order[OZ_WALLS_MAX]; /* scene index of kernel wall k, in the order of kinds      */
     const OzWallMesh
         *mesh[OZ_WALLS_MAX]; /* of kernel wall k, borrowed from the scene; NULL: none */
+    OzWallSwing
+        swing[OZ_WALLS_MAX]; /* how kernel wall k stands (sim/swings.h); as built at first */
     int wall_count;
     int meshes;   /* how many of them are meshes                                              */
     int edged;    /* how many of them, the last ones, have edges                               */

@@ -5,6 +5,7 @@
 #include "model/motion.h"
 #include "sim/contacts.h"
 #include "sim/gates.h"
+#include "sim/swings.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -82,10 +83,13 @@ static OzStatus renew_list(OzReference *r)
 
 static OzWallDrive drive_at(const OzReference *r, int wall, double time)
 {
-    const OzMotion *motion = &r->scene->walls[r->physics.wall_order[wall]].motion;
+    const OzWall *own = &r->scene->walls[r->physics.wall_order[wall]];
     double offset, speed;
-    oz_motion_offset(motion, time, &offset, &speed);
-    return oz_dialect_drive(&r->physics, wall, offset, speed, oz_motion_rate(motion));
+    oz_motion_offset(&own->motion, time, &offset, &speed);
+    OzWallDrive drive =
+        oz_dialect_drive(&r->physics, wall, offset, speed, oz_motion_rate(&own->motion));
+    oz_swings_drive(&drive, own, time, false);
+    return drive;
 }
 
 static void move_before(OzReference *r, double dt)
@@ -101,6 +105,7 @@ static void move_before(OzReference *r, double dt)
         r->wall_drive[w] = drive_at(r, w, force_time);
     }
     oz_gates_set(&r->physics, r->scene, force_time, false);
+    oz_swings_set(&r->physics, r->scene, force_time, false);
 }
 
 static void touch_pairs(OzReference *r, double dt)

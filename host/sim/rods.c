@@ -15,6 +15,7 @@
 #include "sim/rods_read_snapshot.h"
 #include "sim/sides.h"
 #include "sim/sizes.h"
+#include "sim/swings.h"
 #include "sim/units.h"
 
 #include <stddef.h>
@@ -169,27 +170,38 @@ OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
     int64_t first = sim->batch.step;
     const OzScene *scene = sim->batch.members[member].scene;
     const OzParameters *p = oz_rods_parameters(sim, member);
-    int walls = oz_rods_switches(sim)->walls;
+    int walls = oz_rods_switches(sim)->walls, swung = oz_rods_switches(sim)->swung;
     size_t count = OZ_MOTION * (size_t)(steps + 1) * (size_t)walls;
-    double *motion = NULL;
+    double *motion = NULL, *swing = NULL;
     OZ_TRY(OZ_NEW(&motion, count));
+    OZ_TRY(OZ_NEW(&swing, swung ? count / OZ_MOTION * OZ_SWING : 1));
     for (int k = 0; k < steps + 1; k++) {
         double times[3];
         for (int i = 0; i < 3; i++) {
             times[i] = oz_batch_time(&sim->batch, member, p->dt > 0 ? first + k + i - 1 : first);
         }
         for (int w = 0; w < walls; w++) {
-            double *words = motion + OZ_MOTION * ((size_t)k * (size_t)walls + (size_t)w);
+            size_t at = (size_t)k * (size_t)walls + (size_t)w;
+            double *words = motion + OZ_MOTION * at;
             const OzWall *wall = &scene->walls[oz_rods_own(sim)->wall_order[w]];
             if (!sim->batch.walls_still) {
                 put_motion(words, &wall->motion, times[1], p);
             }
             words[OZ_M_GATE] = oz_gates_bits(wall, times, sim->batch.walls_still);
+            if (swung) {
+                oz_swings_words(swing + OZ_SWING * at, wall, times[1], sim->batch.walls_still,
+                                &p->units);
+            }
         }
     }
     OZ_TRY(oz_arrays_write_scalars(&sim->arrays, OZ_FIELD_motion, member, motion, count));
+    if (swung) {
+        OZ_TRY(oz_arrays_write_scalars(&sim->arrays, OZ_FIELD_swing, member, swing,
+                                       count / OZ_MOTION * OZ_SWING));
+    }
 done:
     free(motion);
+    free(swing);
     return status;
 }
 
@@ -284,7 +296,7 @@ static void leave_out_walls(void *switches)
 {
     OzSwitches *s = switches;
     s->walls = s->edged = s->meshes = s->wall_kinds = s->wall_kinds_more = 0;
-    s->moving = s->gated = s->impulses = 0;
+    s->moving = s->gated = s->swung = s->impulses = 0;
 }
 
 static const OzStop stops[] = {

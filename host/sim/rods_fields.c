@@ -12,6 +12,7 @@
 #define OZ_WALL_EDGED     (s->edged)
 #define OZ_MESHES         (s->meshes)
 #define OZ_MOVING         (s->moving)
+#define OZ_SWUNG          (s->swung)
 #define OZ_LEDGER         (s->ledger)
 #define OZ_IMPULSES       (s->impulses)
 #define OZ_PUSHED         (s->pushed)

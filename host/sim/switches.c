@@ -4,6 +4,7 @@
 #include "model/contact.h"
 #include "model/motion.h"
 #include "scene/boundary.h"
+#include "scene/wall_swing.h"
 #include "sim/gates.h"
 #include "sim/resolution.h"
 #include "sim/sides.h"
@@ -97,6 +98,7 @@ static void derive_friction(OzSwitches *s, const OzScene *scene)
         s->gated |= oz_gates_has(&scene->walls[w]);
         s->moving |= scene->walls[w].motion.present || s->gated;
         s->free_motion |= oz_motion_is_free(&scene->walls[w].motion);
+        s->swung |= oz_wall_swing_has(&scene->walls[w]);
     }
 }
 

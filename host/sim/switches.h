@@ -40,6 +40,7 @@
     X(WALL_KINDS_MORE, wall_kinds_more, NULL)                                                      \
     X(MOVING, moving, "moving walls")                                                              \
     X(FREE_MOTION, free_motion, "walls that turn or move otherwise than up and down")              \
+    X(SWUNG, swung, "walls that change their place as they turn")                                  \
     X(GATED, gated, "walls that come or go")                                                       \
     X(IMPULSES, impulses, "mean forces on walls")                                                  \
     X(PUSHED, pushed, NULL)                                                                        \

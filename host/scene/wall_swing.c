@@ -1,0 +1,84 @@
+/* Turned walls, by Rodrigues' formula. */
+#include "scene/wall_swing.h"
+
+#include "scene/wall_mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+bool oz_wall_swing_has(const OzWall *wall)
+{
+    const OzMotion *motion = &wall->motion;
+    bool is_free = wall->kind == OZ_WALL_MESH || wall->kind == OZ_WALL_RECTANGLE;
+    bool turns = motion->has_turning || motion->angular_velocity != 0 || motion->turned != 0;
+    return is_free && motion->present && turns;
+}
+
+static void cross(const double a[3], const double b[3], double to[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        to[k] = a[i] * b[j] - a[j] * b[i];
+    }
+}
+
+/* What takes a direction to where it is after a turn about a unit vector. */
+static void make_frame(double frame[9], const double axis[3], double angle)
+{
+    double c = cos(angle), s = sin(angle);
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++) {
+            double about = 0;
+            if (row != column) {
+                double sign = (column - row + 3) % 3 == 1 ? -1 : 1;
+                about = sign * axis[3 - row - column];
+            }
+            frame[3 * row + column] =
+                c * (row == column) + (1 - c) * axis[row] * axis[column] + s * about;
+        }
+    }
+}
+
+OzWallSwing oz_wall_swing_at(const OzWall *wall, double angle, double rate)
+{
+    const OzMotion *motion = &wall->motion;
+    OzWallSwing swing = {.frame = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    double arm[3] = {0}, now[3];
+    if (!oz_wall_swing_has(wall)) {
+        return swing;
+    }
+    for (int k = 0; k < 3 && motion->has_point; k++) {
+        arm[k] = wall->point[k] - motion->point[k];
+    }
+    make_frame(swing.frame, motion->axis, angle);
+    memcpy(now, arm, sizeof now);
+    oz_wall_swing_turn(swing.frame, now);
+    cross(motion->axis, now, swing.lead);
+    for (int k = 0; k < 3; k++) {
+        swing.away[k] = now[k] - arm[k];
+        swing.lead[k] *= rate;
+    }
+    return swing;
+}
+
+OzWall oz_wall_swing_turned(const OzWall *wall, double angle)
+{
+    OzWall turned = *wall;
+    OzWallSwing swing = oz_wall_swing_at(wall, angle, 0);
+    oz_wall_swing_turn(swing.frame, turned.normal);
+    oz_wall_swing_turn(swing.frame, turned.edge);
+    for (int k = 0; k < 3; k++) {
+        turned.point[k] += swing.away[k];
+    }
+    return turned;
+}
+
+double oz_wall_swing_reach(const OzWall *wall)
+{
+    const OzMotion *motion = &wall->motion;
+    double arm2 = 0, own = wall->mesh ? wall->mesh->reach : hypot(wall->size[0], wall->size[1]) / 2;
+    for (int k = 0; k < 3 && motion->has_point; k++) {
+        arm2 += pow(wall->point[k] - motion->point[k], 2);
+    }
+    return oz_wall_swing_has(wall) ? own + sqrt(arm2) : 0;
+}

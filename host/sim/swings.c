@@ -1,0 +1,54 @@
+/* Walls that swing: each as its motion's angle says. */
+#include "sim/swings.h"
+
+#include "model/motion.h"
+#include "scene/wall_swing.h"
+#include "sim/units.h"
+
+static OzWallSwing swing_at(const OzWall *wall, double time, bool at_rest)
+{
+    if (at_rest) {
+        return oz_wall_swing_at(wall, 0, 0);
+    }
+    return oz_wall_swing_at(wall, oz_motion_turn(&wall->motion, time),
+                            oz_motion_rate(&wall->motion));
+}
+
+void oz_swings_set(OzPhysics *physics, const OzScene *scene, double time, bool at_rest)
+{
+    for (int k = 0; k < physics->wall_count; k++) {
+        const OzWall *wall = &scene->walls[physics->wall_order[k]];
+        OzWallShape *shape = &physics->parameters.wall[k].shape, sides[OZ_WALL_SIDES_MAX];
+        if (oz_wall_swing_has(wall) && oz_wall_shape_sides(wall, sides) > 0) {
+            physics->swing[k] = swing_at(wall, time, at_rest);
+            for (int c = 0; c < 3; c++) {
+                shape->normal[c] = sides[0].normal[c];
+                shape->across[c] = sides[0].across[c];
+            }
+            oz_wall_swing_turn(physics->swing[k].frame, shape->normal);
+            oz_wall_swing_turn(physics->swing[k].frame, shape->across);
+        }
+    }
+}
+
+void oz_swings_drive(OzWallDrive *drive, const OzWall *wall, double time, bool at_rest)
+{
+    if (oz_wall_swing_has(wall)) {
+        OzWallSwing swing = swing_at(wall, time, at_rest);
+        drive->away = oz_vec3(swing.away[0], swing.away[1], swing.away[2]);
+        drive->lead = oz_vec3(swing.lead[0], swing.lead[1], swing.lead[2]);
+    }
+}
+
+void oz_swings_words(double words[OZ_SWING], const OzWall *wall, double time, bool at_rest,
+                     const OzUnits *units)
+{
+    OzWallSwing swing = swing_at(wall, time, at_rest);
+    for (int k = 0; k < 9; k++) {
+        words[OZ_W_FRAME + k] = swing.frame[k];
+    }
+    for (int c = 0; c < 3; c++) {
+        words[OZ_W_AWAY + c] = swing.away[c] / units->length;
+        words[OZ_W_LEAD + c] = swing.lead[c] / oz_units_speed(units);
+    }
+}
