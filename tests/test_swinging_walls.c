@@ -133,14 +133,14 @@ static void mean_push(const char *wall, double force[3], double *torque)
     const double point[1][3] = {{0, 0, 0}};
     rig_open(&rig, ONE, "double", -9.81, 0.5, 0.0, 0.0, -5e-3 + R, 0.0, 0.0, wall);
     rig_start(&rig);
-    for (int ms = 1; ms <= 300; ms++) {
+    for (int ms = 1; ms <= 150; ms++) {
         rig_advance(&rig, ms * STEPS_PER_MS);
         oz_contact_list_push_walls(&rig.now.contacts, one, 1);
         oz_contact_list_turn_walls(&rig.now.contacts, point, turn, 1);
-        for (int k = 0; k < 3 && ms > 100; k++) {
-            sum[k] += one[0][k] / (200 * rig.grains.mass[0] * 9.81);
+        for (int k = 0; k < 3 && ms > 50; k++) {
+            sum[k] += one[0][k] / (100 * rig.grains.mass[0] * 9.81);
         }
-        moment += ms > 100 ? turn[0][0] / (200 * rig.grains.mass[0] * 9.81 * R) : 0;
+        moment += ms > 50 ? turn[0][0] / (100 * rig.grains.mass[0] * 9.81 * R) : 0;
     }
     memcpy(force, sum, sizeof sum);
     *torque = moment;

@@ -2,7 +2,6 @@
 #include "sim/reference_guard.h"
 
 #include "base/memory.h"
-#include "model/motion.h"
 #include "sim/contacts.h"
 #include "sim/gates.h"
 #include "sim/swings.h"
@@ -81,17 +80,6 @@ static OzStatus renew_list(OzReference *r)
     return OZ_OK;
 }
 
-static OzWallDrive drive_at(const OzReference *r, int wall, double time)
-{
-    const OzWall *own = &r->scene->walls[r->physics.wall_order[wall]];
-    double offset, speed;
-    oz_motion_offset(&own->motion, time, &offset, &speed);
-    OzWallDrive drive =
-        oz_dialect_drive(&r->physics, wall, offset, speed, oz_motion_rate(&own->motion));
-    oz_swings_drive(&drive, own, time, false);
-    return drive;
-}
-
 static void move_before(OzReference *r, double dt)
 {
     double force_time = oz_step_clock_time(&r->clock, r->step) + (OZ_MOVES_BEFORE ? dt : 0);
@@ -102,7 +90,7 @@ static void move_before(OzReference *r, double dt)
                                 oz_integrate_seen_spin(*body, r->shape[i], dt));
     }
     for (int w = 0; w < r->physics.wall_count; w++) {
-        r->wall_drive[w] = drive_at(r, w, force_time);
+        r->wall_drive[w] = oz_swings_drive_at(&r->physics, r->scene, w, force_time);
     }
     oz_gates_set(&r->physics, r->scene, force_time, false);
     oz_swings_set(&r->physics, r->scene, force_time, false);
@@ -289,7 +277,8 @@ static void note_wall(OzReference *r, int i, int index, double dt)
     (void)part;
     if (f->contact.touching) {
         OzGrain now = grain_now(r, i);
-        OzWallDrive drive = drive_at(r, wall, oz_step_clock_time(&r->clock, r->step) + dt);
+        OzWallDrive drive = oz_swings_drive_at(&r->physics, r->scene, wall,
+                                               oz_step_clock_time(&r->clock, r->step) + dt);
         OzVec3 before =
             oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, r->wall_drive[wall]);
         OzVec3 after = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, drive);

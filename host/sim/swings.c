@@ -3,6 +3,7 @@
 
 #include "model/motion.h"
 #include "scene/wall_swing.h"
+#include "sim/dialect.h"
 #include "sim/units.h"
 
 static OzWallSwing swing_at(const OzWall *wall, double time, bool at_rest)
@@ -38,6 +39,16 @@ void oz_swings_drive(OzWallDrive *drive, const OzWall *wall, double time, bool a
         drive->away = oz_vec3(swing.away[0], swing.away[1], swing.away[2]);
         drive->lead = oz_vec3(swing.lead[0], swing.lead[1], swing.lead[2]);
     }
+}
+
+OzWallDrive oz_swings_drive_at(const OzPhysics *physics, const OzScene *scene, int w, double time)
+{
+    const OzWall *wall = &scene->walls[physics->wall_order[w]];
+    double offset, speed;
+    oz_motion_offset(&wall->motion, time, &offset, &speed);
+    OzWallDrive drive = oz_dialect_drive(physics, w, offset, speed, oz_motion_rate(&wall->motion));
+    oz_swings_drive(&drive, wall, time, false);
+    return drive;
 }
 
 void oz_swings_words(double words[OZ_SWING], const OzWall *wall, double time, bool at_rest,
