@@ -111,12 +111,28 @@ static void test_what_is_open_is_said(void **state)
            "check open.yaml --set walls.1=false");
 }
 
+/* The wall that asks for a smaller step than grains do is named. */
+static void test_walls_say_their_steps(void **state)
+{
+    (void)state;
+    write_file("steps.yaml", "model: rods\ntime: {step: 1e-5, duration: 1e-3}\n"
+                             "contact: {contact_time: 6e-4, restitution: 0.5}\n"
+                             "grains: [{kind: random, count: 3, diameter: 1e-3, aspect: 2}]\n"
+                             "walls:\n  - {kind: plane}\n  - {kind: cylinder, diameter: 9e-3}\n"
+                             "  - {kind: plane, point: [0, 0, 5e-2], normal: [0, 0, -1]}\n");
+    expect(0, "; at walls 0 to 2 ", "check steps.yaml");
+    assert_true(contains("said", "\n  largest steps    two grains "));
+    expect(0, "; at wall 2 ", "check steps.yaml --set walls.2.contact.contact_time=4e-5");
+    assert_true(contains("said", "; at walls 0 to 1 ") && contains("said", ", less than the step"));
+}
+
 /* What a person came for stands above everything else; switches and memory only when asked for. */
 static void test_verdict_comes_first(void **state)
 {
     (void)state;
     static const char *const order[] = {"\nverdict\n  restitution      0.5 asked, ",
                                         "\n  stable           yes: ",
+                                        "\n  largest steps    two grains ",
                                         "\n  resolution       float tells overlaps of ",
                                         "\n  grains           30, 0.001 to 0.001 m wide, ",
                                         "\n  cost             2000 steps at ",
@@ -360,6 +376,7 @@ int main(void)
         cmocka_unit_test(test_wrong_values_of_a_sweep),
         cmocka_unit_test(test_check_refuses_deep_starts),
         cmocka_unit_test(test_check_is_short),
+        cmocka_unit_test(test_walls_say_their_steps),
         cmocka_unit_test(test_verdict_comes_first),
         cmocka_unit_test(test_what_is_open_is_said),
         cmocka_unit_test(test_cost_is_what_a_run_takes),

@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "command/inspect_columns.h"
 #include "command/inspect_elements.h"
+#include "command/inspect_walls.h"
 #include "draw/renderer.h"
 #include "model/beam_limits.h"
 #include "model/prediction.h"
@@ -117,6 +118,7 @@ static OzStatus print_contacts(FILE *file, const OzVerdict *v)
     OZ_TRY(oz_prediction_rows(&rows, &count, v->scene, v->grains));
     print_restitution(file, v->scene, rows, count);
     print_stability(file, v, rows, count);
+    OZ_TRY(oz_inspect_walls_print(file, v->scene, v->grains, rows));
     OZ_TRY(oz_resolution_print(file, v->scene, v->grains));
 done:
     free(rows);

@@ -277,6 +277,50 @@ done:
     return status;
 }
 
+/* The stiffest swing of grain i that lies along x on the wall. */
+static OzStatus lie(OzStiffness *result, const OzScene *scene, const OzGrains *grains, int64_t i,
+                    int w)
+{
+    OzStatus status = OZ_OK;
+    double axis[3] = {1, 0, 0}, swing[FREEDOMS], force[FREEDOMS];
+    const OzGrains one = {.count = 1,
+                          .mass = &grains->mass[i],
+                          .inertia = &grains->inertia[i],
+                          .inertia_axis = &grains->inertia_axis[i]};
+    const OzSnapshot now = {.scene = scene, .grains = &one, .count = 1, .axis = axis};
+    Bed bed = {.now = &now, .swing = swing, .force = force};
+    double radius = 0.5 * grains->diameter[i], half = 0.5 * grains->length[i];
+    for (int end = -1; end <= 1; end += half > 0 ? 2 : 3) {
+        Spring spring = {.b = -1, .normal = {0, 0, -1}, .arm_a = {end * half, 0, -radius}};
+        spring.radius = radius;
+        spring.inertia = inertia_of(grains, i);
+        OZ_TRY(add(&bed, &scene->walls[w].contact, grains->mass[i], spring));
+    }
+    *result = (OzStiffness){.contacts = bed.count};
+    iterate(&bed, result);
+    result->largest_step =
+        oz_predict_largest_step(scene->integrator, result->stiffness, result->damping);
+done:
+    free(bed.springs);
+    return status;
+}
+
+OzStatus oz_stiffness_at_wall(OzStiffness *result, const OzScene *scene, const OzGrains *grains,
+                              int w)
+{
+    OzStiffness other;
+    int64_t longest = 0, shortest = 0;
+    for (int64_t i = 1; i < grains->count; i++) {
+        double aspect = grains->length[i] / grains->diameter[i];
+        longest = aspect > grains->length[longest] / grains->diameter[longest] ? i : longest;
+        shortest = aspect < grains->length[shortest] / grains->diameter[shortest] ? i : shortest;
+    }
+    OZ_PASS(lie(result, scene, grains, longest, w));
+    OZ_PASS(lie(&other, scene, grains, shortest, w));
+    *result = other.largest_step < result->largest_step ? other : *result;
+    return OZ_OK;
+}
+
 void oz_stiffness_say(const OzStiffness *stiffness, const OzScene *scene)
 {
     double margin = stiffness->largest_step / scene->step;

@@ -21,6 +21,12 @@ bool oz_stiffness_applies(const OzScene *scene);
  * 0.05 s, larger ones in proportion. Only where oz_stiffness_applies. */
 OzStatus oz_stiffness_measure(OzStiffness *stiffness, const OzSnapshot *now);
 
+/* The same of one grain alone that lies at wall w, with both ends of its shaft (a sphere touches
+ * once): the stiffest of them all, which is the longest or the shortest for its width. There must
+ * be grains. Only where oz_stiffness_applies. */
+OzStatus oz_stiffness_at_wall(OzStiffness *stiffness, const OzScene *scene, const OzGrains *grains,
+                              int w);
+
 /* One line in the log, with a warning where the scene's step is too large; none without contacts.
  */
 void oz_stiffness_say(const OzStiffness *stiffness, const OzScene *scene);
