@@ -8,16 +8,25 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* As oz_measure_create finds floor and area. */
-static bool lacks_density(const OzScene *scene, const OzGrains *grains)
+/* As oz_measure_create finds area and floor. */
+static bool lacks_area(const OzScene *scene, const OzGrains *grains)
 {
     (void)grains;
-    bool floor = false, cylinder = false;
+    bool any = false;
     for (int w = 0; w < scene->wall_count; w++) {
-        floor |= scene->walls[w].kind == OZ_WALL_PLANE && scene->walls[w].normal[2] == 1;
-        cylinder |= oz_wall_shape_is_upright(&scene->walls[w]);
+        any |= oz_wall_shape_is_upright(&scene->walls[w]);
     }
-    return !floor || !cylinder;
+    return !any;
+}
+
+static bool lacks_floor(const OzScene *scene, const OzGrains *grains)
+{
+    (void)grains;
+    bool any = false;
+    for (int w = 0; w < scene->wall_count; w++) {
+        any |= scene->walls[w].kind == OZ_WALL_PLANE && scene->walls[w].normal[2] > 1 - 1e-9;
+    }
+    return !any;
 }
 
 static bool lacks_shafts(const OzScene *scene, const OzGrains *grains)
@@ -71,7 +80,8 @@ static const struct {
     bool (*lacks)(const OzScene *scene, const OzGrains *grains);
     const char *why;
 } reasons[] = {
-    {"density", "", lacks_density, "no cylinder or no floor"},
+    {"density", "", lacks_area, "no upright cylinder, whose area they need"},
+    {"density", "", lacks_floor, "no level plane as a floor"},
     {"angle", "", lacks_shafts, "no shafts"},
     {"nematic_", "", lacks_shafts, "no shafts"},
     {"psi6", "", lacks_shafts, "no shafts"},
