@@ -73,12 +73,45 @@ OzWall oz_wall_swing_turned(const OzWall *wall, double angle)
     return turned;
 }
 
-double oz_wall_swing_reach(const OzWall *wall)
+/* The square of the distance from the axis of a place that is seen from the wall's point, m^2. */
+static double square_from_axis(const OzWall *wall, const double place[3])
 {
     const OzMotion *motion = &wall->motion;
-    double arm2 = 0, own = wall->mesh ? wall->mesh->reach : hypot(wall->size[0], wall->size[1]) / 2;
-    for (int k = 0; k < 3 && motion->has_point; k++) {
-        arm2 += pow(wall->point[k] - motion->point[k], 2);
+    double from[3], across[3];
+    for (int k = 0; k < 3; k++) {
+        from[k] = place[k] + (motion->has_point ? wall->point[k] - motion->point[k] : 0);
     }
-    return oz_wall_swing_has(wall) ? own + sqrt(arm2) : 0;
+    cross(motion->axis, from, across);
+    return across[0] * across[0] + across[1] * across[1] + across[2] * across[2];
+}
+
+static double rectangle_reach2(const OzWall *wall)
+{
+    double second[3], most = 0;
+    cross(wall->normal, wall->edge, second);
+    for (int corner = 0; corner < 4; corner++) {
+        double place[3], one = corner & 1 ? 0.5 : -0.5, other = corner & 2 ? 0.5 : -0.5;
+        for (int k = 0; k < 3; k++) {
+            place[k] = one * wall->size[0] * wall->edge[k] + other * wall->size[1] * second[k];
+        }
+        most = fmax(most, square_from_axis(wall, place));
+    }
+    return most;
+}
+
+static double mesh_reach2(const OzWall *wall)
+{
+    double most = 0;
+    for (int corner = 0; corner < 3 * wall->mesh->count; corner++) {
+        most = fmax(most, square_from_axis(wall, wall->mesh->corners + 3 * (size_t)corner));
+    }
+    return most;
+}
+
+double oz_wall_swing_reach(const OzWall *wall)
+{
+    if (!oz_wall_swing_has(wall)) {
+        return 0;
+    }
+    return sqrt(wall->mesh ? mesh_reach2(wall) : rectangle_reach2(wall));
 }
