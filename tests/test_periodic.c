@@ -43,7 +43,8 @@ static void what_meets_across_the_border_bounces(void **state)
 static const char crowd[] =
     "model: rods\nprecision: %s\ngravity: [6, 3, -9.81]\n"
     "time: {step: 1e-5, duration: 1}\nintegrator: %s\nobserve: {ledger: true}\n"
-    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4}\n"
+    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4, rolling_friction: 0.1, "
+    "surface_energy: 1e-3}\ndrag: {viscosity: 1e-3}\n"
     "boundary: {x: periodic, y: periodic, size: [4e-3, 3.3e-3, 0]}\ngrains:\n"
     "  - {kind: random, count: 50, diameter: 0.00048828125, aspect: %d, fill: 0.25}\n"
     "  - {kind: random, count: 50, diameter: 0.00048828125, fill: 0.25}\n"
