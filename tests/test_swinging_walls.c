@@ -57,8 +57,10 @@ static void a_paddle_sweeps_a_sphere(void **state)
     const char *const walls[] = {
         "  - {kind: rectangle, point: [5e-3, 0, 0], normal: [0, -1, 0], size: [10e-3, 4e-3],"
         " motion: {angular_velocity: -20, axis: [0, 0, -2], point: [0, 0, 7e-3]}}\n",
+        "  - {kind: disc, point: [5e-3, 0, 0], normal: [0, -1, 0], diameter: 10e-3,"
+        " motion: {angular_velocity: 20, axis: [0, 0, 1], point: [0, 0, 7e-3]}}\n",
         mesh};
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 3; k++) {
         Rig rig;
         rig_open(&rig, ONE, "double", 0.0, 0.0, x0, R, 0.0, w * (x0 - R), w * x0, walls[k]);
         rig_start(&rig);
@@ -79,15 +81,17 @@ static void a_turntable_is_a_turntable(void **state)
     (void)state;
     const double w = 70;
     char mesh[256];
-    Rig rigs[3];
+    Rig rigs[4];
     snprintf(mesh, sizeof mesh,
              "  - {kind: mesh, path: '%s', scale: 1e-3, point: [1e-3, 0, 0],"
              " motion: {angular_velocity: 70, point: [0, 0, 0]}}\n",
              mesh_floor(20, 12));
     const char *const walls[] = {"  - {kind: plane, motion: {angular_velocity: 70}}\n", mesh,
                                  "  - {kind: rectangle, point: [1e-3, 0, 0], size: [12e-3, 12e-3],"
+                                 " motion: {angular_velocity: 70, point: [0, 0, 0]}}\n",
+                                 "  - {kind: disc, point: [1e-3, 0, 0], diameter: 12e-3,"
                                  " motion: {angular_velocity: 70, point: [0, 0, 0]}}\n"};
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         rig_open(&rigs[k], ONE, "double", -9.81, 1.0, 1e-3, 0.0, R, 0.0, 0.02, walls[k]);
         rig_start(&rigs[k]);
         rig_advance(&rigs[k], 60 * STEPS_PER_MS);
@@ -102,7 +106,7 @@ static void a_turntable_is_a_turntable(void **state)
     const double *after = rigs[1].now.velocity;
     double turned = atan2(before[0] * after[1] - before[1] * after[0], dot3(before, after));
     assert_within(turned, 2.0 / 7 * w * 0.06, 1e-3);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         rig_close(&rigs[k]);
     }
 }

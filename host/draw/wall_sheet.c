@@ -214,6 +214,6 @@ void oz_wall_sheet_add(const OzWallSheet *s, int w)
     } else if (wall->kind == OZ_WALL_RECTANGLE) {
         add_rectangle(s, &shape, point);
     } else {
-        add_band(s, &shape, point, turn);
+        add_band(s, &shape, point, oz_wall_swing_has(built) ? 0 : turn);
     }
 }

@@ -97,8 +97,9 @@ typedef struct OzMotion {
     double angular_velocity; /* rad/s: trigrains about the wall's point; rods about its axis  */
     double direction[3];     /* rods: a unit vector, along which it is shaken; zero: upwards   */
     double axis[3];          /* rods: a unit vector along the axis, through the wall's point ...  */
-    double point[3];         /* ... or, of meshes and rectangles, through this one, m, ...        */
-    bool has_point;          /* ... where it was written                                          */
+    double point[3];         /* ... or, of meshes, rectangles and discs, this one, m              */
+    bool has_axis;           /* disc: axis was written, and is not its normal                     */
+    bool has_point;          /* point was written                                                 */
     double velocity[3];      /* rods, m/s: it goes on so between `from` and `until`; then
                               * direction is along it                                          */
     double from, until;      /* s; until 0: for ever */

@@ -9,7 +9,9 @@
 bool oz_wall_swing_has(const OzWall *wall)
 {
     const OzMotion *motion = &wall->motion;
-    bool is_free = wall->kind == OZ_WALL_MESH || wall->kind == OZ_WALL_RECTANGLE;
+    bool is_told = motion->has_axis || motion->has_point;
+    bool is_free = wall->kind == OZ_WALL_MESH || wall->kind == OZ_WALL_RECTANGLE ||
+                   (wall->kind == OZ_WALL_DISC && is_told);
     bool turns = motion->has_turning || motion->angular_velocity != 0 || motion->turned != 0;
     return is_free && motion->present && turns;
 }
@@ -112,6 +114,10 @@ double oz_wall_swing_reach(const OzWall *wall)
 {
     if (!oz_wall_swing_has(wall)) {
         return 0;
+    }
+    if (wall->kind == OZ_WALL_DISC) {
+        const double middle[3] = {0};
+        return sqrt(square_from_axis(wall, middle)) + wall->diameter / 2;
     }
     return sqrt(wall->mesh ? mesh_reach2(wall) : rectangle_reach2(wall));
 }

@@ -1,5 +1,6 @@
 /* How rods' walls stand that change their place when they turn: meshes and rectangles, about
- * motion.axis through motion.point. All others keep their shape, and stay as they were built. */
+ * motion.axis through motion.point, and discs that are told one of these. All others keep their
+ * shape, and stay as they were built. */
 #pragma once
 
 #include "scene/wall_shape.h"
