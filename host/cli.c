@@ -1,6 +1,8 @@
 /* Reading the command line. */
 #include "cli.h"
 
+#include "base/spelling.h"
+
 #include <ctype.h>
 #include <math.h>
 #include <stddef.h>
@@ -364,6 +366,23 @@ static bool is_number(const char *argument)
     return begins && !argument[strspn(argument, "0123456789.e+-")];
 }
 
+/* Says which of the command's options may have been meant. */
+static OzStatus refuse_option(const char *argument, int command)
+{
+    char expected[128];
+    const char *near = NULL, *name = command_rows[command].name, *takes = command_rows[command].takes;
+    int best = oz_spelling_slips(strlen(argument)) + 1;
+    for (int o = 0; o < OPTIONS; o++) {
+        const char *other = option_rows[o].name;
+        bool nearer = strchr(takes, option_rows[o].letter) && oz_spelling_nears(argument, other, &best);
+        near = nearer ? other : near;
+    }
+    snprintf(expected, sizeof expected, near ? "did you mean %s?" : "expected an option of `orzo %s`",
+             near ? near : name);
+    return oz_status_fail(OZ_ERR_INPUT, "orzo: '%s' is wrong; %s (see orzo %s --help)", argument,
+                          expected, name);
+}
+
 static OzStatus take_argument(OzOptions *options, int command, int argc, char **argv, int *i)
 {
     const char *argument = argv[*i];
@@ -380,10 +399,7 @@ static OzStatus take_argument(OzOptions *options, int command, int argc, char **
     }
     int o = find_option(argument);
     if (o < 0 || !strchr(command_rows[command].takes, option_rows[o].letter)) {
-        char expected[96];
-        snprintf(expected, sizeof expected, "an option of `orzo %s` (see orzo %s --help)",
-                 options->command, options->command);
-        return wrong(argument, expected);
+        return refuse_option(argument, command);
     }
     const char *wanted = option_rows[o].value, *next = *i + 1 < argc ? argv[*i + 1] : NULL;
     if (wanted && wanted[0] == '[' && !is_number(next)) {
@@ -411,20 +427,21 @@ static OzStatus check_count(const OzOptions *options, int command)
     return OZ_OK;
 }
 
+static const char command_names[] =
+    "run, resume, gather, check, draw, export, plot, figures, keys, "
+    "bench, report or devices (see orzo --help)";
+
 OzStatus oz_cli_parse(OzOptions *options, int argc, char **argv)
 {
     memset(options, 0, sizeof *options);
     options->until = -1;
     if (argc < 2) {
-        return oz_status_fail(OZ_ERR_INPUT,
-                              "orzo: no command; expected one of run, resume, gather, check, draw, "
-                              "export, plot, figures, keys, bench, report, devices (see orzo --help)");
+        return oz_status_fail(OZ_ERR_INPUT, "orzo: no command; expected %s", command_names);
     }
     options->command = argv[1];
     int command = find_command(argv[1]);
     if (command < 0) {
-        return wrong(argv[1], "run, resume, gather, check, draw, export, plot, figures, keys, bench, report "
-                              "or devices (see orzo --help)");
+        return wrong(argv[1], command_names);
     }
     for (int i = 2; i < argc; i++) {
         OZ_PASS(take_argument(options, command, argc, argv, &i));

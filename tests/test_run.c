@@ -224,6 +224,8 @@ static void test_draws_again(void **state)
            "draw shown -o other --set movie.colour=speed --set 'movie.views=[lateral]'");
     assert_true(is_playable("other/movie.mp4"));
     assert_false(same_files("other/snapshots/tap_00001.png", "shown/draw/snapshots/tap_00001.png"));
+    expect(0, "snapshots: time 0.0151 s is drawn", /* as it is asked for, though there are taps */
+           "draw shown -o timed --set movie=false --set 'snapshots={times: [0.0151]}'");
     expect(2, "nowhere/scene.yaml", "draw nowhere");
 }
 
@@ -281,6 +283,10 @@ static void test_wrong_arguments_are_named(void **state)
     expect(2, "orzo: SCENE is missing; expected orzo run SCENE\n", "run");
     expect(2, "orzo: DIR is missing; expected orzo draw DIR\n", "draw -o there");
     expect(2, "orzo: 'b.yaml' is one too many; expected orzo check SCENE\n", "check a.yaml b.yaml");
+    expect(2, "'--sed' is wrong; did you mean --set? (see orzo run --help)",
+           "run a.yaml --sed x=1");
+    expect(2, "'--over-write' is wrong; did you mean --overwrite?", "run a.yaml --over-write");
+    expect(2, "'--sesame' is wrong; expected an option of `orzo run`", "run a.yaml --sesame");
     expect(2, "orzo: 'all' is one too many; expected orzo devices\n", "devices all");
     expect(2, "orzo: key=value is missing; expected --set key=value\n", "run bed.yaml --set");
 }

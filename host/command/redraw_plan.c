@@ -149,12 +149,13 @@ static double take_snapshot(OzRedrawPlan *plan, OzScene *asked, int i)
 
 static void tell_off(const OzScene *asked, double wanted, double drawn)
 {
-    double unit = asked->period > 0 ? asked->period : 1;
+    bool taps = asked->snapshots.tap_count > 0;
+    double unit = taps ? asked->period : 1;
     oz_log_line(
         "snapshots: %s %.9g%s is drawn from the stored frame nearest in time, %.9g%s, %.3g s "
         "off",
-        asked->period > 0 ? "tap" : "time", wanted / unit, asked->period > 0 ? "" : " s",
-        drawn / unit, asked->period > 0 ? "" : " s", fabs(wanted - drawn));
+        taps ? "tap" : "time", wanted / unit, taps ? "" : " s", drawn / unit, taps ? "" : " s",
+        fabs(wanted - drawn));
 }
 
 static void choose_snapshots(OzRedrawPlan *plan, const OzScene *run, OzScene *asked)

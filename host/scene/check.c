@@ -144,8 +144,11 @@ static bool check_taps(Checker *checker, const char *path)
     if (checker->scene->period > 0 || !is_written(checker, path)) {
         return true;
     }
-    fault(checker, path, "%s without a moving wall; expected a wall with motion, or %s", path,
-          strcmp(path, "observe.at") == 0 ? "mean" : "seconds");
+    const OzKey *key = oz_keys_find(path);
+    const char *group = key->rival ? path : "", *dot = strchr(group, '.');
+    const char *other = key->rival ? key->rival : key->fallback ? key->fallback : "without it";
+    fault(checker, path, "%s without a moving wall; expected a wall with motion, or %.*s%s%s", path,
+          dot ? (int)(dot - group) + 1 : 0, group, other, key->rival ? ", in s" : "");
     return false;
 }
 

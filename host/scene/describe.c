@@ -1,6 +1,7 @@
 /* Keys in words. Knows the list of keys and no value of any. */
 #include "scene/describe.h"
 
+#include "base/spelling.h"
 #include "scene/scene_types.h"
 
 #include <stdio.h>
@@ -119,36 +120,6 @@ void oz_describe_node(const OzNode *node, char *text, size_t size)
     }
 }
 
-static int least(int a, int b, int c)
-{
-    int ab = a < b ? a : b;
-    return ab < c ? ab : c;
-}
-
-/* Letters to insert, delete, replace or swap with the next (Damerau 1964, restricted). */
-static int distance(const char *a, const char *b)
-{
-    int n = (int)strlen(a), m = (int)strlen(b);
-    int cost[LONGEST_NAME + 1][LONGEST_NAME + 1];
-    for (int i = 0; i <= n; i++) {
-        cost[i][0] = i;
-    }
-    for (int j = 0; j <= m; j++) {
-        cost[0][j] = j;
-    }
-    for (int i = 1; i <= n; i++) {
-        for (int j = 1; j <= m; j++) {
-            int replaced = cost[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            cost[i][j] = least(cost[i - 1][j] + 1, cost[i][j - 1] + 1, replaced);
-            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped && cost[i - 2][j - 2] + 1 < cost[i][j]) {
-                cost[i][j] = cost[i - 2][j - 2] + 1;
-            }
-        }
-    }
-    return cost[n][m];
-}
-
 static size_t group_length(const char *path)
 {
     const char *dot = strrchr(path, '.');
@@ -194,7 +165,7 @@ static int how_far(const OzKey *key, const char *path, size_t group, size_t *len
         return LONGEST_NAME;
     }
     *length = group + name_at(key->path + group, name);
-    return distance(path + group, name);
+    return oz_spelling_distance(path + group, name);
 }
 
 bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size)
@@ -204,8 +175,7 @@ bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size
     if (letters > LONGEST_NAME) {
         return false;
     }
-    /* A third of the letters wrong is still a slip of the hand; more is another word. */
-    int best = (int)letters / 3 + 1;
+    int best = oz_spelling_slips(letters) + 1;
     bool found = false;
     for (const OzKey *key = oz_keys_all(); key->path; key++) {
         size_t length = 0;
