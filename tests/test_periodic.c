@@ -104,8 +104,7 @@ static OzSnapshot shifted(Rig *rig, const double shift[3], const OzDevice *devic
 static void bits_do_not_depend_on_the_origin(void **state)
 {
     (void)state;
-    const double shifts[][3] = {
-        {3 * 0x1p-11, 0, 0}, {-0x1p-9, 0x1p-10, 0}, {0x1p-12, -0x1p-9, 0}};
+    const double shifts[][3] = {{3 * 0x1p-11, 0, 0}, {-0x1p-9, 0x1p-10, 0}, {0x1p-12, -0x1p-9, 0}};
     const OzDevice *devices[] = {&rig_device, &large_device, &large_device};
     Rig rig, other;
     OzSnapshot first = shifted(&rig, (const double[]){0, 0, 0}, &rig_device);
@@ -217,6 +216,19 @@ static void what_has_no_sense_is_refused(void **state)
             "walls.0 is not the same in every cell");
 }
 
+/* The sizes of grains of a file are known when they have been read. */
+static void long_grains_of_a_file_are_refused(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, hit, "boundary: {x: periodic, z: periodic, size: [8e-3, 1, 6e-3]}\n", 0.0,
+             3.4e-3, -3.6e-3);
+    rig.grains.length[0] = 2.2e-3; /* with its ends of 0.5e-3 each: 3.2 mm, of the cell's 6 */
+    assert_int_equal(oz_reference_create(&rig.reference, &rig.scene, &rig.grains), OZ_ERR_INPUT);
+    assert_non_null(strstr(oz_status_text(), "0.0032 m long would meet two images"));
+    rig_close(&rig);
+}
+
 static int open_devices(void **state)
 {
     int status = open_rig_device(state);
@@ -233,6 +245,7 @@ int main(void)
         cmocka_unit_test(bits_do_not_depend_on_the_origin),
         cmocka_unit_test(a_gas_keeps_its_momentum),
         cmocka_unit_test(random_velocities_are_normal),
+        cmocka_unit_test(long_grains_of_a_file_are_refused),
         cmocka_unit_test(what_has_no_sense_is_refused),
     };
     return cmocka_run_group_tests(tests, open_devices, close_rig_device);

@@ -4,10 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Of a cell, that a grain may be as long as. Two grains so long meet at one of their images alone.
- */
-static const double longest = 0.49;
-
 double oz_boundary_period(const OzBoundary *boundary, int axis)
 {
     bool repeats = boundary->present && boundary->along[axis] == OZ_BOUNDARY_PERIODIC;
@@ -49,7 +45,7 @@ static void check_grains(const OzScene *scene, OzNode *root, OzFaults *faults)
         double length = grains->diameter.high * (1 + grains->aspect.high);
         for (int k = 0; k < 3; k++) {
             double period = oz_boundary_period(&scene->boundary, k);
-            if (period > 0 && length > longest * period) {
+            if (period > 0 && length > OZ_BOUNDARY_LONGEST * period) {
                 char path[64];
                 snprintf(path, sizeof path, "grains.%d.diameter", p);
                 oz_tree_fault(

@@ -8,6 +8,9 @@
  * the origin. */
 double oz_boundary_period(const OzBoundary *boundary, int axis);
 
+/* Of a cell, that a grain may be as long as: two such grains meet at one of their images alone. */
+#define OZ_BOUNDARY_LONGEST 0.49
+
 /* Brings a place to within half a cell of the origin. */
 void oz_boundary_wrap(const OzBoundary *boundary, double place[3]);
 

@@ -182,6 +182,22 @@ static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], co
     fill_shapes(parameters, grains);
 }
 
+/* Grains of a file may be of any length. */
+static OzStatus check_cell(const OzScene *scene, const OzParameters *parameters)
+{
+    for (int k = 0; k < 3; k++) {
+        double period = oz_boundary_period(&scene->boundary, k), length = 2 * parameters->reach_max;
+        if (period > 0 && length > OZ_BOUNDARY_LONGEST * period) {
+            return oz_status_fail(
+                OZ_ERR_INPUT,
+                "%s: a grain %g m long would meet two images of another; expected "
+                "less than half the cell's %g m along %c",
+                scene->path, length, period, 'x' + k);
+        }
+    }
+    return OZ_OK;
+}
+
 OzStatus oz_constants_refill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
                              const OzScene *scene, const OzGrains *grains,
                              const OzParameters *running)
@@ -191,6 +207,7 @@ OzStatus oz_constants_refill(OzParameters *parameters, int wall_order[OZ_WALLS_M
     OZ_PASS(running ? keep_units(&filled, scene, grains, running)
                     : choose_units(&filled, scene, grains));
     fill_rest(&filled, wall_order, scene, grains);
+    OZ_PASS(check_cell(scene, &filled));
     *parameters = filled;
     return OZ_OK;
 }
