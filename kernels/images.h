@@ -23,7 +23,7 @@ OZ_INLINE OzImages oz_images_of(const OzWork *w, const place_kind place[3], scal
         scalar at = (scalar)place[k], beside = p->period[k] / 2 - far / p->length_unit;
         int repeats = OZ_PERIODIC >> k & 1;
         images.own[k] = place[k];
-        images.period[k] = (place_kind)p->period[k];
+        images.period[k] = (place_kind)p->period[k] + (place_kind)p->period_rest[k];
         images.low[k] = images.at[k] = repeats && at > beside ? -1 : 0;
         images.high[k] = repeats && -at > beside ? 1 : 0;
     }

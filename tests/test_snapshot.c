@@ -43,6 +43,11 @@ static void test_walls_swing(void **state)
         assert_near(bed.snapshot.wall_offset[0], 2e-3 * rise[k % 4], 2e-3 * 4e-15);
         assert_near(bed.snapshot.wall_velocity[0], fastest * speed[k % 4], fastest * 4e-15);
         assert_true(bed.snapshot.wall_offset[1] == 0 && bed.snapshot.wall_velocity[1] == 0);
+        /* while grains settle walls stand still, whatever the time since that began */
+        bed.snapshot.settling = true;
+        oz_snapshot_move_walls(&bed.snapshot);
+        assert_true(bed.snapshot.wall_offset[0] == 0 && bed.snapshot.wall_velocity[0] == 0);
+        bed.snapshot.settling = false;
     }
     bed_free(&bed);
 }

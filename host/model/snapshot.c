@@ -120,8 +120,11 @@ void oz_snapshot_move_walls(OzSnapshot *snapshot)
 {
     const OzScene *scene = snapshot->scene;
     for (int w = 0; w < scene->wall_count; w++) {
-        oz_motion_offset(&scene->walls[w].motion, snapshot->time, &snapshot->wall_offset[w],
-                         &snapshot->wall_velocity[w]);
+        snapshot->wall_offset[w] = snapshot->wall_velocity[w] = 0;
+        if (!snapshot->settling) {
+            oz_motion_offset(&scene->walls[w].motion, snapshot->time, &snapshot->wall_offset[w],
+                             &snapshot->wall_velocity[w]);
+        }
     }
 }
 

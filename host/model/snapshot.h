@@ -82,7 +82,7 @@ void oz_snapshot_place(const OzSnapshot *snapshot, int64_t grain, double place[3
 /* The angle by which a wall has turned, rad; 0 while grains settle. */
 double oz_snapshot_turn(const OzSnapshot *snapshot, int wall);
 
-/* Fills wall_offset and wall_velocity for snapshot->time. */
+/* Fills wall_offset and wall_velocity for snapshot->time; walls stand still while grains settle. */
 void oz_snapshot_move_walls(OzSnapshot *snapshot);
 
 /* Whether a wall is there at the snapshot's time. */

@@ -254,6 +254,7 @@ static OzStatus unpack_frame(const OzFrames *frames, size_t bytes, OzSnapshot *s
     }
     snapshot->has_contacts = snapshot->has_ledger = false;
     *purpose = (int)purposes[0];
+    snapshot->settling = *purpose & OZ_FRAME_SETTLING;
     return frames->is_old ? OZ_OK : unpack_contacts(frames, &at, bytes, snapshot);
 }
 
