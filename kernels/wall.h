@@ -6,8 +6,10 @@
 #include "kernels/wall_band.h"
 #include "kernels/wall_cylinder.h"
 #include "kernels/wall_mesh.h"
+#include "kernels/wall_obstacle.h"
 #include "kernels/wall_plane.h"
 #include "kernels/wall_rectangle.h"
+#include "kernels/wall_solid.h"
 #include "kernels/wall_sphere.h"
 #include "kernels/wall_tube.h"
 #include "kernels/walls.h"
@@ -60,6 +62,7 @@ OZ_INLINE real oz_wall_middle(OzVec3 from, OzVec3 half_shaft, OzWallShape wall)
 {
 #define OZ_WALL_MIDDLE_0(name) REAL(0.0)
 #define OZ_WALL_MIDDLE_1(name) oz_wall_##name##_middle(from, half_shaft, wall)
+#define OZ_WALL_MIDDLE_2(name) OZ_WALL_MIDDLE_1(name)
 #define OZ_WALL_ROW(NAME, name, choice, fine, edged)                                               \
     if (OZ_WALL_IS(NAME, wall)) {                                                                  \
         return OZ_WALL_MIDDLE_##edged(name);                                                       \
@@ -75,6 +78,7 @@ OZ_INLINE real oz_wall_flush(OzVec3 from, OzWallShape wall)
 {
 #define OZ_WALL_FLUSH_0(name) REAL(0.0)
 #define OZ_WALL_FLUSH_1(name) oz_wall_##name##_flush(from, wall)
+#define OZ_WALL_FLUSH_2(name) OZ_WALL_FLUSH_1(name)
 #define OZ_WALL_ROW(NAME, name, choice, fine, edged)                                               \
     if (OZ_WALL_IS(NAME, wall)) {                                                                  \
         return OZ_WALL_FLUSH_##edged(name);                                                        \

@@ -1,7 +1,8 @@
 /* Where shafts touch walls with edges between their ends. Caps alone would let a rod fall through
  * an edge that it lies across. Two points of a shaft can touch, besides its ends: the deepest one
  * ahead of its middle and the deepest one behind, as a shaft across a narrow wall or a mouth lies
- * on two edges; the middle is where it is nearest to the wall's own.
+ * on two edges; the middle is where it is nearest to the wall's own. At a body that is convex
+ * towards grains there is one such point, and two across its rim.
  *
  * The ends and these points share one elastic response: a push at a place of the shaft takes away
  * overlap there by as much as the law says, and at other places in proportion to how near they are,
@@ -92,9 +93,19 @@ OZ_INLINE real oz_wall_shaft_narrow(OzWallRod rod, OzWallShape wall, real low, r
     return -oz_dot(normal, rod.half_shaft) > slope ? between : low;
 }
 
-/* Both points without their pushes: [0] ahead, [1] behind. The line leads from the end to the
- * middle. */
-OZ_INLINE void oz_wall_shaft_points(OzWallRod rod, OzWallShape wall, OzWallPoint *points)
+/* The point at a place of the shaft, without its push. */
+OZ_INLINE OzWallPoint oz_wall_shaft_point(OzWallRod rod, OzWallShape wall, real at)
+{
+    OzWallPoint point;
+    point.at = at;
+    point.wall = oz_wall_distance(oz_along(rod.from, at, rod.half_shaft), wall);
+    point.overlap = rod.radius * REAL(1 - OZ_WALL_SHAFT_LEAST) - point.wall.distance;
+    point.push = REAL(0.0);
+    return point;
+}
+
+/* Both points at a sheet. The line leads from the end to the middle. */
+OZ_INLINE void oz_wall_shaft_sheet(OzWallRod rod, OzWallShape wall, OzWallPoint *points)
 {
     real none = REAL(0.0), low[2], width[2], slope[2];
     real tip = oz_larger(rod.tip, none), tail = oz_larger(rod.tail, none);
@@ -115,21 +126,8 @@ OZ_INLINE void oz_wall_shaft_points(OzWallRod rod, OzWallShape wall, OzWallPoint
         }
     }
     for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
-        OzWallPoint *point = &points[part];
-        point->at = low[part] + REAL(0.5) * width[part];
-        place = oz_along(rod.from, point->at, rod.half_shaft);
-        point->wall = oz_wall_distance(place, wall);
-        point->overlap = rod.radius * REAL(1 - OZ_WALL_SHAFT_LEAST) - point->wall.distance;
-        point->push = none;
+        points[part] = oz_wall_shaft_point(rod, wall, low[part] + REAL(0.5) * width[part]);
     }
-}
-
-/* Whether that point lies on another wall, which comes first and bears the shaft there. from: the
- * point minus the other wall's. */
-OZ_INLINE mask oz_wall_shaft_hides(OzVec3 from, OzWallShape other, OzWallPoint point, real radius)
-{
-    OzVec3 nearest = oz_along(from, -point.wall.distance, point.wall.normal);
-    return oz_wall_distance(nearest, other).distance < REAL(OZ_WALL_JOINT) * radius;
 }
 
 /* The push at a place of the shaft of an overlap, beside both ends: the least that does with
@@ -145,6 +143,86 @@ OZ_INLINE real oz_wall_shaft_alone(real overlap, real tip, real tail, real at)
         (overlap - ahead * tip - behind * tail) / oz_larger(REAL(2.0) * ahead * behind, least);
     real push = oz_smaller(oz_smaller(overlap, with_tip), oz_smaller(with_tail, with_both));
     return oz_larger(push, REAL(0.0));
+}
+
+/* Half of what the overlap at the tip exceeds that at the tail by, of what a point's push leaves
+ * there. The response has the largest potential where the overlap's slope is that. */
+OZ_INLINE real oz_wall_shaft_lean(OzWallRod rod, OzWallPoint point)
+{
+    real push = oz_wall_shaft_alone(point.overlap, rod.tip, rod.tail, point.at), none = REAL(0.0);
+    real ahead = REAL(0.5) + REAL(0.5) * point.at, behind = REAL(0.5) - REAL(0.5) * point.at;
+    return REAL(0.5) *
+           (oz_larger(rod.tip - ahead * push, none) - oz_larger(rod.tail - behind * push, none));
+}
+
+/* One point at a convex body, and none: overlap is concave along the shaft. Where no end touches it
+ * is the deepest one, so that it is the contact of two capsules. */
+OZ_INLINE void oz_wall_shaft_single(OzWallRod rod, OzWallShape wall, int is_obstacle,
+                                    OzWallPoint *points)
+{
+    real middle = oz_clamp_unit(oz_wall_middle(rod.from, rod.half_shaft, wall));
+    mask is_known = oz_larger(rod.tip, rod.tail) <= REAL(0.0);
+    if (is_obstacle == 0 || OZ_ANY(oz_larger(rod.tip, rod.tail) > REAL(0.0))) {
+        real low = REAL(-1.0), width = REAL(2.0);
+        for (int i = 0; i < OZ_WALL_SHAFT_HALVINGS; i++) {
+            OzWallPoint between = oz_wall_shaft_point(rod, wall, low + REAL(0.5) * width);
+            real lean = oz_wall_shaft_lean(rod, between);
+            low = oz_wall_shaft_narrow(rod, wall, low, width, lean);
+            width = REAL(0.5) * width;
+        }
+        low = low + REAL(0.5) * width;
+        middle = is_obstacle ? (is_known ? middle : low) : low;
+    }
+    points[0] = points[1] = oz_wall_shaft_point(rod, wall, middle);
+    points[1].overlap = -rod.radius;
+}
+
+/* Whether a shaft lies over an end of a solid and beyond its rim on both sides. */
+OZ_INLINE mask oz_wall_shaft_spans(OzWallRod rod, OzWallShape wall)
+{
+    real middle = oz_clamp_unit(oz_wall_middle(rod.from, rod.half_shaft, wall));
+    real over = oz_wall_flush(oz_along(rod.from, middle, rod.half_shaft), wall);
+    real tip = oz_wall_flush(oz_add(rod.from, rod.half_shaft), wall);
+    real tail = oz_wall_flush(oz_minus(rod.from, rod.half_shaft), wall);
+    return (over != REAL(0.0)) & (over * tip <= REAL(0.0)) & (over * tail <= REAL(0.0));
+}
+
+/* At a solid: one point, but one on either side of its rim where the shaft lies across that. */
+OZ_INLINE void oz_wall_shaft_solid(OzWallRod rod, OzWallShape wall, OzWallPoint *points)
+{
+    mask spans = oz_wall_shaft_spans(rod, wall);
+    oz_wall_shaft_single(rod, wall, 0, points);
+    if (OZ_ANY(spans)) {
+        OzWallPoint both[OZ_WALL_SHAFT_PARTS];
+        oz_wall_shaft_sheet(rod, wall, both);
+        for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
+            OzWallPoint *to = &points[part];
+            to->at = spans ? both[part].at : to->at;
+            to->wall.normal = oz_choose(spans, both[part].wall.normal, to->wall.normal);
+            to->wall.distance = spans ? both[part].wall.distance : to->wall.distance;
+            to->overlap = spans ? both[part].overlap : to->overlap;
+        }
+    }
+}
+
+/* Both points without their pushes: [0] ahead, [1] behind. */
+OZ_INLINE void oz_wall_shaft_points(OzWallRod rod, OzWallShape wall, OzWallPoint *points)
+{
+    if (OZ_WALL_COUNT_OF(OBSTACLE) > 0 && wall.kind == OZ_WALL_OBSTACLE) {
+        oz_wall_shaft_single(rod, wall, 1, points);
+    } else if (OZ_WALL_COUNT_OF(SOLID) > 0 && wall.kind == OZ_WALL_SOLID) {
+        oz_wall_shaft_solid(rod, wall, points);
+    } else {
+        oz_wall_shaft_sheet(rod, wall, points);
+    }
+}
+
+/* Whether that point lies on another wall, which comes first and bears the shaft there. from: the
+ * point minus the other wall's. */
+OZ_INLINE mask oz_wall_shaft_hides(OzVec3 from, OzWallShape other, OzWallPoint point, real radius)
+{
+    OzVec3 nearest = oz_along(from, -point.wall.distance, point.wall.normal);
+    return oz_wall_distance(nearest, other).distance < REAL(OZ_WALL_JOINT) * radius;
 }
 
 /* How much of a push at a place of the shaft takes overlap away at another one. */

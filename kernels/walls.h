@@ -6,13 +6,15 @@
 /* X(NAME, name, choice, fine, edged), a row each, of rods' walls:
  *   fine   1: kernels/wall_<name>.h has oz_wall_<name>_fine, too: the overlap of light contacts
  * with all digits that places carry; 0: precision: float refuses scenes that need it
- *   edged  1: a thin sheet with edges and grains on both sides; these come last, and have
- * oz_wall_<name>_middle and oz_wall_<name>_flush, too, for shafts (wall.h)
+ *   edged  1: a thin sheet with edges and grains on both sides; 2: a body that is convex towards
+ * grains; shafts touch both between their ends, too. These come last, and have
+ * oz_wall_<name>_middle and oz_wall_<name>_flush, too (wall.h)
  * kernels/wall_<name>.h has oz_wall_<name>(from, wall) and is included by wall.h;
  * host/scene/wall_shape.c fills the numbers that it reads (shape_<name>); host/model/fill_region.c
  * bounds the room for grains placed at random (bound_by_<name>). An empty
  * choice is for sides of other walls alone: a cylinder that is not upright about the origin is a
- * tube, or a band where its ends are open. The keys of a wall name it under
+ * tube, or a band where its ends are open, and its outside, like a sphere's, is an obstacle to
+ * rods, or a solid where its ends are closed. The keys of a wall name it under
  * `.kinds` in host/scene/rows.c. Pictures show kinds without a drawing of their own
  * (host/draw/container.c) by level lines, found by distance. */
 #define OZ_WALLS(X)                                                                                \
@@ -22,7 +24,9 @@
     X(SPHERE, sphere, "sphere", 0, 0)                                                              \
     X(MESH, mesh, "mesh", 0, 0)                                                                    \
     X(RECTANGLE, rectangle, "rectangle", 0, 1)                                                     \
-    X(BAND, band, "", 0, 1)
+    X(BAND, band, "", 0, 1)                                                                        \
+    X(OBSTACLE, obstacle, "", 0, 2)                                                                \
+    X(SOLID, solid, "", 0, 2)
 
 /* X(NAME, name, choice), of rods' walls that are made of these, as a box is of planes and a disc is
  * a band: host/scene/wall_shape.c makes them (sides_<name>), host/model/fill_region.c as above. */

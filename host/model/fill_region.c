@@ -104,6 +104,18 @@ static void bound_by_band(OzFillRegion *fill_region, const OzWall *wall)
     add_vessel(fill_region, wall, (double[]){wall->diameter / 2, wall->diameter / 2});
 }
 
+/* Grains are outside. */
+static void bound_by_obstacle(OzFillRegion *fill_region, const OzWall *wall)
+{
+    (void)fill_region;
+    (void)wall;
+}
+
+static void bound_by_solid(OzFillRegion *fill_region, const OzWall *wall)
+{
+    bound_by_obstacle(fill_region, wall);
+}
+
 static void bound_by_cylinder(OzFillRegion *fill_region, const OzWall *wall)
 {
     if (is_vessel(wall)) {
@@ -335,13 +347,14 @@ static bool is_enclosed(const OzFillRegion *fill_region, const double point[3])
 }
 
 /* Whether the shaft keeps its radius from a wall. Between its ends no point is nearer to a wall
- * without edges. A sheet is as far from the next point as from this one, less the way there; ways
- * shorter than a hundredth of the radius are not looked at. */
+ * that has grains inside. A sheet or an obstacle is as far from the next point as from this one,
+ * less the way there; ways shorter than a hundredth of the radius are not looked at. */
 static bool shaft_is_free(const OzWall *wall, const OzCapsule *capsule)
 {
     const double *half = capsule->half_shaft;
     double length = 2 * sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
-    double least = oz_wall_shape_is_sheet(wall) ? 0.01 * capsule->radius : length;
+    bool looks_between = oz_wall_shape_is_sheet(wall) || wall->side == OZ_SIDE_OUTSIDE;
+    double least = looks_between ? 0.01 * capsule->radius : length;
     for (double way = 0;;) {
         double share = length > 0 ? 2 * way / length - 1 : 0, point[3];
         for (int k = 0; k < 3; k++) {

@@ -98,27 +98,6 @@ static void check_singles(const OzScene *scene, OzNode *root, OzFaults *faults)
     }
 }
 
-/* A rod across a round obstacle would touch it between its ends, which walls do not look at. */
-static void check_outside(const OzScene *scene, int i, OzNode *root, OzFaults *faults)
-{
-    const OzWall *wall = &scene->walls[i];
-    bool all_round = true;
-    char path[64];
-    for (int k = 0; k < scene->population_count; k++) {
-        const OzPopulation *grains = &scene->populations[k];
-        all_round &= grains->kind != OZ_GRAINS_FILE && !(grains->aspect.high > 0);
-    }
-    bool is_sheet = oz_wall_shape_is_sheet(wall);
-    snprintf(path, sizeof path, "walls.%d.side", i);
-    if (!is_sheet && wall->side == OZ_SIDE_OUTSIDE && wall->length > 0) {
-        oz_tree_fault(root, faults, path,
-                      "the outside of a cylinder with ends; expected one without a length");
-    } else if (!is_sheet && wall->side == OZ_SIDE_OUTSIDE && !all_round) {
-        oz_tree_fault(root, faults, path,
-                      "rods, or grains of a file, outside of a wall; expected spheres");
-    }
-}
-
 /* Sizes of which the rows do not know enough. */
 static void check_sizes(const OzWall *wall, int i, OzNode *root, OzFaults *faults)
 {
@@ -180,7 +159,6 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
         const OzWall *wall = &scene->walls[i];
         char path[64];
         oz_check_motion_wall(wall, i, root, faults);
-        check_outside(scene, i, root, faults);
         check_way(scene, i, root, faults);
         snprintf(path, sizeof path, "walls.%d.ends", i);
         if (wall->kind == OZ_WALL_CYLINDER && wall->length == 0 && wall->ends == OZ_ENDS_CLOSED) {

@@ -31,8 +31,8 @@
      SOLID, .help = "of a cylinder with a length; open: a thin tube, free on both sides"},
     {"walls[].side", CHOICE(WALL_SIDES), WALL(side), WALLS_MADE, .kinds = AXIAL | SPHERE,
      DEFAULT("inside"), SOLID,
-     .help = "where grains are, of thin tubes and cones where random ones are put; outside of "
-             "others: spheres alone"},
+     .help = "where grains are, of thin tubes and cones where random ones are put; outside of a "
+             "cylinder with closed ends: a solid obstacle"},
     {"walls[].size", VECTOR(1e6, "m"), WALL(size), WALLS_MADE, .kinds = BOX, REQUIRED, SOLID,
      .help = "of a box, inside"},
     {"walls[].size", TWO(1e-9), WALL(size), WALLS_MADE, .kinds = RECTANGLE, REQUIRED, SOLID,

@@ -15,6 +15,7 @@
 #include "scene/trace.h"
 #include "scene/value.h"
 #include "scene/wall_meshes.h"
+#include "scene/wall_shape.h"
 #include "scene/write.h"
 
 #include <stdlib.h>
@@ -229,6 +230,7 @@ static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_
         OZ_PASS(parse_setting(loader, settings[i], i));
     }
     OZ_PASS(oz_read_scene(scene, loader->root, &loader->faults));
+    oz_wall_shape_meet(scene);
     OZ_PASS(oz_trace_load_walls(scene, &loader->faults));
     OZ_PASS(oz_wall_meshes_load(scene, loader->running, loader->root, &loader->faults));
     OZ_PASS(oz_check_scene(scene, loader->root, &loader->faults));

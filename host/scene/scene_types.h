@@ -145,6 +145,7 @@ typedef struct OzWall {
     double scale;          /* mesh: m of a unit of its file                              */
     bool two_sided;        /* mesh: grains touch it from behind, too                     */
     OzWallMesh *mesh;      /* those triangles, held; NULL of other walls                 */
+    bool meets_rods;       /* no key: some grain has a shaft, or a file may hold such ones */
     double since;          /* s, key `from` of rods' walls: it is there from this time on */
     double until;          /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;

@@ -80,13 +80,33 @@ static void shape_band(OzWallShape *shape, const OzWall *wall)
     shape->extent[1] = wall->length;
 }
 
+/* A round wall with rods outside. */
+static void shape_obstacle(OzWallShape *shape, const OzWall *wall)
+{
+    shape_tube(shape, wall);
+    shape->kind = OZ_WALL_OBSTACLE;
+    for (int c = 0; c < 3 && wall->kind == OZ_WALL_SPHERE; c++) {
+        shape->normal[c] = 0;
+    }
+}
+
+static void shape_solid(OzWallShape *shape, const OzWall *wall)
+{
+    shape_band(shape, wall);
+    shape->kind = OZ_WALL_SOLID;
+}
+
 static void shape_cylinder(OzWallShape *shape, const OzWall *wall)
 {
     if (wall->length > 0 && wall->ends == OZ_ENDS_OPEN) {
         shape_band(shape, wall);
+    } else if (wall->length > 0 && wall->side == OZ_SIDE_OUTSIDE) {
+        shape_solid(shape, wall);
     } else if (oz_wall_shape_is_upright(wall)) {
         shape->radius = wall->diameter / 2;
         oz_wall_shape_axis(wall, shape->normal);
+    } else if (wall->meets_rods && wall->side == OZ_SIDE_OUTSIDE) {
+        shape_obstacle(shape, wall);
     } else {
         shape->kind = OZ_WALL_TUBE;
         shape_tube(shape, wall);
@@ -95,9 +115,11 @@ static void shape_cylinder(OzWallShape *shape, const OzWall *wall)
 
 static void shape_sphere(OzWallShape *shape, const OzWall *wall)
 {
-    for (int c = 0; c < 3; c++) {
-        shape->point[c] = wall->point[c];
+    if (wall->meets_rods && wall->side == OZ_SIDE_OUTSIDE) {
+        shape_obstacle(shape, wall);
+        return;
     }
+    copy(shape->point, wall->point);
     shape->radius = wall->diameter / 2;
     shape->side = wall->side == OZ_SIDE_OUTSIDE ? -1 : 1;
 }
@@ -158,6 +180,18 @@ bool oz_wall_shape_is_upright(const OzWall *wall)
            !(wall->length > 0 && wall->ends == OZ_ENDS_OPEN);
 }
 
+void oz_wall_shape_meet(OzScene *scene)
+{
+    bool has_rods = false;
+    for (int i = 0; i < scene->population_count; i++) {
+        const OzPopulation *grains = &scene->populations[i];
+        has_rods |= grains->kind == OZ_GRAINS_FILE || grains->aspect.high > 0;
+    }
+    for (int w = 0; w < scene->wall_count; w++) {
+        scene->walls[w].meets_rods = has_rods;
+    }
+}
+
 /* The one side of a wall that is no compound of several. */
 static int shape_of(OzWallShape *side, const OzWall *wall)
 {
@@ -183,7 +217,8 @@ int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]
         return compounds[wall->kind](sides, wall);
     }
     int count = shape_of(sides, wall);
-    if (count > 0 && wall->length > 0 && wall->ends == OZ_ENDS_CLOSED) {
+    if (count > 0 && wall->length > 0 && wall->ends == OZ_ENDS_CLOSED &&
+        sides[0].kind != OZ_WALL_SOLID) {
         sides[count++] = plane(wall->point, 0, wall->axis, 1);
         sides[count++] = plane(wall->point, wall->length, wall->axis, -1);
     }
@@ -236,17 +271,22 @@ double oz_wall_shape_distance(const OzWall *wall, double offset, const double po
     return count > 0 ? oz_wall_shape_side_distance(&sides[nearest], shift, point, normal) : least;
 }
 
-bool oz_wall_shape_is_edged(const OzWallShape *side)
+static int edged(const OzWallShape *side)
 {
 #define ROW(NAME, name, choice, fine, edged) [OZ_WALL_##NAME] = edged,
-    static const bool is_edged[OZ_WALLS_END] = {OZ_WALLS(ROW)};
+    static const int is_edged[OZ_WALLS_END] = {OZ_WALLS(ROW)};
 #undef ROW
     return is_edged[(int)side->kind];
+}
+
+bool oz_wall_shape_is_edged(const OzWallShape *side)
+{
+    return edged(side) > 0;
 }
 
 bool oz_wall_shape_is_sheet(const OzWall *wall)
 {
     OzWallShape sides[OZ_WALL_SIDES_MAX];
-    bool is_edged = oz_wall_shape_sides(wall, sides) > 0 && oz_wall_shape_is_edged(&sides[0]);
-    return is_edged || wall->kind == OZ_WALL_MESH;
+    bool is_sheet = oz_wall_shape_sides(wall, sides) > 0 && edged(&sides[0]) == 1;
+    return is_sheet || wall->kind == OZ_WALL_MESH;
 }

@@ -13,10 +13,10 @@ enum { OZ_WALL_SIDES_MAX = 6 };
  * six. Returns how many. Walls of trigrains have none. */
 int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]);
 
-/* Whether a side has edges: a thin sheet, free on both sides. */
+/* Whether a shaft may touch a side between its ends. */
 bool oz_wall_shape_is_edged(const OzWallShape *side);
 
-/* Whether a wall is made of such sides. */
+/* Whether a wall is made of thin sheets with edges, or of triangles. */
 bool oz_wall_shape_is_sheet(const OzWall *wall);
 
 /* The unit vector along a cylinder's or a cone's axis. */
@@ -28,6 +28,9 @@ void oz_wall_shape_across(const double normal[3], double u[3], double v[3]);
 /* Whether it is a cylinder about the z axis: that kernels know for itself, that pictures look into
  * and in which density is defined. */
 bool oz_wall_shape_is_upright(const OzWall *wall);
+
+/* Notes at a scene's walls whether it has rods. */
+void oz_wall_shape_meet(OzScene *scene);
 
 /* Distance of a point from the wall's nearest side, m, > 0 on the free side; offset: m, by which
  * the wall has moved along its direction. normal, unless NULL, receives the unit vector into the
