@@ -129,3 +129,5 @@ OZ_INLINE mask oz_near_stays(const OzWork *w, global const real *reference, OzPo
 }
 
 #define oz_near_fresh(w, begin, count) ((void)0)
+#define oz_near_refer(w, block)        ((void)0)
+#define oz_near_measure(w, block)      ((void)0)

@@ -46,6 +46,9 @@ enum { OZ_CONTACT_LEDGER = 16 };
     X(scalar, mesh_record, OZ_MESH_RECORD *z.mesh_faces, SCRATCH)                                  \
     X(integer, mesh_first, z.mesh_cells, SCRATCH)                                                  \
     X(integer, mesh_face, z.mesh_items, SCRATCH)                                                   \
+    X(real, mesh_list, OZ_MESHES *OZ_MESH_LIST *z.blocks, LIST)                                    \
+    X(scalar, mesh_slack, OZ_MESHES *z.face_capacity *z.slots, LIST)                               \
+    X(integer, mesh_near, OZ_MESHES *z.face_capacity *z.slots, LIST)                               \
     X(real, mesh_touch, OZ_MESHES *OZ_MESH_SLOTS *OZ_MESH_TOUCH *z.blocks, SCRATCH)                \
     X(real, mesh_memory, OZ_MESH_WORDS *z.blocks, SPRING)                                          \
     X(scalar, record, (z.slots + 1) * OZ_RECORD * (OZ_TILES ? 2 : 1), STATE)                       \

@@ -39,13 +39,14 @@ enum { OZ_SPRINGS_AT_NONE, OZ_SPRINGS_AT_SAVED, OZ_SPRINGS_AT_OUTER, OZ_SPRINGS_
 /* Of the sizes. slots: bodies rounded up to whole blocks of lanes; blocks: slots / lanes; regions:
  * runs of slots that one work-item looks after, each of region_slots; capacities: pairs of a
  * region's outer and inner list, whole blocks, and pairs of the inner list in which a body is the
- * second; motion_steps: steps of one launch for which walls' motion is given; members: scenes side
- * by side in this launch; axis: of space, in the grid's order: cells along the first follow each
- * other; cells_along: these axes, powers of two: cell coordinates wrap around. */
+ * second, and triangles of a mesh near one; motion_steps: steps of one launch for which walls'
+ * motion is given; members: scenes side by side in this launch; axis: of space, in the grid's
+ * order: cells along the first follow each other; cells_along: these axes, powers of two: cell
+ * coordinates wrap around. */
 #define OZ_SIZES_HEAD                                                                              \
     int slots, blocks;                                                                             \
     int regions, region_slots;                                                                     \
-    int outer_capacity, inner_capacity, back_capacity;                                             \
+    int outer_capacity, inner_capacity, back_capacity, face_capacity;                              \
     int motion_steps;                                                                              \
     int members;                                                                                   \
     int axis[3], cells_along[3], cells;
@@ -66,7 +67,7 @@ enum { OZ_SPRINGS_AT_NONE, OZ_SPRINGS_AT_SAVED, OZ_SPRINGS_AT_OUTER, OZ_SPRINGS_
  * OZ_SPRINGS_AT_...; outer_stale: the outer list no longer covers the inner skin. */
 #define OZ_CONTROL_HEAD                                                                            \
     int step, moved, full;                                                                         \
-    int outer_needed, inner_needed, back_needed;                                                   \
+    int outer_needed, inner_needed, back_needed, faces_needed;                                     \
     int stop_bits, stop_step, stop_index;                                                          \
     int refreshes, rebuilds, crossed;                                                              \
     int deep_count, deep_step, deep_index, deep_depth, deep_kinds;                                 \

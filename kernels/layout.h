@@ -110,7 +110,8 @@ enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };
 enum { OZ_IMPULSE_WORDS = 6 };
 
 /* Words of a mesh's grid: where it begins (m, from the wall's point), 1/m, cells along each axis,
- * their beginning in mesh_first, and that of its triangles; whether grains touch both sides. */
+ * their beginning in mesh_first, and that of its triangles; whether grains touch both sides; the
+ * largest skin of a grain, m, for which cells' lists hold all that it may touch. */
 enum {
     OZ_G_LOW = 0,
     OZ_G_INVERSE = 3,
@@ -118,12 +119,24 @@ enum {
     OZ_G_FIRST = 7,
     OZ_G_CORNER,
     OZ_G_TWO_SIDED,
+    OZ_G_SKIN,
     OZ_MESH_GRID
 };
 
 /* Words of a triangle's record: its first corner's place, one to spare, and both edges from there.
  */
 enum { OZ_MESH_R_CORNER = 0, OZ_MESH_R_ONE = 4, OZ_MESH_R_OTHER = 7, OZ_MESH_RECORD = 12 };
+
+/* Words of a block's lists of triangles at one mesh, each a real with one lane per grain: place and
+ * half-shaft when they were made, m, on the mesh as built; skin, m, 0: there is none; number of
+ * triangles, stored or not (mesh_list.h). */
+enum {
+    OZ_MESH_L_FROM = 0,
+    OZ_MESH_L_SHAFT = 3,
+    OZ_MESH_L_SKIN = 6,
+    OZ_MESH_L_NUMBER,
+    OZ_MESH_LIST
+};
 
 /* Words of a grain's touch of a mesh: place along the shaft, normal, distance, push (mesh.h). */
 enum { OZ_MESH_TOUCH = 6 };

@@ -23,6 +23,7 @@ OZ_INLINE void oz_lists_refer_block(OzWork *w, int block)
     global const OzParameters *p = w->parameters;
     global real *reference = w->reference_outer + (size_t)block * OZ_REFERENCE;
     OzPose pose = oz_near_pose(w, block);
+    oz_near_refer(w, block);
     oz_near_note(reference, pose);
     reference[OZ_REFERENCE_SKIN] =
         oz_lists_skin(pose, p->outer_time, p->outer_least, p->outer_most);
@@ -45,6 +46,7 @@ OZ_INLINE void oz_lists_measure(OzWork *w)
     {
         OzPose pose = oz_near_pose(w, block);
         real skin = oz_lists_skin(pose, p->skin_time, p->skin_least, p->skin_most);
+        oz_near_measure(w, block);
         global const real *outer = w->reference_outer + (size_t)block * OZ_REFERENCE;
         global real *inner = w->reference_inner + (size_t)block * OZ_REFERENCE;
         real left =

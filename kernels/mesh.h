@@ -7,7 +7,8 @@
  * common edges one of them does, and walls across each other push as they would alone. A sphere is
  * pushed along the shortest way that frees it. Nothing need be known of who is whose neighbour.
  *
- * On a device lanes are triangles before one grain; `scalar` is what is the same for all. */
+ * On a device each lane is a grain with a triangle of its own before it; touches of one grain are
+ * `scalar`. */
 #ifndef OZ_KERNELS_MESH_H
 #define OZ_KERNELS_MESH_H
 
@@ -24,7 +25,6 @@ typedef struct OzMeshFace {
     real key;          /* of its tip (OZ_MESH_KEY)                                               */
 } OzMeshFace;
 
-/* The grain, the same in every lane. */
 typedef struct OzMeshGrain {
     OzVec3 half_shaft; /* m */
     real radius;       /* m */
@@ -50,12 +50,17 @@ typedef struct OzMeshTouches {
     OzMeshTouch at[OZ_MESH_SLOTS];
 } OzMeshTouches;
 
-/* The best that is offered, a triangle a lane. */
-typedef struct OzMeshBest {
-    real left; /* m, of the overlap, with all pushes so far; < 0: nothing that counts */
-    real key, place, distance;
-    OzVec3 normal;
-} OzMeshBest;
+/* A place of a shaft that a triangle offers. */
+typedef struct OzMeshOffer {
+    real key, place;   /* as in OzMeshTouch                               */
+    OzWallDistance at; /* of the place                                    */
+    mask counts;       /* it is overlapped, and more than what rules here */
+} OzMeshOffer;
+
+/* The largest overlaps of a shaft's ends, m, 0 where there is none. */
+typedef struct OzMeshEnds {
+    real tip, tail;
+} OzMeshEnds;
 
 /* The way from the nearest point of an edge. */
 OZ_INLINE OzVec3 oz_mesh_from_edge(OzVec3 from, OzVec3 edge)
@@ -94,59 +99,27 @@ OZ_INLINE OzWallDistance oz_mesh_distance(OzVec3 from, OzMeshFace face, int two_
     return at;
 }
 
-/* How much of a push takes away of an overlap elsewhere. */
-OZ_INLINE real oz_mesh_reach(real place, OzVec3 normal, const OzMeshTouch *touch)
+/* A place where a triangle is at a distance; beyond: what its overlap must exceed. */
+OZ_INLINE OzMeshOffer oz_mesh_offer(OzMeshGrain grain, real key, real place, OzWallDistance at,
+                                    real beyond)
 {
-    OzVec3 other = oz_vec3(REAL(touch->normal[0]), REAL(touch->normal[1]), REAL(touch->normal[2]));
-    return oz_wall_shaft_reach(place, REAL(touch->place)) *
-           oz_larger(REAL(0.0), oz_dot(normal, other));
+    real overlap = grain.radius - at.distance;
+    OzMeshOffer offer = {key, place, at, (overlap > REAL(0.0)) & (overlap > beyond)};
+    return offer;
 }
 
-/* One more place of every lane's triangle; beyond: what it must exceed, besides. */
-OZ_INLINE void oz_mesh_offer(OzMeshBest *best, const OzMeshTouches *touches, real key, real place,
-                             OzWallDistance at, real beyond)
+/* An end, 0 or 1, or a sphere's centre. */
+OZ_INLINE OzMeshOffer oz_mesh_offer_end(OzMeshFace face, OzMeshGrain grain, int end)
 {
-    real overlap = REAL(touches->radius) - at.distance, left = overlap;
-    for (int k = 0; k < touches->count; k++) {
-        left -= touches->at[k].push * oz_mesh_reach(place, at.normal, &touches->at[k]);
-    }
-    mask better = (left > REAL(OZ_MESH_SHARE) * overlap) & (overlap > REAL(0.0)) &
-                  (overlap > beyond) & (left > best->left);
-    best->left = better ? left : best->left;
-    best->key = better ? key : best->key;
-    best->place = better ? place : best->place;
-    best->distance = better ? at.distance : best->distance;
-    best->normal = oz_choose(better, at.normal, best->normal);
-}
-
-/* Whether an end touches a triangle. */
-OZ_INLINE mask oz_mesh_may(OzMeshFace face, OzMeshGrain grain, int ends)
-{
+    real place = REAL(end ? -1.0 : 1.0);
     OzWallDistance at =
-        oz_mesh_distance(oz_add(face.from, grain.half_shaft), face, grain.two_sided);
-    real least = at.distance;
-    if (ends > 1) {
-        at = oz_mesh_distance(oz_minus(face.from, grain.half_shaft), face, grain.two_sided);
-        least = oz_smaller(least, at.distance);
-    }
-    return least < grain.radius;
-}
-
-/* Both ends, or a sphere's centre. */
-OZ_INLINE void oz_mesh_offer_ends(OzMeshBest *best, const OzMeshTouches *touches, OzMeshFace face,
-                                  OzMeshGrain grain, int ends)
-{
-    for (int end = 0; end < ends; end++) {
-        real place = REAL(end ? -1.0 : 1.0);
-        OzWallDistance at =
-            oz_mesh_distance(oz_along(face.from, place, grain.half_shaft), face, grain.two_sided);
-        oz_mesh_offer(best, touches, face.key + REAL(end), place, at, REAL(-1.0) * grain.radius);
-    }
+        oz_mesh_distance(oz_along(face.from, place, grain.half_shaft), face, grain.two_sided);
+    return oz_mesh_offer(grain, face.key + REAL(end), place, at, REAL(0.0));
 }
 
 /* How far the plane of a triangle allows a shaft's overlap to exceed the line between its ends'
  * overlaps; nowhere more than at an end. */
-OZ_INLINE real oz_mesh_excess(const OzMeshTouches *touches, OzMeshFace face, OzMeshGrain grain)
+OZ_INLINE real oz_mesh_excess(OzMeshEnds ends, OzMeshFace face, OzMeshGrain grain)
 {
     OzVec3 across = oz_cross(face.one, face.other);
     real inverse = oz_inverse_root(oz_dot(across, across));
@@ -154,21 +127,21 @@ OZ_INLINE real oz_mesh_excess(const OzMeshTouches *touches, OzMeshFace face, OzM
     real rise = inverse * oz_dot(grain.half_shaft, across);
     real tip = oz_magnitude(middle + rise), tail = oz_magnitude(middle - rise);
     mask crosses = oz_magnitude(middle) < oz_magnitude(rise);
-    real ahead = grain.radius - tip - REAL(touches->tip);
-    real behind = grain.radius - tail - REAL(touches->tail);
+    real ahead = grain.radius - tip - ends.tip;
+    real behind = grain.radius - tail - ends.tail;
     return crosses ? grain.radius : oz_larger(ahead, behind);
 }
 
 /* Where the shaft's overlap exceeds the line from its end to its middle most, ahead of the middle
  * (part 0) and behind it: as oz_wall_shaft_points. */
-OZ_INLINE real oz_mesh_deepest(const OzMeshTouches *touches, OzMeshFace face, OzMeshGrain grain,
-                               real middle, real line, int part)
+OZ_INLINE real oz_mesh_deepest(OzMeshEnds ends, OzMeshFace face, OzMeshGrain grain, real middle,
+                               real line, int part)
 {
     OzWallDistance at = oz_mesh_distance(oz_along(face.from, middle, grain.half_shaft), face, 1);
     real top = oz_larger(grain.radius - at.distance, line), least = REAL(OZ_TINY);
     real low = part ? REAL(-1.0) : middle, width = part ? REAL(1.0) + middle : REAL(1.0) - middle;
-    real slope = part ? (top - REAL(touches->tail)) / oz_larger(width, least)
-                      : (REAL(touches->tip) - top) / oz_larger(width, least);
+    real slope = part ? (top - ends.tail) / oz_larger(width, least)
+                      : (ends.tip - top) / oz_larger(width, least);
     for (int i = 0; i < OZ_WALL_SHAFT_HALVINGS; i++) {
         width = REAL(0.5) * width;
         at = oz_mesh_distance(oz_along(face.from, low + width, grain.half_shaft), face, 1);
@@ -177,58 +150,56 @@ OZ_INLINE real oz_mesh_deepest(const OzMeshTouches *touches, OzMeshFace face, Oz
     return low + REAL(0.5) * width;
 }
 
-/* Where a shaft is nearest to the middle of a triangle, and whether it may touch that between its
- * ends and deeper than they do. */
+/* The way from a triangle's middle. */
+OZ_INLINE OzVec3 oz_mesh_aside(OzMeshFace face)
+{
+    return oz_minus(face.from, oz_scale(oz_add(face.one, face.other), REAL(1.0 / 3)));
+}
+
+/* How far its corners are from there at most, m. */
+OZ_INLINE real oz_mesh_size(OzMeshFace face)
+{
+    return sqrt(oz_larger(oz_dot(face.one, face.one), oz_dot(face.other, face.other)));
+}
+
+/* Where a shaft is nearest to the middle of a triangle; the square of how near, m^2. */
 OZ_INLINE real oz_mesh_middle(OzMeshFace face, OzMeshGrain grain)
 {
-    OzVec3 aside = oz_minus(face.from, oz_scale(oz_add(face.one, face.other), REAL(1.0 / 3)));
     real half2 = oz_dot(grain.half_shaft, grain.half_shaft);
-    return oz_clamp_unit(-oz_dot(aside, grain.half_shaft) /
+    return oz_clamp_unit(-oz_dot(oz_mesh_aside(face), grain.half_shaft) /
                          oz_larger(half2, REAL(OZ_TINY * OZ_TINY)));
 }
 
-OZ_INLINE mask oz_mesh_may_between(const OzMeshTouches *touches, OzMeshFace face, OzMeshGrain grain)
+OZ_INLINE real oz_mesh_aside2(OzMeshFace face, OzMeshGrain grain)
 {
-    OzVec3 aside = oz_minus(face.from, oz_scale(oz_add(face.one, face.other), REAL(1.0 / 3)));
-    OzVec3 far = oz_along(aside, oz_mesh_middle(face, grain), grain.half_shaft);
-    real size2 = oz_larger(oz_dot(face.one, face.one), oz_dot(face.other, face.other));
-    real reach = grain.radius + sqrt(size2);
-    return (oz_mesh_excess(touches, face, grain) > REAL(OZ_WALL_SHAFT_LEAST) * grain.radius) &
-           (oz_dot(far, far) < reach * reach);
+    OzVec3 far = oz_along(oz_mesh_aside(face), oz_mesh_middle(face, grain), grain.half_shaft);
+    return oz_dot(far, far);
 }
 
-/* The points of shafts between their ends, where the triangle lets there be any. */
-OZ_INLINE void oz_mesh_offer_shaft(OzMeshBest *best, const OzMeshTouches *touches, OzMeshFace face,
-                                   OzMeshGrain grain)
+/* Whether a shaft may touch a triangle between its ends and deeper than they do. */
+OZ_INLINE mask oz_mesh_may_between(OzMeshEnds ends, OzMeshFace face, OzMeshGrain grain)
 {
-    mask may = oz_mesh_may_between(touches, face, grain);
-    if (!OZ_ANY(may)) {
-        return;
-    }
+    real reach = grain.radius + oz_mesh_size(face);
+    return (oz_mesh_excess(ends, face, grain) > REAL(OZ_WALL_SHAFT_LEAST) * grain.radius) &
+           (oz_mesh_aside2(face, grain) < reach * reach);
+}
+
+/* The points of shafts between their ends that a triangle offers: ahead of its middle, part 0, and
+ * behind it. */
+OZ_INLINE OzMeshOffer oz_mesh_offer_shaft(OzMeshEnds ends, OzMeshFace face, OzMeshGrain grain,
+                                          int part)
+{
     real middle = oz_mesh_middle(face, grain);
-    real line =
-        REAL(0.5) * (touches->tip + touches->tail + middle * (touches->tip - touches->tail));
-    for (int part = 0; part < OZ_WALL_SHAFT_PARTS; part++) {
-        real place = oz_mesh_deepest(touches, face, grain, middle, line, part);
-        OzWallDistance at =
-            oz_mesh_distance(oz_along(face.from, place, grain.half_shaft), face, grain.two_sided);
-        real beyond =
-            REAL(0.5) * (touches->tip + touches->tail + place * (touches->tip - touches->tail)) +
-            REAL(OZ_WALL_SHAFT_LEAST) * grain.radius;
-        beyond = may ? beyond : grain.radius;
-        oz_mesh_offer(best, touches, face.key + REAL(OZ_WALL_AHEAD + part), place, at, beyond);
-    }
-}
-
-OZ_INLINE OzMeshBest oz_mesh_look(const OzMeshTouches *touches, OzMeshFace face, OzMeshGrain grain,
-                                  int ends, int between)
-{
-    OzMeshBest best = {REAL(-1.0), REAL(0.0), REAL(0.0), REAL(0.0), face.one};
-    oz_mesh_offer_ends(&best, touches, face, grain, ends);
-    if (between) {
-        oz_mesh_offer_shaft(&best, touches, face, grain);
-    }
-    return best;
+    real line = REAL(0.5) * (ends.tip + ends.tail + middle * (ends.tip - ends.tail));
+    real place = oz_mesh_deepest(ends, face, grain, middle, line, part);
+    OzWallDistance at =
+        oz_mesh_distance(oz_along(face.from, place, grain.half_shaft), face, grain.two_sided);
+    real beyond = REAL(0.5) * (ends.tip + ends.tail + place * (ends.tip - ends.tail)) +
+                  REAL(OZ_WALL_SHAFT_LEAST) * grain.radius;
+    OzMeshOffer offer =
+        oz_mesh_offer(grain, face.key + REAL(OZ_WALL_AHEAD + part), place, at, beyond);
+    offer.counts = offer.counts & oz_mesh_may_between(ends, face, grain);
+    return offer;
 }
 
 #endif

@@ -1,252 +1,38 @@
-/* Finds where the grains of a block touch meshes: one grain after the other, a block of triangles
- * at a time, from the list of all that may reach the grain's cell. OpenCL C only. */
+/* Finds where the grains of a block touch meshes. Each lane is a grain with a triangle of its list
+ * before it at a time; the places that are offered are gathered grain by grain, and those that push
+ * are chosen among them. OpenCL C only. */
 #pragma once
 
 #include "kernels/enclosure_side.h"
-#include "kernels/mesh_touch.h"
+#include "kernels/mesh_keep.h"
+#include "kernels/mesh_list.h"
 
 #if OZ_MESHES > 0
 
-/* Triangles that are kept at hand of those in a grain's list; where more may be touched, all are
- * looked at each time. */
-enum { OZ_MESH_NEAR = 256 };
+#define OZ_MESH_ENDS (OZ_ROUND ? 1 : 2)
 
-/* One grain and the triangles before it. */
-typedef struct OzMeshView {
-    int item, end; /* in mesh_face                                        */
-    int corner;    /* the mesh's first triangle                           */
-    int two_sided;
-    fixed_position_kind place[3];
-    scalar shift[3]; /* m, by which the mesh has moved                      */
-    scalar half_shaft[3], radius;
-} OzMeshView;
+/* Triangles of each grain that are looked at together, and places at hand that these offer; where
+ * there are more, triangles are looked at again for each touch. */
+enum { OZ_MESH_NEAR = 8, OZ_MESH_OFFERS = (OZ_ROUND ? 4 : 8) * OZ_MESH_NEAR };
 
-/* A block of triangles. */
-OZ_INLINE OzMeshFace oz_mesh_find_load(const OzWork *w, const OzMeshView *view, const int *faces)
-{
-    real a[4], b[4], c[4];
-    scalar key[OZ_LANES];
-    int at[OZ_LANES];
-    OzFixedPosition corner, place;
-    OzMeshFace found;
-    for (int l = 0; l < OZ_LANES; l++) {
-        at[l] = view->corner + faces[l];
-        key[l] = OZ_MESH_KEY(faces[l], 0);
-    }
-    oz_lanes_load4(w->mesh_record, at, OZ_MESH_RECORD, OZ_MESH_R_CORNER, a);
-    oz_lanes_load4(w->mesh_record, at, OZ_MESH_RECORD, OZ_MESH_R_ONE, b);
-    oz_lanes_load4(w->mesh_record, at, OZ_MESH_RECORD, OZ_MESH_R_OTHER + 1, c);
-    corner.x = oz_fixed_position_of_bits(a[0]);
-    corner.y = oz_fixed_position_of_bits(a[1]);
-    corner.z = oz_fixed_position_of_bits(a[2]);
-    place.x = view->place[0];
-    place.y = view->place[1];
-    place.z = view->place[2];
-    found.from = oz_space_minus(place, corner, oz_work_space(w));
-    found.from = oz_minus(
-        found.from, oz_vec3(REAL(view->shift[0]), REAL(view->shift[1]), REAL(view->shift[2])));
-    found.one = oz_vec3(b[0], b[1], b[2]);
-    found.other = oz_vec3(b[3], c[0], c[1]);
-    found.key = OZ_LANES_LOAD(key);
-    return found;
-}
-
-/* The best of a block of lanes, where that is better than what was found before. */
-OZ_INLINE void oz_mesh_find_reduce(OzMeshBest best, scalar *most, OzMeshTouch *touch)
-{
-    scalar left[OZ_LANES], words[6][OZ_LANES];
-    OZ_LANES_STORE(best.left, left);
-    OZ_LANES_STORE(best.key, words[0]);
-    OZ_LANES_STORE(best.place, words[1]);
-    OZ_LANES_STORE(best.normal.x, words[2]);
-    OZ_LANES_STORE(best.normal.y, words[3]);
-    OZ_LANES_STORE(best.normal.z, words[4]);
-    OZ_LANES_STORE(best.distance, words[5]);
-    for (int l = 0; l < OZ_LANES; l++) {
-        if (left[l] > *most) {
-            *most = left[l];
-            touch->key = words[0][l];
-            touch->place = words[1][l];
-            touch->normal[0] = words[2][l];
-            touch->normal[1] = words[3][l];
-            touch->normal[2] = words[4][l];
-            touch->distance = words[5][l];
-        }
-    }
-}
-
-/* The grain as lanes see it. */
-OZ_INLINE OzMeshGrain oz_mesh_find_grain(const OzMeshView *view)
-{
-    OzMeshGrain grain;
-    grain.half_shaft =
-        oz_vec3(REAL(view->half_shaft[0]), REAL(view->half_shaft[1]), REAL(view->half_shaft[2]));
-    grain.radius = REAL(view->radius);
-    grain.two_sided = view->two_sided;
-    return grain;
-}
-
-/* Numbers of a block of triangles from item on, the last one filled up with copies; of the list, or
- * of `near` where that is given. */
-OZ_INLINE void oz_mesh_find_faces(const OzWork *w, const int *near, int item, int end, int *faces)
-{
-    for (int l = 0; l < OZ_LANES; l++) {
-        int at = min(item + l, end - 1);
-        faces[l] = near ? near[at] : w->mesh_face[at];
-    }
-}
-
-/* Adds triangles to those at hand that may be touched, at ends, or between them alone. The new
- * number; more than OZ_MESH_NEAR: they are too many. */
-OZ_INLINE int oz_mesh_find_near(const OzWork *w, const OzMeshView *view,
-                                const OzMeshTouches *touches, int between, int *near, int count)
-{
-    OzMeshGrain grain = oz_mesh_find_grain(view);
-    for (int item = view->item; item < view->end && count <= OZ_MESH_NEAR; item += OZ_LANES) {
-        int faces[OZ_LANES];
-        oz_mesh_find_faces(w, 0, item, view->end, faces);
-        OzMeshFace face = oz_mesh_find_load(w, view, faces);
-        mask may = between ? oz_mesh_may_between(touches, face, grain)
-                           : oz_mesh_may(face, grain, OZ_ROUND ? 1 : 2);
-        may = may & oz_lanes_mask_of(OZ_LANES_IOTA + item < view->end);
-        count += oz_lanes_compact(near + count, OZ_LANES_LOAD(faces), may);
-    }
-    return count;
-}
-
-/* Looks at all triangles once; 0: none offers anything more. */
-OZ_INLINE int oz_mesh_find_next(const OzWork *w, const OzMeshView *view, const int *near,
-                                const OzMeshTouches *touches, int between, OzMeshTouch *touch)
-{
-    scalar most = 0;
-    OzMeshGrain grain = oz_mesh_find_grain(view);
-    for (int item = view->item; item < view->end; item += OZ_LANES) {
-        int faces[OZ_LANES];
-        oz_mesh_find_faces(w, near, item, view->end, faces);
-        OzMeshFace face = oz_mesh_find_load(w, view, faces);
-        OzMeshBest best = oz_mesh_look(touches, face, grain, OZ_ROUND ? 1 : 2, between);
-        if (OZ_ANY(best.left > REAL(0.0))) {
-            oz_mesh_find_reduce(best, &most, touch);
-        }
-    }
-    touch->push = 0;
-    return most > 0;
-}
-
-/* All touches of a grain; 0: there are more than slots. */
-OZ_INLINE int oz_mesh_find_touches(const OzWork *w, const OzMeshView *view, OzMeshTouches *touches)
-{
-    int is_long = 0, fits = 1, rounds = OZ_MESH_ROUNDS, count = 0;
-    int near[OZ_MESH_NEAR + 2 * OZ_LANES];
-    oz_mesh_begin(touches, view->radius);
-    for (int c = 0; !OZ_ROUND && c < 3; c++) {
-        is_long |= view->half_shaft[c] != 0;
-    }
-    for (int between = 0; between <= is_long && view->item < view->end; between++) {
-        OzMeshTouch touch;
-        OzMeshView some = *view;
-        count = oz_mesh_find_near(w, view, touches, between, near, count);
-        int is_full = count > OZ_MESH_NEAR;
-        some.item = is_full ? view->item : 0;
-        some.end = is_full ? view->end : count;
-        while (fits && rounds-- > 0 &&
-               oz_mesh_find_next(w, &some, is_full ? 0 : near, touches, between, &touch)) {
-            fits = oz_mesh_add(touches, touch);
-        }
-        oz_mesh_note_ends(touches);
-    }
-    return fits;
-}
-
-/* Word `word` of a slot of a grain at a mesh, in an array of so many words a slot. */
-OZ_INLINE size_t oz_mesh_find_at(int grain, int mesh, int slot, int words, int word)
-{
-    int place = (mesh * OZ_MESH_SLOTS + slot) * words + word;
-    return oz_lanes_at(grain, OZ_MESHES * OZ_MESH_SLOTS * words, place);
-}
-
-/* Springs, of one kind, go where their touches go on. first: the mesh's first slot among all ends. */
-OZ_INLINE void oz_mesh_find_hand(global scalar *history, int grain, int first, const int *spring_to)
-{
-    for (int c = 0; c < 3; c++) {
-        scalar kept[OZ_MESH_SLOTS];
-        for (int k = 0; k < OZ_MESH_SLOTS; k++) {
-            kept[k] = 0;
-        }
-        for (int k = 0; k < OZ_MESH_SLOTS; k++) {
-            size_t at = oz_lanes_at(grain, 3 * OZ_WALL_ENDS, 3 * (first + k) + c);
-            if (spring_to[k] >= 0) {
-                kept[spring_to[k]] += history[at];
-            }
-        }
-        for (int k = 0; k < OZ_MESH_SLOTS; k++) {
-            history[oz_lanes_at(grain, 3 * OZ_WALL_ENDS, 3 * (first + k) + c)] = kept[k];
-        }
-    }
-}
-
-OZ_INLINE void oz_mesh_find_hand_over(OzWork *w, int grain, int first, const int *spring_to)
-{
-#if OZ_HISTORY
-    oz_mesh_find_hand((global scalar *)w->wall_history, grain, first, spring_to);
-#endif
-#if OZ_ROLLING_SPRING
-    oz_mesh_find_hand((global scalar *)w->wall_rolling, grain, first, spring_to);
-#endif
-}
-
-/* The touches of a grain to its slots, which remember them as the mesh was built; answers which are
- * in use, a bit each. */
-OZ_INLINE int oz_mesh_find_keep(OzWork *w, int grain, int mesh, const OzSide *side,
-                                const OzMeshTouches *touches)
-{
-    global scalar *kept = (global scalar *)w->mesh_memory;
-    global scalar *found = (global scalar *)w->mesh_touch;
-    scalar memory[OZ_MESH_SLOTS * OZ_MESH_MEMORY];
-    int slot_of[OZ_MESH_SLOTS], spring_to[OZ_MESH_SLOTS], bits = 0;
-    for (int k = 0; k < OZ_MESH_SLOTS * OZ_MESH_MEMORY; k++) {
-        memory[k] = kept[oz_mesh_find_at(grain, mesh, 0, OZ_MESH_MEMORY, k)];
-    }
-    oz_mesh_place(touches, memory, slot_of, spring_to);
-    oz_mesh_find_hand_over(w, grain, side->index, spring_to);
-    for (int k = 0; k < OZ_MESH_SLOTS * OZ_MESH_MEMORY; k++) {
-        kept[oz_mesh_find_at(grain, mesh, 0, OZ_MESH_MEMORY, k)] = memory[k];
-    }
-    for (int i = 0; i < touches->count; i++) {
-        OzMeshTouch touch = touches->at[i];
-#if OZ_SWUNG
-        oz_wall_swing_turn(side->swing.frame, touch.normal);
-#endif
-        scalar words[OZ_MESH_TOUCH] = {touch.place,     touch.normal[0], touch.normal[1],
-                                       touch.normal[2], touch.distance,  touch.push};
-        for (int k = 0; k < OZ_MESH_TOUCH; k++) {
-            found[oz_mesh_find_at(grain, mesh, slot_of[i], OZ_MESH_TOUCH, k)] = words[k];
-        }
-        bits |= 1 << slot_of[i];
-    }
-    return bits;
-}
-
-/* The lists of the cells in which a block of grains is; empty outside of the mesh's reach. */
-OZ_INLINE void oz_mesh_find_cells(const OzWork *w, int mesh, OzVec3 from, int *item, int *end)
-{
-    global const scalar *grid = w->mesh_grid + mesh * OZ_MESH_GRID;
-    scalar place[3][OZ_LANES];
-    OZ_LANES_STORE(from.x, place[0]);
-    OZ_LANES_STORE(from.y, place[1]);
-    OZ_LANES_STORE(from.z, place[2]);
-    for (int l = 0; l < OZ_LANES; l++) {
-        int cell = 0, is_in = 1;
-        for (int c = 2; c >= 0; c--) {
-            int cells = (int)grid[OZ_G_CELLS + c];
-            scalar at = floor((place[c][l] - grid[OZ_G_LOW + c]) * grid[OZ_G_INVERSE]);
-            is_in = is_in && at >= 0 && at < (scalar)cells;
-            cell = cell * cells + (is_in ? (int)at : 0);
-        }
-        item[l] = is_in ? w->mesh_first[(int)grid[OZ_G_FIRST] + cell] : 0;
-        end[l] = is_in ? w->mesh_first[(int)grid[OZ_G_FIRST] + cell + 1] : 0;
-    }
-}
+/* A block, the triangles near it and what they offer. */
+typedef struct OzMeshBlock {
+    OzMeshSight sight;
+    OzMeshEnds ends;            /* when touches between them are looked for                     */
+    int number[OZ_LANES], most; /* of triangles near each grain                                 */
+    global const int *faces;    /* they, one lane a grain ...                                   */
+    global const scalar *slack; /* ... and how far each must move before it may touch           */
+    real moved;                 /* how far it has                                               */
+    int walks;                  /* a bit each: the cell's list is taken, all of it, ...         */
+    int item[OZ_LANES];         /* ... from here on in mesh_face                                */
+    int next, pass;             /* to be looked at; between ends, all are looked at twice       */
+    int listed[OZ_MESH_NEAR][OZ_LANES], listed_count[OZ_LANES]; /* being looked at              */
+    int near[OZ_MESH_NEAR][OZ_LANES], near_count[OZ_LANES];     /* of these, what may be touched */
+    OzMeshTouch offer[OZ_LANES][OZ_MESH_OFFERS];
+    int offer_count[OZ_LANES];
+    int rounds[OZ_LANES]; /* left to look for touches                                           */
+    OzMeshTouches touches[OZ_LANES];
+} OzMeshBlock;
 
 /* Where a block of grains is, seen from the mesh's point as its triangles were built. */
 OZ_INLINE OzVec3 oz_mesh_find_from(const OzWork *w, const OzSide *side, OzBody body)
@@ -259,41 +45,316 @@ OZ_INLINE OzVec3 oz_mesh_find_from(const OzWork *w, const OzSide *side, OzBody b
     return from;
 }
 
-/* The grain of one lane of a block. */
-OZ_INLINE OzMeshView oz_mesh_find_view(const OzWork *w, int mesh, const OzSide *side, OzBody body,
-                                       OzVec3 half_shaft, real radius, int lane)
+/* How a mesh sees a block. */
+OZ_INLINE OzMeshSight oz_mesh_find_sight(const OzWork *w, int mesh, const OzSide *side, OzBody body,
+                                         OzShape shape)
 {
-    OzMeshView view;
+    OzMeshSight sight;
     global const scalar *grid = w->mesh_grid + mesh * OZ_MESH_GRID;
-    fixed_position_kind place[3][OZ_LANES];
-    scalar words[4][OZ_LANES];
     OzWallDrive drive = oz_enclosure_side_drive(w, side);
-    OzVec3 shift = oz_scale(drive.direction, drive.offset);
+    OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), axis = oz_quaternion_axis(body.turn);
+    OzVec3 rate = oz_body_rate(body.spin, axis, shape);
+    OzVec3 passing =
+        oz_minus(body.velocity, oz_enclosure_side_velocity(w, body.position, none, side));
+    OzVec3 turning = oz_minus(rate, oz_enclosure_side_turning(w, side));
+    sight.mesh = mesh;
+    sight.corner = (int)grid[OZ_G_CORNER];
+    sight.from = oz_mesh_find_from(w, side, body);
+    sight.speed = sqrt(oz_dot(passing, passing));
+    sight.grain.half_shaft = OZ_ROUND ? none : oz_scale(axis, shape.half_length);
+    sight.grain.radius = shape.radius;
+    sight.grain.two_sided = grid[OZ_G_TWO_SIDED] != 0;
+    sight.place = body.position;
+    sight.shift = oz_scale(drive.direction, drive.offset);
+    if (!OZ_ROUND) {
+        sight.speed += shape.half_length * sqrt(oz_dot(turning, turning));
+    }
 #if OZ_SWUNG
-    half_shaft = oz_wall_swing_back(side->swing.frame, half_shaft);
-    shift = oz_scale(oz_mesh_find_from(w, side, body), REAL(-1.0)); /* of the mesh's point */
+    sight.grain.half_shaft = oz_wall_swing_back(side->swing.frame, sight.grain.half_shaft);
+    sight.place.x = (fixed_position)(side->point[0]);
+    sight.place.y = (fixed_position)(side->point[1]);
+    sight.place.z = (fixed_position)(side->point[2]);
+    sight.shift = oz_scale(sight.from, REAL(-1.0)); /* of the mesh's point */
 #endif
-    OZ_LANES_STORE(body.position.x, place[0]);
-    OZ_LANES_STORE(body.position.y, place[1]);
-    OZ_LANES_STORE(body.position.z, place[2]);
-    OZ_LANES_STORE(half_shaft.x, words[0]);
-    OZ_LANES_STORE(half_shaft.y, words[1]);
-    OZ_LANES_STORE(half_shaft.z, words[2]);
-    OZ_LANES_STORE(radius, words[3]);
-    for (int c = 0; c < 3; c++) {
-        view.place[c] = OZ_SWUNG ? side->point[c] : place[c][lane];
-        view.half_shaft[c] = OZ_ROUND ? 0 : words[c][lane];
+    return sight;
+}
+
+/* A block's lists, made anew where they do not hold; none of a mesh that is not there. */
+OZ_INLINE void oz_mesh_find_lists(OzWork *w, const OzSide *side, int block, OzMeshBlock *b)
+{
+    global const real *words = oz_mesh_list_words(w, b->sight.mesh, block);
+    int bits = side->shape.gone == 0 ? oz_lanes_bits(oz_grains_present(w, block)) : 0;
+    real moved = oz_mesh_list_moved(&b->sight, words);
+    int stale = bits & ~oz_lanes_bits(moved < words[OZ_MESH_L_SKIN]);
+    scalar numbers[OZ_LANES];
+    if (stale != 0) {
+        oz_mesh_list_make(w, &b->sight, block, stale);
+        moved = oz_mesh_list_moved(&b->sight, words);
     }
-    view.radius = words[3][lane];
-    OZ_LANES_STORE(shift.x, words[0]);
-    OZ_LANES_STORE(shift.y, words[1]);
-    OZ_LANES_STORE(shift.z, words[2]);
-    for (int c = 0; c < 3; c++) {
-        view.shift[c] = words[c][lane];
+    OZ_LANES_STORE(words[OZ_MESH_L_NUMBER], numbers);
+    b->moved = moved;
+    b->faces = w->mesh_near + oz_mesh_list_first(w, b->sight.mesh, block);
+    b->slack = w->mesh_slack + oz_mesh_list_first(w, b->sight.mesh, block);
+    b->walks = b->most = 0;
+    for (int l = 0; l < OZ_LANES; l++) {
+        int number = bits >> l & 1 ? (int)numbers[l] : 0, end;
+        if (number > w->z.face_capacity) {
+            oz_mesh_list_cell_of(w, &b->sight, l, &b->item[l], &end);
+            number = end - b->item[l];
+            b->walks |= 1 << l;
+        }
+        b->number[l] = number;
+        b->most = max(b->most, number);
     }
-    view.corner = (int)grid[OZ_G_CORNER];
-    view.two_sided = grid[OZ_G_TWO_SIDED] != 0;
-    return view;
+}
+
+/* The i-th triangle of each grain's list, whose cell's list is taken: in bits. */
+OZ_INLINE int oz_mesh_find_walk(const OzWork *w, const OzMeshBlock *b, int i, int *faces)
+{
+    int bits = 0;
+    for (int l = 0; b->walks >> l != 0; l++) {
+        if ((b->walks >> l & 1) && i < b->number[l]) {
+            faces[l] = w->mesh_face[b->item[l] + i];
+            bits |= 1 << l;
+        }
+    }
+    return bits;
+}
+
+/* The next triangles of the lists that grains, a bit each, have moved far enough for, as many as
+ * there is room for. Answers the most of any grain, 0: there are none. */
+OZ_INLINE int oz_mesh_find_listed(const OzWork *w, OzMeshBlock *b, int grains)
+{
+    int most = 0;
+    index numbers = OZ_LANES_LOAD(b->number);
+    for (int l = 0; l < OZ_LANES; l++) {
+        b->listed_count[l] = 0;
+    }
+    for (; b->next < b->most && most < OZ_MESH_NEAR; b->next++) {
+        int faces[OZ_LANES], i = min(b->next, w->z.face_capacity - 1);
+        real slack = OZ_LANES_LOAD(b->slack + (size_t)i * OZ_LANES);
+        mask takes = (slack < b->moved) & oz_lanes_mask_of(numbers > b->next);
+        int bits = oz_lanes_bits(takes) & ~b->walks;
+        OZ_LANES_STORE(OZ_LANES_LOAD(b->faces + (size_t)i * OZ_LANES), faces);
+        bits = (bits | oz_mesh_find_walk(w, b, b->next, faces)) & grains;
+        for (int l = 0; bits >> l != 0; l++) {
+            if (bits >> l & 1) {
+                b->listed[b->listed_count[l]++][l] = faces[l];
+                most = max(most, b->listed_count[l]);
+            }
+        }
+    }
+    return most;
+}
+
+/* The i-th of rows of triangles, where grains have so many each; the bits of those that have one.
+ * Others see any. */
+OZ_INLINE int oz_mesh_find_row(const int rows[OZ_MESH_NEAR][OZ_LANES], const int *counts, int i,
+                               int *faces)
+{
+    int have = 0;
+    for (int l = 0; l < OZ_LANES; l++) {
+        faces[l] = i < counts[l] ? rows[i][l] : 0;
+        have |= (i < counts[l]) << l;
+    }
+    return have;
+}
+
+/* Adds places of grains, a bit each, to those at hand; the largest number of these. */
+OZ_INLINE int oz_mesh_find_take(OzMeshBlock *b, OzMeshOffer offer, int bits)
+{
+    int most = 0;
+    bits &= oz_lanes_bits(offer.counts);
+    if (bits != 0) {
+        scalar words[6][OZ_LANES];
+        OZ_LANES_STORE(offer.key, words[0]);
+        OZ_LANES_STORE(offer.place, words[1]);
+        OZ_LANES_STORE(offer.at.normal.x, words[2]);
+        OZ_LANES_STORE(offer.at.normal.y, words[3]);
+        OZ_LANES_STORE(offer.at.normal.z, words[4]);
+        OZ_LANES_STORE(offer.at.distance, words[5]);
+        for (int l = 0; bits >> l != 0; l++) {
+            if (bits >> l & 1) {
+                OzMeshTouch *to = &b->offer[l][b->offer_count[l]++];
+                to->key = words[0][l];
+                to->place = words[1][l];
+                to->normal[0] = words[2][l];
+                to->normal[1] = words[3][l];
+                to->normal[2] = words[4][l];
+                to->distance = words[5][l];
+                to->push = 0;
+                most = max(most, b->offer_count[l]);
+            }
+        }
+    }
+    return most;
+}
+
+/* What listed triangles, at most so many of each grain, offer to ends; the most that grains have at
+ * hand then. */
+OZ_INLINE int oz_mesh_find_ends(const OzWork *w, OzMeshBlock *b, int listed)
+{
+    int most = 0, faces[OZ_LANES];
+    for (int i = 0; i < listed; i++) {
+        int have = oz_mesh_find_row(b->listed, b->listed_count, i, faces);
+        OzMeshFace face = oz_mesh_list_load(w, &b->sight, faces);
+        for (int end = 0; end < OZ_MESH_ENDS; end++) {
+            most =
+                max(most, oz_mesh_find_take(b, oz_mesh_offer_end(face, b->sight.grain, end), have));
+        }
+    }
+    return most;
+}
+
+/* Those listed triangles that ends touch, or in the second pass that may be touched between ends;
+ * the most of any grain. */
+OZ_INLINE int oz_mesh_find_near(const OzWork *w, OzMeshBlock *b, int listed)
+{
+    int most = 0, faces[OZ_LANES];
+    for (int l = 0; l < OZ_LANES; l++) {
+        b->near_count[l] = 0;
+    }
+    for (int i = 0; i < listed; i++) {
+        int have = oz_mesh_find_row(b->listed, b->listed_count, i, faces);
+        OzMeshFace face = oz_mesh_list_load(w, &b->sight, faces);
+        mask takes = b->pass ? oz_mesh_may_between(b->ends, face, b->sight.grain)
+                             : oz_mesh_offer_end(face, b->sight.grain, 0).counts |
+                                   oz_mesh_offer_end(face, b->sight.grain, 1).counts;
+        have &= oz_lanes_bits(takes);
+        for (int l = 0; have >> l != 0; l++) {
+            if (have >> l & 1) {
+                b->near[b->near_count[l]++][l] = faces[l];
+                most = max(most, b->near_count[l]);
+            }
+        }
+    }
+    return most;
+}
+
+/* What these offer, at ends and between them. */
+OZ_INLINE int oz_mesh_find_shafts(const OzWork *w, OzMeshBlock *b, int listed)
+{
+    int most = 0, near = oz_mesh_find_near(w, b, listed), faces[OZ_LANES];
+    for (int i = 0; i < near; i++) {
+        int have = oz_mesh_find_row(b->near, b->near_count, i, faces);
+        OzMeshFace face = oz_mesh_list_load(w, &b->sight, faces);
+        for (int end = 0; end < OZ_MESH_ENDS; end++) {
+            most =
+                max(most, oz_mesh_find_take(b, oz_mesh_offer_end(face, b->sight.grain, end), have));
+        }
+        have &= oz_lanes_bits(oz_mesh_may_between(b->ends, face, b->sight.grain));
+        for (int part = 0; have != 0 && part < OZ_WALL_SHAFT_PARTS; part++) {
+            OzMeshOffer offer = oz_mesh_offer_shaft(b->ends, face, b->sight.grain, part);
+            most = max(most, oz_mesh_find_take(b, offer, have));
+        }
+    }
+    return most;
+}
+
+/* Puts at hand what is offered to grains, a bit each, from the beginning or from where there was no
+ * room. Answers whether there may be more. */
+OZ_INLINE int oz_mesh_find_offers(const OzWork *w, OzMeshBlock *b, int grains, int between,
+                                  int begins)
+{
+    int passes = between ? 2 : 1, of_each = between ? 4 : OZ_MESH_ENDS, most = 0;
+    for (int l = 0; l < OZ_LANES; l++) {
+        b->offer_count[l] = 0;
+    }
+    b->next = begins ? 0 : b->next;
+    b->pass = begins ? 0 : b->pass;
+    while (b->pass < passes && most + of_each * OZ_MESH_NEAR <= OZ_MESH_OFFERS) {
+        int listed = oz_mesh_find_listed(w, b, grains);
+        if (listed == 0) {
+            b->pass++;
+            b->next = 0;
+        } else {
+            most = max(most, between ? oz_mesh_find_shafts(w, b, listed)
+                                     : oz_mesh_find_ends(w, b, listed));
+        }
+    }
+    return b->pass < passes;
+}
+
+/* Of what is at hand, that of which most is left, if that is more than most. */
+OZ_INLINE void oz_mesh_find_best(const OzMeshBlock *b, int lane, scalar *most, OzMeshTouch *best)
+{
+    for (int i = 0; i < b->offer_count[lane]; i++) {
+        scalar left = oz_mesh_left(&b->touches[lane], &b->offer[lane][i]);
+        if (left > *most) {
+            *most = left;
+            *best = b->offer[lane][i];
+        }
+    }
+}
+
+/* One more touch of each grain, a bit each; the bits of those that may have another one. *crowded
+ * receives those that have more than slots. */
+OZ_INLINE int oz_mesh_find_next(const OzWork *w, OzMeshBlock *b, int bits, int between, int more,
+                                int *crowded)
+{
+    scalar most[OZ_LANES];
+    OzMeshTouch best[OZ_LANES];
+    int next = 0;
+    for (int l = 0; l < OZ_LANES; l++) {
+        most[l] = 0;
+    }
+    for (int looks = 1; looks; looks = more) {
+        for (int l = 0; bits >> l != 0; l++) {
+            if (bits >> l & 1) {
+                oz_mesh_find_best(b, l, &most[l], &best[l]);
+            }
+        }
+        more = more && oz_mesh_find_offers(w, b, bits, between, 0);
+    }
+    for (int l = 0; bits >> l != 0; l++) {
+        if (bits >> l & 1) {
+            b->rounds[l]--;
+            int fits = most[l] > 0 && oz_mesh_add(&b->touches[l], best[l]);
+            *crowded |= (most[l] > 0 && !fits) << l;
+            next |= (fits && b->rounds[l] > 0) << l;
+        }
+    }
+    return next;
+}
+
+/* Touches of grains, a bit each, at their ends, or between them too. */
+OZ_INLINE void oz_mesh_find_part(const OzWork *w, OzMeshBlock *b, int bits, int between,
+                                 int *crowded)
+{
+    while (bits != 0) {
+        int more = oz_mesh_find_offers(w, b, bits, between, 1), is_whole = !more;
+        do {
+            bits = oz_mesh_find_next(w, b, bits, between, more, crowded);
+        } while (is_whole && bits != 0);
+    }
+}
+
+/* All touches of a block's grains; the bits of those that have more than slots. */
+OZ_INLINE int oz_mesh_find_touches(const OzWork *w, OzMeshBlock *b)
+{
+    scalar radius[OZ_LANES], tips[OZ_LANES], tails[OZ_LANES];
+    int crowded = 0, bits = 0;
+    OZ_LANES_STORE(b->sight.grain.radius, radius);
+    for (int l = 0; l < OZ_LANES; l++) {
+        b->rounds[l] = OZ_MESH_ROUNDS;
+        oz_mesh_begin(&b->touches[l], radius[l]);
+        bits |= (b->number[l] > 0) << l;
+    }
+    oz_mesh_find_part(w, b, bits, 0, &crowded);
+    if (!OZ_ROUND) {
+        OzVec3 shaft = b->sight.grain.half_shaft;
+        bits &= oz_lanes_bits(oz_dot(shaft, shaft) > REAL(0.0)) & ~crowded;
+        for (int l = 0; l < OZ_LANES; l++) {
+            oz_mesh_note_ends(&b->touches[l]);
+            tips[l] = b->touches[l].tip;
+            tails[l] = b->touches[l].tail;
+            bits &= ~((b->rounds[l] <= 0) << l);
+        }
+        b->ends.tip = OZ_LANES_LOAD(tips);
+        b->ends.tail = OZ_LANES_LOAD(tails);
+        oz_mesh_find_part(w, b, bits, 1, &crowded);
+    }
+    return crowded;
 }
 
 /* One block of grains at one mesh, whose slots begin with `side`; picked receives a word of bits
@@ -303,26 +364,32 @@ OZ_INLINE void oz_mesh_find_block(OzWork *w, const OzSide *side, int mesh, int b
 {
     OzBody body = oz_grains_load(w, block);
     OzShape shape = oz_grains_shape(w, block);
-    OzVec3 half_shaft = oz_scale(oz_quaternion_axis(body.turn), shape.half_length);
-    int item[OZ_LANES], end[OZ_LANES], before = 0;
-    oz_mesh_find_cells(w, mesh, oz_mesh_find_from(w, side, body), item, end);
+    OzMeshBlock b;
+    int active[OZ_MESH_SLOTS], before = 0;
+    b.sight = oz_mesh_find_sight(w, mesh, side, body, shape);
+    oz_mesh_find_lists(w, side, block, &b);
     for (int k = 0; k < OZ_MESH_SLOTS; k++) {
-        before |= w->wall_active[(size_t)block * OZ_WALL_ENDS + side->index + k];
+        active[k] = w->wall_active[(size_t)block * OZ_WALL_ENDS + side->index + k];
+        before |= active[k];
         picked[k] = 0;
     }
+    if (b.most == 0 && before == 0) {
+        return;
+    }
+    int crowded = oz_mesh_find_touches(w, &b);
     for (int l = 0; l < OZ_LANES; l++) {
-        int grain = block * OZ_LANES + l, is_near = item[l] < end[l] && side->shape.gone == 0;
-        if (grain < w->z.count && (is_near || (before >> l & 1))) {
-            OzMeshTouches touches;
-            OzMeshView view = oz_mesh_find_view(w, mesh, side, body, half_shaft, shape.radius, l);
-            view.item = is_near ? item[l] : 0;
-            view.end = is_near ? end[l] : 0;
-            if (!oz_mesh_find_touches(w, &view, &touches)) {
-                oz_work_stop(w, OZ_STOP_CROWDED, step, w->id[grain]);
+        int grain = block * OZ_LANES + l;
+        if (grain < w->z.count && (b.touches[l].count > 0 || (before >> l & 1))) {
+            int held = 0;
+            for (int k = 0; k < OZ_MESH_SLOTS; k++) {
+                held |= (active[k] >> l & 1) << k;
             }
-            int bits = oz_mesh_find_keep(w, grain, mesh, side, &touches);
+            int bits = oz_mesh_keep(w, grain, mesh, side, &b.touches[l], held);
             for (int k = 0; k < OZ_MESH_SLOTS; k++) {
                 picked[k] |= (bits >> k & 1) << l;
+            }
+            if (crowded >> l & 1) {
+                oz_work_stop(w, OZ_STOP_CROWDED, step, w->id[grain]);
             }
         }
     }

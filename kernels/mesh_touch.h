@@ -22,6 +22,7 @@ OZ_INLINE void oz_mesh_begin(OzMeshTouches *touches, scalar radius)
     touches->tip = touches->tail = 0;
 }
 
+/* How much of the one's push takes away of the other's overlap. */
 OZ_INLINE scalar oz_mesh_touch_reach(const OzMeshTouch *a, const OzMeshTouch *b)
 {
     scalar apart = a->place - b->place, both = 0;
@@ -32,12 +33,29 @@ OZ_INLINE scalar oz_mesh_touch_reach(const OzMeshTouch *a, const OzMeshTouch *b)
     return both > 0 ? both * (1 - apart / 2) : 0;
 }
 
+/* What all pushes leave of the overlap of a place that a triangle offers, m; 0: nothing that
+ * counts.
+ */
+OZ_INLINE scalar oz_mesh_left(const OzMeshTouches *touches, const OzMeshTouch *offer)
+{
+    scalar overlap = touches->radius - offer->distance, left = overlap;
+    for (int k = 0; k < touches->count; k++) {
+        left -= touches->at[k].push * oz_mesh_touch_reach(offer, &touches->at[k]);
+    }
+    return left > (scalar)OZ_MESH_SHARE * overlap ? left : 0;
+}
+
 /* The pushes with which every overlap is taken away: Gauss's elimination; K has ones along its
  * diagonal and is positive definite, touches that another one does for not being in it. */
 OZ_INLINE void oz_mesh_solve(OzMeshTouches *touches)
 {
     scalar rows[OZ_MESH_SLOTS][OZ_MESH_SLOTS + 1];
     int count = touches->count;
+    if (count == 1) {
+        OzMeshTouch *only = &touches->at[0];
+        only->push = (touches->radius - only->distance) / oz_mesh_touch_reach(only, only);
+        return;
+    }
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < count; j++) {
             rows[i][j] = oz_mesh_touch_reach(&touches->at[i], &touches->at[j]);
@@ -100,9 +118,7 @@ OZ_INLINE scalar oz_mesh_alike(const scalar *slot, const OzMeshTouch *touch)
         both += slot[OZ_MESH_M_NORMAL + k] * touch->normal[k];
     }
     aside = aside < 0 ? -aside : aside;
-    return slot[OZ_MESH_M_KEY] > 0 && both > (scalar)OZ_MESH_ALIKE && aside < (scalar)OZ_MESH_ASIDE
-               ? both
-               : 0;
+    return both > (scalar)OZ_MESH_ALIKE && aside < (scalar)OZ_MESH_ASIDE ? both : 0;
 }
 
 /* The touch of a list that is most alike to a slot's last one; -1: none. placed: among those that
@@ -122,21 +138,26 @@ OZ_INLINE int oz_mesh_heir(const OzMeshTouches *touches, const scalar *slot, con
     return best;
 }
 
-/* Touches of the same triangles as before stay in their slots. */
-OZ_INLINE void oz_mesh_stay(const OzMeshTouches *touches, const scalar *memory, int *slot_of,
-                            int *spring_to)
+/* Touches of the same triangles as before stay in their slots, whose keys alone are looked at.
+ * Answers whether none held another touch that has ended or gone over. */
+OZ_INLINE int oz_mesh_stay(const OzMeshTouches *touches, const scalar *memory, int *slot_of,
+                           int *spring_to)
 {
-    for (int k = 0; k < OZ_MESH_SLOTS; k++) {
-        spring_to[k] = -1;
-    }
+    int stay = 1;
     for (int i = 0; i < touches->count; i++) {
         slot_of[i] = -1;
-        for (int k = 0; k < OZ_MESH_SLOTS; k++) {
-            if (memory[OZ_MESH_MEMORY * k + OZ_MESH_M_KEY] == touches->at[i].key) {
+    }
+    for (int k = 0; k < OZ_MESH_SLOTS; k++) {
+        scalar key = memory[OZ_MESH_MEMORY * k + OZ_MESH_M_KEY];
+        spring_to[k] = -1;
+        for (int i = 0; key > 0 && i < touches->count; i++) {
+            if (touches->at[i].key == key) {
                 slot_of[i] = spring_to[k] = k;
             }
         }
+        stay = stay && (spring_to[k] == k || !(key > 0));
     }
+    return stay;
 }
 
 /* What others held goes over to touches that have no slot, then to those that have one. */
@@ -146,7 +167,8 @@ OZ_INLINE void oz_mesh_go_over(const OzMeshTouches *touches, const scalar *memor
     for (int placed = 0; placed < 2; placed++) {
         for (int k = 0; k < OZ_MESH_SLOTS; k++) {
             const scalar *slot = memory + OZ_MESH_MEMORY * k;
-            int heir = spring_to[k] < 0 ? oz_mesh_heir(touches, slot, slot_of, placed) : -1;
+            int seeks = spring_to[k] < 0 && slot[OZ_MESH_M_KEY] > 0;
+            int heir = seeks ? oz_mesh_heir(touches, slot, slot_of, placed) : -1;
             if (heir >= 0) {
                 slot_of[heir] = placed ? slot_of[heir] : k;
                 spring_to[k] = slot_of[heir];
@@ -170,14 +192,9 @@ OZ_INLINE int oz_mesh_empty(const int *slot_of, int count)
     return 0;
 }
 
-/* The slot of each touch, and of each slot where its spring goes: itself while its touch goes on;
- * the slot of a touch that takes over what it held, besides its own; -1: its touch has ended.
- * memory: OZ_MESH_MEMORY words a slot, which become those of now. */
-OZ_INLINE void oz_mesh_place(const OzMeshTouches *touches, scalar *memory, int *slot_of,
-                             int *spring_to)
+/* Gives slots to touches that have none, and notes all in memory: OZ_MESH_MEMORY words a slot. */
+OZ_INLINE void oz_mesh_settle(const OzMeshTouches *touches, scalar *memory, int *slot_of)
 {
-    oz_mesh_stay(touches, memory, slot_of, spring_to);
-    oz_mesh_go_over(touches, memory, slot_of, spring_to);
     for (int k = 0; k < OZ_MESH_SLOTS; k++) {
         memory[OZ_MESH_MEMORY * k + OZ_MESH_M_KEY] = 0;
     }
@@ -190,6 +207,18 @@ OZ_INLINE void oz_mesh_place(const OzMeshTouches *touches, scalar *memory, int *
             slot[OZ_MESH_M_NORMAL + k] = touches->at[i].normal[k];
         }
     }
+}
+
+/* The slot of each touch, and of each slot where its spring goes: itself while its touch goes on;
+ * the slot of a touch that takes over what it held, besides its own; -1: its touch has ended.
+ * memory becomes that of now. */
+OZ_INLINE void oz_mesh_place(const OzMeshTouches *touches, scalar *memory, int *slot_of,
+                             int *spring_to)
+{
+    if (!oz_mesh_stay(touches, memory, slot_of, spring_to)) {
+        oz_mesh_go_over(touches, memory, slot_of, spring_to);
+    }
+    oz_mesh_settle(touches, memory, slot_of);
 }
 
 #endif

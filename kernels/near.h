@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/grains.h"
+#include "kernels/mesh_list.h"
 
 #define OZ_DIMENSIONS             3
 #define OZ_NEAR_UNIT(w)           ((w)->parameters->length_unit)
@@ -138,6 +139,21 @@ OZ_INLINE mask oz_near_stays(const OzWork *w, global const real *reference, OzPo
         moved2 = moved2 + oz_dot(da, da) + REAL(2.0) * oz_magnitude(oz_dot(dx, da));
     }
     return moved2 <= most * most;
+}
+
+/* What else is made anew when a block's outer list is, and asked for when the inner one is. */
+OZ_INLINE void oz_near_refer(OzWork *w, int block)
+{
+#if OZ_MESHES > 0
+    oz_mesh_list_forget(w, block);
+#endif
+}
+
+OZ_INLINE void oz_near_measure(OzWork *w, int block)
+{
+#if OZ_MESHES > 0
+    oz_mesh_list_ask(w, block);
+#endif
 }
 
 /* Any pair of a new list may have a spring. */

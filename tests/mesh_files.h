@@ -92,4 +92,23 @@ static const char mesh_moved[] =
     "v -1 -1 1\nv 1 -1 1\nv 0.9 1 1\nv -1 1 1\n"
     "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
 
+/* A fence that stands in the box. */
+static const char mesh_fence[] = "v -2 0 -2\nv 0 0.3 -2\nv 0 0.3 0\nv -2 0 0\nf 1 2 3 4\n";
+
+/* A crowd in both, which turn: precision, box, fence. */
+static const char mesh_crowd[] =
+    "model: rods\nprecision: %s\ntime: {step: 1e-5, duration: 1}\nintegrator: velocity-verlet\n"
+    "observe: {ledger: true}\n"
+    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4}\ngrains:\n"
+    "  - {kind: random, count: 50, diameter: 0.6e-3, aspect: 2, fill: 0.2}\n"
+    "  - {kind: random, count: 20, diameter: 0.6e-3, fill: 0.2}\n"
+    "walls:\n"
+    "  - {kind: mesh, path: '%s', scale: 2.5e-3, point: [0, 0, 1e-3],"
+    " motion: {direction: [1, 0, 1], frequency: 200, amplitude: 1e-4, angular_velocity: 70,"
+    " axis: [1, 2, -2]}}\n"
+    "  - {kind: mesh, path: '%s', scale: 1e-3, point: [0, 0, 1e-3], two_sided: true,"
+    " motion: {angular_velocity: -90, axis: [0, 1, 0], point: [0.3e-3, 0, 1e-3]}}\n"
+    "  - {kind: rectangle, point: [1e-3, 0.8e-3, 1e-3], normal: [0, 1, 0], size: [2e-3, 1e-3],"
+    " motion: {angular_velocity: 80, point: [0, 0, 0]}}\n";
+
 #endif

@@ -151,9 +151,6 @@ static const char crowd[] =
     " motion: {direction: [1, 0, 1], frequency: 200, amplitude: 1e-4}}\n"
     "  - {kind: mesh, path: '%s', scale: 1e-3, point: [0, 0, 1e-3], two_sided: true}\n";
 
-/* A fence that stands in the box. */
-static const char fence[] = "v -2 0 -2\nv 0 0.3 -2\nv 0 0.3 0\nv -2 0 0\nf 1 2 3 4\n";
-
 enum { STEPS = 200, LONG = 4000 };
 
 static void assert_held(const OzSnapshot *now)
@@ -171,7 +168,7 @@ static void assert_held(const OzSnapshot *now)
 static void the_device_does_as_the_reference(void **state)
 {
     (void)state;
-    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(fence, "OBJ");
+    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(mesh_fence, "OBJ");
     const char *const precisions[] = {"double", "float"};
     const double tolerances[] = {1e-9, 1e-3};
     for (int k = 0; k < 2; k++) {
@@ -267,7 +264,7 @@ static void runs_go_on_from_states(void **state)
     Rig rig, other;
     OzState saved = {0};
     OzDevice device = shaped_device(NATIVE);
-    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(fence, "obj");
+    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(mesh_fence, "obj");
     rig_open(&rig, crowd, "float", box, inner);
     throw_grains(&rig.grains, 0.8, 20);
     OzSim *sim = start_sim(&rig, &device), *next = start_sim(&rig, &device);

@@ -173,24 +173,6 @@ static void a_meshed_drum_is_a_drum(void **state)
     assert_within(faced_torque, round_torque, 1e-2);
 }
 
-static const char crowd[] =
-    "model: rods\nprecision: %s\ntime: {step: 1e-5, duration: 1}\nintegrator: velocity-verlet\n"
-    "observe: {ledger: true}\n"
-    "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4}\ngrains:\n"
-    "  - {kind: random, count: 50, diameter: 0.6e-3, aspect: 2, fill: 0.2}\n"
-    "  - {kind: random, count: 20, diameter: 0.6e-3, fill: 0.2}\n"
-    "walls:\n"
-    "  - {kind: mesh, path: '%s', scale: 2.5e-3, point: [0, 0, 1e-3],"
-    " motion: {direction: [1, 0, 1], frequency: 200, amplitude: 1e-4, angular_velocity: 70,"
-    " axis: [1, 2, -2]}}\n"
-    "  - {kind: mesh, path: '%s', scale: 1e-3, point: [0, 0, 1e-3], two_sided: true,"
-    " motion: {angular_velocity: -90, axis: [0, 1, 0], point: [0.3e-3, 0, 1e-3]}}\n"
-    "  - {kind: rectangle, point: [1e-3, 0.8e-3, 1e-3], normal: [0, 1, 0], size: [2e-3, 1e-3],"
-    " motion: {angular_velocity: 80, point: [0, 0, 0]}}\n";
-
-/* A fence that stands in the box. */
-static const char fence[] = "v -2 0 -2\nv 0 0.3 -2\nv 0 0.3 0\nv -2 0 0\nf 1 2 3 4\n";
-
 enum { STEPS = 200, LONG = 1000 };
 
 /* Within the box's corners, and root of 3 times as far away in all. */
@@ -208,14 +190,14 @@ static void assert_held(const OzSnapshot *now)
 static void the_device_does_as_the_reference(void **state)
 {
     (void)state;
-    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(fence, "OBJ");
+    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(mesh_fence, "OBJ");
     const char *const precisions[] = {"double", "float"};
     const double tolerances[] = {1e-9, 1e-3};
     for (int k = 0; k < 2; k++) {
         Rig rig;
         OzDevice device = shaped_device(NATIVE);
         device.small_most = k ? OZ_DEVICE_SMALL_MOST : 0; /* in tiles, too */
-        rig_open(&rig, crowd, precisions[k], box, inner);
+        rig_open(&rig, mesh_crowd, precisions[k], box, inner);
         throw_grains(&rig.grains, 0.8, 20);
         OzSim *sim = start_sim(&rig, &device);
         OzSnapshot seen = state_at(&rig, sim, STEPS);
@@ -245,8 +227,8 @@ static void runs_go_on_from_states(void **state)
     Rig rig;
     OzState saved = {0};
     OzDevice device = shaped_device(NATIVE);
-    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(fence, "obj");
-    rig_open(&rig, crowd, "float", box, inner);
+    const char *box = mesh_of_text(mesh_box, "obj"), *inner = mesh_of_text(mesh_fence, "obj");
+    rig_open(&rig, mesh_crowd, "float", box, inner);
     throw_grains(&rig.grains, 0.8, 20);
     OzSim *sim = start_sim(&rig, &device), *next = start_sim(&rig, &device);
     must(oz_sim_advance(sim, STEPS));

@@ -195,4 +195,5 @@ void oz_arrays_grow(OzSizesHead *sizes, const OzControlHead *control, int lanes)
     sizes->outer_capacity = larger_capacity(sizes->outer_capacity, control->outer_needed, lanes);
     sizes->inner_capacity = larger_capacity(sizes->inner_capacity, control->inner_needed, lanes);
     sizes->back_capacity = larger_capacity(sizes->back_capacity, control->back_needed, 1);
+    sizes->face_capacity = larger_capacity(sizes->face_capacity, control->faces_needed, 1);
 }

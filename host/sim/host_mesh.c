@@ -26,17 +26,31 @@ static OzMeshFace face_of(const View *view, int face)
                         oz_minus(oz_dialect_load3(p + 6), corner), OZ_MESH_KEY(face, 0)};
 }
 
+static void take_better(const OzMeshTouches *touches, OzMeshOffer offer, double *most,
+                        OzMeshTouch *touch)
+{
+    OzMeshTouch other = {.key = offer.key, .place = offer.place, .distance = offer.at.distance};
+    oz_dialect_store3(other.normal, offer.at.normal);
+    double left = offer.counts ? oz_mesh_left(touches, &other) : 0;
+    if (left > *most) {
+        *most = left;
+        *touch = other;
+    }
+}
+
 static bool find_next(const View *view, const OzMeshTouches *touches, int between,
                       OzMeshTouch *touch)
 {
     double most = 0;
+    OzMeshEnds tips = {touches->tip, touches->tail};
     for (int i = 0; i < view->count; i++) {
         OzMeshFace face = face_of(view, view->face[i]);
-        OzMeshBest best = oz_mesh_look(touches, face, view->grain, view->ends, between);
-        if (best.left > most) {
-            most = best.left;
-            *touch = (OzMeshTouch){.key = best.key, .place = best.place, .distance = best.distance};
-            oz_dialect_store3(touch->normal, best.normal);
+        for (int end = 0; end < view->ends; end++) {
+            take_better(touches, oz_mesh_offer_end(face, view->grain, end), &most, touch);
+        }
+        bool may = between && oz_mesh_may_between(tips, face, view->grain);
+        for (int part = 0; may && part < OZ_WALL_SHAFT_PARTS; part++) {
+            take_better(touches, oz_mesh_offer_shaft(tips, face, view->grain, part), &most, touch);
         }
     }
     return most > 0;

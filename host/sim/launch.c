@@ -92,9 +92,9 @@ static OzStatus grow_lists(OzSim *sim)
         oz_arrays_grow(sizes, oz_sim_control(sim, m), lanes);
         oz_sim_control(sim, m)->full = 0;
     }
-    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d",
+    oz_log_detail("lists grown at step %lld: outer %d, inner %d, back %d, triangles %d",
                   (long long)sim->batch.step, sizes->outer_capacity, sizes->inner_capacity,
-                  sizes->back_capacity);
+                  sizes->back_capacity, sizes->face_capacity);
     sim->batch.counts.growths++;
     OZ_TRY(oz_arrays_resize(&sim->arrays, sizes));
 done:

@@ -137,7 +137,7 @@ OzStatus oz_mesh_pack_sizes(OzSizes *sizes, const OzScene *scene, const OzParame
     const OzWall *wall;
     for (int m = 0; status == OZ_OK && (wall = mesh_wall(scene, m)) != NULL; m++) {
         Grid grid = {0};
-        status = make(&grid, wall->mesh, parameters->reach_max);
+        status = make(&grid, wall->mesh, parameters->reach_max + parameters->skin_most);
         if (status == OZ_OK) {
             sizes->mesh_faces += wall->mesh->count;
             sizes->mesh_cells += grid.count + 1;
@@ -188,7 +188,7 @@ static OzStatus add(Upload *to, int index, const OzWall *wall, const OzParameter
 {
     Grid grid = {0};
     const OzWallMesh *mesh = wall->mesh;
-    OzStatus status = make(&grid, mesh, p->reach_max);
+    OzStatus status = make(&grid, mesh, p->reach_max + p->skin_most);
     double *words = to->grid + OZ_MESH_GRID * index, metre = 1 / p->units.length;
     for (int k = 0; k < 3; k++) {
         words[OZ_G_LOW + k] = grid.low[k] * metre;
@@ -198,6 +198,7 @@ static OzStatus add(Upload *to, int index, const OzWall *wall, const OzParameter
     words[OZ_G_FIRST] = to->cells;
     words[OZ_G_CORNER] = to->faces;
     words[OZ_G_TWO_SIDED] = mesh->two_sided;
+    words[OZ_G_SKIN] = p->skin_most * metre;
     for (int c = 0; status == OZ_OK && c <= grid.count; c++) {
         to->first[to->cells++] = to->items + grid.first[c];
     }
@@ -211,8 +212,22 @@ static OzStatus add(Upload *to, int index, const OzWall *wall, const OzParameter
     return status;
 }
 
+/* No grain has a list of triangles any more. */
+static OzStatus forget_lists(OzArrays *arrays, int member)
+{
+    OzStatus status = OZ_OK;
+    size_t bytes = oz_arrays_bytes(arrays, OZ_FIELD_mesh_list);
+    void *zeros = NULL;
+    OZ_TRY(oz_memory_new(&zeros, bytes, 1, "lists of triangles"));
+    OZ_TRY(oz_arrays_write(arrays, OZ_FIELD_mesh_list, member, zeros, bytes));
+done:
+    free(zeros);
+    return status;
+}
+
 static OzStatus write_all(OzArrays *arrays, int member, const Upload *upload, int meshes)
 {
+    OZ_PASS(forget_lists(arrays, member));
     OZ_PASS(oz_arrays_write_scalars(arrays, OZ_FIELD_mesh_grid, member, upload->grid,
                                     (size_t)(meshes * OZ_MESH_GRID)));
     OZ_PASS(oz_arrays_write(arrays, OZ_FIELD_mesh_record, member, upload->records,

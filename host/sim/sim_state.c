@@ -44,6 +44,7 @@ static OzStatus resize(OzSim *sim, OzSizesHead *saved, Way way)
         saved->inner_capacity = capacities.inner_capacity;
         saved->back_capacity = capacities.back_capacity;
     }
+    saved->face_capacity = own->face_capacity; /* no springs are there */
     memcpy(&rest, saved, sizeof rest);
     rest.outer_capacity = own->outer_capacity;
     rest.inner_capacity = own->inner_capacity;

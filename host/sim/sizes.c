@@ -20,6 +20,7 @@ enum {
     OUTER_PAIRS = 10, /* a grain, at first; lists grow when that is too few */
     INNER_PAIRS = 4,
     BACK_PAIRS = 16,
+    FACES = 16,          /* triangles of a mesh */
     MOTION_STEPS = 8192, /* of one launch */
     LARGE_REGION = 4096, /* slots; at 64 000 rods a step of tiles half as large takes 1.08 times as
                             long, of twice as large ones as long */
@@ -54,6 +55,7 @@ void oz_sizes_regions(OzSizesHead *z, const OzSwitchesHead *s, int slots)
     z->outer_capacity = oz_sizes_up(OUTER_PAIRS * share + 16, s->lanes);
     z->inner_capacity = oz_sizes_up(INNER_PAIRS * share + 16, s->lanes);
     z->back_capacity = BACK_PAIRS;
+    z->face_capacity = FACES;
     z->motion_steps = MOTION_STEPS;
 }
 
