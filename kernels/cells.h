@@ -1,9 +1,9 @@
 /* The hashed grid: bodies counted into cells and laid out in the order of cells, after them those
- * that reach too far for the cells, which everybody looks at. Cell coordinates wrap around, so space
- * is unbounded; a distance test tells apart what shares a cell. What a body is, a model's near.h or
- * element_near.h says: OZ_NEAR_SLOTS(w) slots may hold one, oz_near_listed of them do; its place in
- * OZ_DIMENSIONS words of kind place_kind, in OZ_NEAR_UNIT(w) m; its reach, m; OZ_NEAR_IS_LARGE(w,
- * slot). OpenCL C only. */
+ * that reach too far for the cells, which everybody looks at. Cell coordinates wrap around, so
+ * space is unbounded; a distance test tells apart what shares a cell. What a body is, a model's
+ * near.h or element_near.h says: OZ_NEAR_SLOTS(w) slots may hold one, oz_near_listed of them do;
+ * its place in OZ_DIMENSIONS words of kind place_kind, in OZ_NEAR_UNIT(w) m; its reach, m;
+ * OZ_NEAR_IS_LARGE(w, slot). OpenCL C only. */
 #pragma once
 
 #include "kernels/member.h"
@@ -14,19 +14,32 @@ OZ_INLINE int oz_cells_of(const OzWork *w, place_kind place)
     return (int)floor((scalar)place * OZ_NEAR_UNIT(w) * w->parameters->inverse_cell);
 }
 
+#if OZ_DIMENSIONS == 3
 /* Cells of the grid's second axis that are gone through before the next of the third: bodies are
  * sorted in the order of cells, and those that meet should stand so near each other that a cache
  * holds all between. */
 #define OZ_CELLS_STRIP 16
 
-/* The cell at coordinates along the grid's axes. Neighbours along the first follow each other. */
-OZ_INLINE int oz_cells_index(const OzWork *w, int first, int second, int third)
+/* The row of cells along the first axis at coordinates along the others. */
+OZ_INLINE int oz_cells_row(const OzWork *w, int second, int third)
 {
     int strip = min(OZ_CELLS_STRIP, w->z.cells_along[1]);
     int across = second & (w->z.cells_along[1] - 1);
     int slab = (across / strip) * w->z.cells_along[2] + (third & (w->z.cells_along[2] - 1));
-    int row = slab * strip + (across & (strip - 1));
-    return row * w->z.cells_along[0] + (first & (w->z.cells_along[0] - 1));
+    return slab * strip + (across & (strip - 1));
+}
+#else
+OZ_INLINE int oz_cells_row(const OzWork *w, int second, int third)
+{
+    return second & (w->z.cells_along[1] - 1);
+}
+#endif
+
+/* The cell at coordinates along the grid's axes. Neighbours along the first follow each other. */
+OZ_INLINE int oz_cells_index(const OzWork *w, int first, int second, int third)
+{
+    int along = w->z.cells_along[0];
+    return oz_cells_row(w, second, third) * along + (first & (along - 1));
 }
 
 /* The cell of a slot's body; the last one, which is no place, for what reaches too far. */
@@ -34,11 +47,10 @@ OZ_INLINE int oz_cells_at(const OzWork *w, int slot)
 {
     place_kind place[3];
     oz_near_place(w, slot, place);
-    return OZ_NEAR_IS_LARGE(w, slot)
-               ? w->z.cells
-               : oz_cells_index(w, oz_cells_of(w, place[w->z.axis[0]]),
-                                oz_cells_of(w, place[w->z.axis[1]]),
-                                oz_cells_of(w, place[w->z.axis[2]]));
+    return OZ_NEAR_IS_LARGE(w, slot) ? w->z.cells
+                                     : oz_cells_index(w, oz_cells_of(w, place[w->z.axis[0]]),
+                                                      oz_cells_of(w, place[w->z.axis[1]]),
+                                                      oz_cells_of(w, place[w->z.axis[2]]));
 }
 
 /* A slot's skin in the outer list. */

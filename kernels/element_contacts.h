@@ -52,6 +52,7 @@ OZ_INLINE OzElementPush oz_element_contacts_triangles(const OzWork *w, const OzE
     OzElementPush push;
     OzTriangle first, second;
     OzVec2 apart = oz_minus2(b->position, a->position);
+    OZ_UNROLL
     for (int k = 0; k < 3; k++) {
         first.corner[k] = oz_minus2(a->triangle.corner[k], a->position);
         second.corner[k] = oz_minus2(b->triangle.corner[k], a->position);
@@ -90,8 +91,8 @@ OZ_INLINE OzDiscPlace oz_element_contacts_place(const OzElement *a, const OzElem
 }
 
 /* The force of discs by the law of each lane: 0 among grains, 1 + w at wall w. */
-OZ_INLINE OzDiscForce oz_element_contacts_law(const OzWork *w, OzDiscPlace place,
-                                              OzVec2 velocity, real mass, const int *b)
+OZ_INLINE OzDiscForce oz_element_contacts_law(const OzWork *w, OzDiscPlace place, OzVec2 velocity,
+                                              real mass, const int *b)
 {
     OzDiscForce sum = oz_disc_force(place, velocity, mass, w->parameters->law[0]);
     int law[OZ_LANES];
@@ -111,8 +112,8 @@ OZ_INLINE OzDiscForce oz_element_contacts_law(const OzWork *w, OzDiscPlace place
 }
 
 /* Puts what a disc does in place of what triangles do, in lanes with one. */
-OZ_INLINE void oz_element_contacts_discs(const OzWork *w, const OzElement *a,
-                                         const OzElement *b, const int *slots_a, const int *slots_b,
+OZ_INLINE void oz_element_contacts_discs(const OzWork *w, const OzElement *a, const OzElement *b,
+                                         const int *slots_a, const int *slots_b,
                                          OzElementPush *push)
 {
     OzVec2 velocity_a, velocity_b;
@@ -183,8 +184,8 @@ OZ_INLINE void oz_element_contacts_check(OzWork *w, const OzElementPush *push, m
 }
 
 /* What discs dissipate, and what walls put in: the opposite of what is done to them. */
-OZ_INLINE void oz_element_contacts_account(const OzWork *w, const OzElementPush *push,
-                                           mask present, const int *slots_b, OzElementSums *sums)
+OZ_INLINE void oz_element_contacts_account(const OzWork *w, const OzElementPush *push, mask present,
+                                           const int *slots_b, OzElementSums *sums)
 {
     OzVec2 velocity;
     real angle, angular_velocity;

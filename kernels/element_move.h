@@ -15,6 +15,7 @@ OZ_INLINE void oz_element_move_predict_one(real *q)
 #if OZ_ORDER == 5
     OzGear gear = {{q[0], q[1], q[2], q[3], q[4]}};
     gear = oz_gear_predict(gear);
+    OZ_UNROLL
     for (int k = 0; k < 5; k++) {
         q[k] = gear.value[k];
     }
@@ -29,6 +30,7 @@ OZ_INLINE void oz_element_move_correct_one(real *q, real acceleration, real half
 #if OZ_ORDER == 5
     OzGear gear = {{q[0], q[1], q[2], q[3], q[4]}};
     gear = oz_gear_correct(gear, acceleration, half_step2);
+    OZ_UNROLL
     for (int k = 0; k < 5; k++) {
         q[k] = gear.value[k];
     }
@@ -45,6 +47,7 @@ OZ_INLINE void oz_element_move_record(OzWork *w, int block, OzPose body)
     global scalar *record = w->record + (size_t)block * OZ_LANES * OZ_ELEMENT_RECORD;
     OzVec2 turn = oz_turn_of(body.angle);
     real words[OZ_PR_RADIUS];
+    OZ_UNROLL
     for (int c = 0; c < 3; c++) {
         real x = shape[OZ_PS_CORNER + 2 * c], y = shape[OZ_PS_CORNER + 2 * c + 1];
         words[2 * c] = body.position.x + (turn.x * x - turn.y * y);
@@ -56,6 +59,7 @@ OZ_INLINE void oz_element_move_record(OzWork *w, int block, OzPose body)
     words[OZ_PR_VELOCITY + 1] = body.velocity.y;
     words[OZ_PR_ANGLE] = body.angle;
     words[OZ_PR_ANGULAR_VELOCITY] = body.angular_velocity;
+    OZ_UNROLL
     for (int k = 0; k < OZ_PR_RADIUS; k += 4) {
         oz_lanes_store4(record, OZ_ELEMENT_RECORD, k, words + k);
     }
@@ -108,6 +112,7 @@ OZ_INLINE OzPose oz_element_move_body(const OzWork *w, int block, const real *q,
 OZ_INLINE void oz_element_move_ahead(OzWork *w, int block, real *q, real inverse_dt,
                                      int step)
 {
+    OZ_UNROLL
     for (int c = 0; c < 3; c++) {
         oz_element_move_predict_one(q + c * OZ_ORDER);
     }
@@ -120,6 +125,7 @@ OZ_INLINE void oz_element_move_ahead(OzWork *w, int block, real *q, real inverse
 
 OZ_INLINE void oz_element_move_load(const OzWork *w, int block, real *q)
 {
+    OZ_UNROLL
     for (int k = 0; k < OZ_ELEMENT_STATE; k++) {
         q[k] = w->state[(size_t)block * OZ_ELEMENT_STATE + k];
     }
@@ -127,6 +133,7 @@ OZ_INLINE void oz_element_move_load(const OzWork *w, int block, real *q)
 
 OZ_INLINE void oz_element_move_store(OzWork *w, int block, const real *q)
 {
+    OZ_UNROLL
     for (int k = 0; k < OZ_ELEMENT_STATE; k++) {
         w->state[(size_t)block * OZ_ELEMENT_STATE + k] = q[k];
     }
@@ -194,6 +201,7 @@ OZ_INLINE void oz_element_move_walls(OzWork *w, int step)
 OZ_INLINE mask oz_element_move_is_number(const real *q)
 {
     mask number = q[0] - q[0] == REAL(0.0);
+    OZ_UNROLL
     for (int k = 1; k < OZ_ELEMENT_STATE; k++) {
         number = number & (q[k] - q[k] == REAL(0.0));
     }
@@ -226,6 +234,7 @@ OZ_INLINE void oz_element_move_back(OzWork *w, int block, real *q, int step)
     real load[4];
     oz_work_slots(block, slots);
     oz_lanes_load4(w->load, slots, OZ_ELEMENT_LOAD, 0, load);
+    OZ_UNROLL
     for (int k = 0; k < OZ_ELEMENT_LOAD; k++) {
         ((global real *)w->load)[(size_t)block * OZ_ELEMENT_LOAD + k] = REAL(0.0);
     }

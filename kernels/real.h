@@ -7,6 +7,14 @@
  */
 #pragma once
 
+/* Before a loop of few turns over an array: without it a CPU's compiler keeps the array in memory.
+ */
+#if defined(OZ_HOST)
+#define OZ_UNROLL
+#else
+#define OZ_UNROLL _Pragma("unroll")
+#endif
+
 #define OZ_PASTE_(a, b) a##b
 #define OZ_PASTE(a, b)  OZ_PASTE_(a, b)
 

@@ -102,22 +102,29 @@ OZ_INLINE void oz_search_sweep(OzWork *w, OzSearch *s, int first, int last)
     }
 }
 
-/* Sorts pairs first ... last of the outer list by the second grain's id (Shell's gaps: short lists
- * are usual, long ones must not take the square of their length). */
+/* Sorts each gap-th of the pairs first ... last of the outer list by the second body's id. */
+OZ_INLINE void oz_search_sort_by(OzWork *w, int first, int last, int gap)
+{
+    for (int i = first + gap; i < last; i++) {
+        int kept = w->outer_b[i], key = OZ_WORK_ID(w, kept), to = i;
+        while (to - gap >= first && OZ_WORK_ID(w, w->outer_b[to - gap]) > key) {
+            w->outer_b[to] = w->outer_b[to - gap];
+            to -= gap;
+        }
+        w->outer_b[to] = kept;
+    }
+}
+
+/* Sorts pairs first ... last by the second body's id. Short lists are usual; long ones must not
+ * take the square of their length (Shell 1959). */
 OZ_INLINE void oz_search_sort(OzWork *w, int first, int last)
 {
-    int count = last - first;
-    for (int gap = count > 64 ? count / 3 + 1 : 1; gap > 0;
-         gap = gap > 1 ? gap / 3 + (gap == 2) : 0) {
-        for (int i = first + gap; i < last; i++) {
-            int kept = w->outer_b[i], key = OZ_WORK_ID(w, kept), to = i;
-            while (to - gap >= first && OZ_WORK_ID(w, w->outer_b[to - gap]) > key) {
-                w->outer_b[to] = w->outer_b[to - gap];
-                to -= gap;
-            }
-            w->outer_b[to] = kept;
+    if (last - first > 64) {
+        for (int gap = (last - first) / 3 + 1; gap > 1; gap = gap > 2 ? gap / 3 + 1 : 1) {
+            oz_search_sort_by(w, first, last, gap);
         }
     }
+    oz_search_sort_by(w, first, last, 1);
 }
 
 /* One row of cells along the grid's first axis, as long as `width` on both sides of `at` (m). */

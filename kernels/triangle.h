@@ -25,16 +25,16 @@ typedef struct OzTriangle {
 
 /* Times the stiffness Y: force, moment and energy. */
 typedef struct OzOverlap {
-    OzVec2 push;    /* m^2, on b; a feels the opposite                                          */
-    real moment;    /* m^3: sum of point x push about the origin; b's torque about its centre c is
-                       Y (moment - c x push), a's is -Y (moment - c x push)                     */
-    real area;      /* m^2, also of a swallowed triangle                                        */
-    real energy;    /* m^3, integral of depth: kind i's potential, an estimate for others       */
-    real kind;      /* 0 none, 1..6 for kinds i..vi                                             */
-    real share;     /* the largest part of one of them that is inside the other; 0 apart        */
+    OzVec2 push;     /* m^2, on b; a feels the opposite                                          */
+    real moment;     /* m^3: sum of point x push about the origin; b's torque about its centre c is
+                        Y (moment - c x push), a's is -Y (moment - c x push)                     */
+    real area;       /* m^2, also of a swallowed triangle                                        */
+    real energy;     /* m^3, integral of depth: kind i's potential, an estimate for others       */
+    real kind;       /* 0 none, 1..6 for kinds i..vi                                             */
+    real share;      /* the largest part of one of them that is inside the other; 0 apart        */
     OzVec2 centroid; /* of the overlap, m                                                        */
-    mask deep;      /* more than half of one of them is inside the other                        */
-    mask swallowed; /* one of them is inside the other, and feels nothing                       */
+    mask deep;       /* more than half of one of them is inside the other                        */
+    mask swallowed;  /* one of them is inside the other, and feels nothing                       */
 } OzOverlap;
 
 /* One triangle's edges cut by the other: edge k runs from corner k to the next. */
@@ -54,7 +54,9 @@ OZ_INLINE real oz_triangle_side(const OzTriangle *t, int k, OzVec2 p)
 /* sides[k][c]: where corner c of other stands against edge k of t. */
 OZ_INLINE void oz_triangle_sides(const OzTriangle *t, const OzTriangle *other, real sides[3][3])
 {
+    OZ_UNROLL
     for (int k = 0; k < 3; k++) {
+        OZ_UNROLL
         for (int c = 0; c < 3; c++) {
             sides[k][c] = oz_triangle_side(t, k, other->corner[c]);
         }
@@ -65,6 +67,7 @@ OZ_INLINE void oz_triangle_sides(const OzTriangle *t, const OzTriangle *other, r
 OZ_INLINE mask oz_triangle_near(const OzTriangle *a, const OzTriangle *b, real margin)
 {
     mask near = margin >= margin;
+    OZ_UNROLL
     for (int k = 0; k < 6; k++) {
         const OzTriangle *t = k < 3 ? a : b, *other = k < 3 ? b : a;
         int edge = k % 3;
@@ -85,6 +88,7 @@ OZ_INLINE void oz_triangle_clip(const OzTriangle *t, int k, real mine[3][3], rea
 {
     OzVec2 start = t->corner[k], along = oz_minus2(t->corner[(k + 1) % 3], start);
     real low = REAL(0.0), high = REAL(1.0), crossings = REAL(0.0);
+    OZ_UNROLL
     for (int j = 0; j < 3; j++) {
         real d0 = mine[j][k], d1 = mine[j][(k + 1) % 3];
         mask in0 = d0 >= REAL(0.0), in1 = d1 >= REAL(0.0), changes = in0 ^ in1;
@@ -111,6 +115,7 @@ OZ_INLINE real oz_triangle_sweep(const OzTriangleElements *elements, OzVec2 orig
 {
     real area = REAL(0.0);
     *moment = *along = oz_vec2(REAL(0.0), REAL(0.0));
+    OZ_UNROLL
     for (int k = 0; k < 3; k++) {
         OzVec2 from = oz_minus2(elements->from[k], origin), to = oz_minus2(elements->to[k], origin);
         real part = oz_cross2(from, to);
@@ -188,8 +193,7 @@ OZ_INLINE void oz_triangle_many(OzOverlap *o, mask many, OzTriangleEdges a, OzTr
 {
     OzTriangleShare share = {{REAL(0.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0)};
     real doubles_a = a.elements->doubles, doubles_b = b.elements->doubles;
-    mask equal =
-        (doubles_a > REAL(1.5)) & (doubles_a < REAL(2.5)) & (doubles_a == doubles_b);
+    mask equal = (doubles_a > REAL(1.5)) & (doubles_a < REAL(2.5)) & (doubles_a == doubles_b);
     oz_triangle_share(a, REAL(1.0), doubles_a >= doubles_b, equal, centroid, &share);
     oz_triangle_share(b, REAL(-1.0), doubles_b >= doubles_a, equal, centroid, &share);
     real scale = o->area / oz_larger(share.weight, REAL(OZ_TINY));
@@ -223,6 +227,7 @@ OZ_INLINE OzOverlap oz_triangle_overlap(const OzTriangle *a, const OzTriangle *b
     of_a.doubles = of_b.doubles = REAL(0.0);
     oz_triangle_sides(a, b, sides_a);
     oz_triangle_sides(b, a, sides_b);
+    OZ_UNROLL
     for (int k = 0; k < 3; k++) {
         oz_triangle_clip(a, k, sides_b, sides_a, &of_a, &middle);
         oz_triangle_clip(b, k, sides_a, sides_b, &of_b, &unused);
