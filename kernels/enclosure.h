@@ -12,7 +12,8 @@
 OZ_INLINE int oz_enclosure_shares(const OzSide *side)
 {
     int is_slot = OZ_MESHES > 0 && side->index >= OZ_ENCLOSURE_MESH;
-    return is_slot || (!OZ_ROUND && side->index >= OZ_ENCLOSURE_EDGED);
+    int is_at_edges = !OZ_ROUND && side->index >= OZ_ENCLOSURE_EDGED;
+    return is_slot || is_at_edges;
 }
 
 /* Stops the run at overlaps that no run may go on with. Lanes outside of `counts` are not looked

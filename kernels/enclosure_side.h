@@ -61,6 +61,7 @@ OZ_INLINE void oz_enclosure_side_swing(const OzWork *w, OzSide *side, int step)
     for (int c = 0; c < 3; c++) {
         side->swing.away[c] = words[OZ_W_AWAY + c];
         side->swing.lead[c] = words[OZ_W_LEAD + c];
+        side->swing.home[c] = words[OZ_W_HOME + c];
     }
     oz_wall_swing_turn(side->swing.frame, side->shape.normal);
     oz_wall_swing_turn(side->swing.frame, side->shape.across);

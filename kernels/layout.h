@@ -101,7 +101,7 @@ enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_M_RATE, OZ_M_GATE,
 
 /* Words of how a wall stands at one step that changes its place when it turns, with OZ_SWUNG only:
  * those of an OzWallSwing (wall_swing.h). */
-enum { OZ_W_FRAME = 0, OZ_W_AWAY = 9, OZ_W_LEAD = 12, OZ_SWING = 15 };
+enum { OZ_W_FRAME = 0, OZ_W_AWAY = 9, OZ_W_LEAD = 12, OZ_W_HOME = 15, OZ_SWING = 18 };
 
 /* A wall is not there at a step, was not there at the one before, will not be at the next. */
 enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };

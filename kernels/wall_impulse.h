@@ -8,13 +8,17 @@
 
 #if OZ_IMPULSES && OZ_WALL_COUNT > 0
 
-/* Adds what a step's forces do to the first `count` grains in slots, padding left out. The torque is
- * about the side's point, where that is now. */
+/* Adds what a step's forces do to the first `count` grains in slots, padding left out. The torque
+ * is about the side's point, where that is now; of a wall that swings, about the wall's. */
 OZ_INLINE void oz_wall_impulse_add(OzWork *w, const OzSide *side, OzGrain grain, const int *slots,
                                    int count, OzWallForce found)
 {
     OzVec3 force = found.parts.force;
     OzVec3 place = oz_enclosure_side_from(w, grain.position, found.arm, side);
+#if OZ_SWUNG
+    const scalar *home = side->swing.home;
+    place = oz_minus(place, oz_vec3(REAL(home[0]), REAL(home[1]), REAL(home[2])));
+#endif
     OzVec3 torque = oz_add(oz_cross(place, force), oz_rods_wall_couple(found));
     scalar lane[OZ_IMPULSE_WORDS][OZ_LANES];
     OZ_LANES_STORE(force.x, lane[0]);

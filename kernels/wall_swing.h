@@ -1,6 +1,6 @@
-/* How a wall stands that changes its place when it turns: a mesh, or a rectangle, whose point may
- * go round with it. The shape's directions are turned with the wall; triangles stay as they were
- * built, and grains are turned into their frame instead. */
+/* How a side of a wall stands that changes its place when it turns: a mesh, a rectangle, a box,
+ * whose point may go round with it. The shape's directions are turned with the wall; triangles stay
+ * as they were built, and grains are turned into their frame instead. */
 #ifndef OZ_KERNELS_WALL_SWING_H
 #define OZ_KERNELS_WALL_SWING_H
 
@@ -8,8 +8,9 @@
 
 typedef struct OzWallSwing {
     scalar frame[9]; /* row by row: what takes a direction on the wall as built to that of now */
-    scalar away[3];  /* m, the way that the wall's point has gone by turning                   */
+    scalar away[3];  /* m, the way that the side's point has gone by turning                   */
     scalar lead[3];  /* m/s, the velocity of that point by turning                             */
+    scalar home[3];  /* m, from that point to the wall's own, now: of a box's sides            */
 } OzWallSwing;
 
 /* A direction on the wall as built, as it is now. */

@@ -16,7 +16,7 @@ static const char *const thrown =
     "  - {kind: random, count: 20, diameter: 0.5e-3, aspect: 3}\n"
     "walls:\n"
     "  - {kind: box, point: [4e-3, 2e-3, 0], size: [6e-3, 6e-3, 6e-3],\n"
-    "     motion: {frequency: 100, amplitude: 0.2e-3, direction: [1, 0, 1]}}\n"
+    "     motion: {frequency: 100, amplitude: 0.2e-3, direction: [1, 0, 1]%s}}\n"
     "  - {kind: cylinder, point: [4e-3, 2e-3, 3e-3], axis: [0, 1, 0], diameter: 6.4e-3,\n"
     "     motion: {angular_velocity: 40}}\n"
     "observe: {walls: mean}\n";
@@ -50,11 +50,10 @@ static OzWallPush instant_of(const OzSnapshot *now)
 
 /* Explicit Euler's step begins with the forces of the state before it: the impulse of one step is
  * that force, and that torque about the point, times the step. */
-static void test_a_steps_impulse_is_its_force(void **state)
+static void expect_a_steps_impulse(const char *turning)
 {
-    (void)state;
     Rig rig;
-    rig_open(&rig, thrown);
+    rig_open(&rig, thrown, turning);
     throw_grains(&rig.grains, 0.5, 200);
     OzSim *sim = start_sim(&rig, &rig_device);
     double most[2] = {0};
@@ -80,6 +79,13 @@ static void test_a_steps_impulse_is_its_force(void **state)
     assert_true(most[0] > 1e-3 && most[1] > 1e-6);
     oz_sim_free(sim);
     rig_close(&rig);
+}
+
+static void test_a_steps_impulse_is_its_force(void **state)
+{
+    (void)state;
+    expect_a_steps_impulse("");
+    expect_a_steps_impulse(", angular_velocity: 60, axis: [1, 2, 0], point: [4e-3, 2e-3, 3e-3]");
 }
 
 /* Total momentum of the grains, and its moment about a point, spins included. */

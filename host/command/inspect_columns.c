@@ -3,7 +3,7 @@
 #include "command/inspect_columns.h"
 
 #include "observe/series.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -24,7 +24,9 @@ static bool lacks_floor(const OzScene *scene, const OzGrains *grains)
     (void)grains;
     bool any = false;
     for (int w = 0; w < scene->wall_count; w++) {
-        any |= scene->walls[w].kind == OZ_WALL_PLANE && scene->walls[w].normal[2] > 1 - 1e-9;
+        const OzWall *wall = &scene->walls[w];
+        any |=
+            wall->kind == OZ_WALL_PLANE && wall->normal[2] > 1 - 1e-9 && !oz_wall_swing_tilts(wall);
     }
     return !any;
 }

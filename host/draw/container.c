@@ -4,7 +4,7 @@
 #include "draw/framing.h"
 #include "draw/wall_outline.h"
 #include "draw/wall_sheet.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 #include <string.h>
@@ -209,12 +209,15 @@ static void clip(Polygon *polygon, const double point[3], const double normal[3]
     *polygon = kept;
 }
 
-static void wall_point(const Scope *scope, int row, double point[3])
+/* A plane where it is now. */
+static void plane_now(const Scope *scope, int row, double point[3], double normal[3])
 {
-    const OzWall *wall = &scope->snapshot->scene->walls[row];
-    oz_wall_shape_shift(wall, scope->snapshot->wall_offset[row], point);
+    OzWall wall = oz_wall_swing_turned(&scope->snapshot->scene->walls[row],
+                                       oz_snapshot_turn(scope->snapshot, row));
+    oz_wall_shape_shift(&wall, scope->snapshot->wall_offset[row], point);
     for (int k = 0; k < 3; k++) {
-        point[k] += wall->point[k];
+        point[k] += wall.point[k];
+        normal[k] = wall.normal[k];
     }
 }
 
@@ -276,9 +279,9 @@ static void clip_to_scene(Polygon *polygon, const Scope *scope, int row)
     for (int w = 0; w < scene->wall_count; w++) {
         if (w != row && scene->walls[w].kind == OZ_WALL_PLANE &&
             oz_snapshot_has_wall(scope->snapshot, w)) {
-            double point[3];
-            wall_point(scope, w, point);
-            clip(polygon, point, scene->walls[w].normal);
+            double point[3], normal[3];
+            plane_now(scope, w, point, normal);
+            clip(polygon, point, normal);
         }
     }
 }
@@ -309,27 +312,26 @@ static void add_filled(OzMesh *mesh, const Scope *scope, const Polygon *polygon,
  * grains and are outlines. */
 static void add_plane(OzContainer *container, const Scope *scope, int row)
 {
-    const OzWall *wall = &scope->snapshot->scene->walls[row];
     Polygon polygon = {.count = 0};
-    double point[3], normal[3];
-    wall_point(scope, row, point);
+    double point[3], normal[3], seen[3];
+    plane_now(scope, row, point, normal);
     if (scope->radius > 0) {
-        plane_in_cylinder(&polygon, scope, point, wall->normal);
+        plane_in_cylinder(&polygon, scope, point, normal);
     } else {
-        plane_square(&polygon, scope, point, wall->normal);
+        plane_square(&polygon, scope, point, normal);
         clip_to_scene(&polygon, scope, row);
     }
     if (scope->view == OZ_VIEW_CUT) {
         clip(&polygon, (const double[3]){0, scope->look->cut, 0}, (const double[3]){0, 1, 0});
     }
-    oz_camera_turn(scope->camera, wall->normal, normal);
-    if (normal[2] > 0) {
-        bool floor = wall->normal[2] > 0.3;
+    oz_camera_turn(scope->camera, normal, seen);
+    if (seen[2] > 0) {
+        bool floor = normal[2] > 0.3;
         add_filled(floor ? &container->meshes[OZ_CONTAINER_FLOORS]
                          : &container->meshes[OZ_CONTAINER_BEHIND],
                    scope, &polygon, floor ? FLOOR : PANE);
         add_outline(&container->meshes[OZ_CONTAINER_BEHIND], scope, &polygon, FAINT);
-        if (scope->radius > 0 && wall->normal[2] > 0.999) {
+        if (scope->radius > 0 && normal[2] > 0.999) {
             add_piston(container, scope, point[2]);
         }
     } else {

@@ -4,7 +4,7 @@
 #include "draw/wall_levels.h"
 #include "model/motion.h"
 #include "scene/boundary.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 
@@ -32,39 +32,78 @@ static void draw_line(const Pen *pen, const double from[3], const double to[3],
                  pen->rgba);
 }
 
-/* The edge along axis k at the sides a and b (-1 or 1) of the other two. */
-static void draw_edge(const Pen *pen, const double middle[3], const double half[3], int k,
-                      const double sides[2])
+/* A box of a middle and half sides, turned about a point: frame is that of kernels/wall_swing.h,
+ * and NULL of one that is not. */
+typedef struct Box {
+    double middle[3], half[3];
+    const double *frame;
+} Box;
+
+/* A direction that is given along the box's own sides, as it is now. */
+static void turn(const Box *box, double v[3])
+{
+    if (box->frame) {
+        oz_wall_swing_turn(box->frame, v);
+    }
+}
+
+/* Leaves of a line what lies behind a cut; false where nothing does. */
+static bool cut_line(double ends[2][3], double cut)
+{
+    for (int e = 0; e < 2; e++) {
+        const double *other = ends[1 - e];
+        double share = (cut - ends[e][1]) / (other[1] - ends[e][1]);
+        for (int c = 0; c < 3 && ends[e][1] < cut && other[1] > cut; c++) {
+            int k = (c + 2) % 3; /* y, which is asked for, last */
+            ends[e][k] = k == 1 ? cut : ends[e][k] + share * (other[k] - ends[e][k]);
+        }
+    }
+    return ends[0][1] >= cut && ends[1][1] >= cut;
+}
+
+/* The edge along side k at the sides a and b (-1 or 1) of the other two. */
+static void draw_edge(const Pen *pen, const Box *box, int k, const double sides[2])
 {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     double ends[2][3], outwards[3] = {0};
     for (int e = 0; e < 2; e++) {
-        ends[e][k] = middle[k] + (e ? half[k] : -half[k]);
-        ends[e][i] = middle[i] + sides[0] * half[i];
-        ends[e][j] = middle[j] + sides[1] * half[j];
+        ends[e][k] = e ? box->half[k] : -box->half[k];
+        ends[e][i] = sides[0] * box->half[i];
+        ends[e][j] = sides[1] * box->half[j];
+        turn(box, ends[e]);
+        for (int c = 0; c < 3; c++) {
+            ends[e][c] += box->middle[c];
+        }
     }
     outwards[i] = sides[0];
     outwards[j] = sides[1];
-    draw_line(pen, ends[0], ends[1], outwards);
+    turn(box, outwards);
+    bool is_cut = pen->outline->is_cut && box->frame;
+    if (!is_cut || cut_line(ends, pen->outline->cut)) {
+        draw_line(pen, ends[0], ends[1], outwards);
+    }
 }
 
-static void draw_edges(const Pen *pen, const double middle[3], const double half[3])
+static void draw_edges(const Pen *pen, const Box *box)
 {
     for (int k = 0; k < 3; k++) {
         for (int s = 0; s < 4; s++) {
-            draw_edge(pen, middle, half, k, (double[2]){s & 1 ? 1 : -1, s & 2 ? 1 : -1});
+            draw_edge(pen, box, k, (double[2]){s & 1 ? 1 : -1, s & 2 ? 1 : -1});
         }
     }
 }
 
-static void draw_box(const Pen *pen, const OzWall *wall, const double shift[3])
+static void draw_box(const Pen *pen, const OzWall *wall, double angle, const double shift[3])
 {
-    double middle[3], half[3];
+    OzWallSwing swing = oz_wall_swing_at(wall, angle, 0);
+    Box box = {.frame = oz_wall_swing_has(wall) ? swing.frame : NULL};
+    double up[3] = {0, 0, wall->size[2] / 2};
+    turn(&box, up);
     for (int k = 0; k < 3; k++) {
-        half[k] = wall->size[k] / 2;
-        middle[k] = wall->point[k] + shift[k] + (k == 2 ? half[k] : 0);
+        box.half[k] = wall->size[k] / 2;
+        box.middle[k] = wall->point[k] + shift[k] + swing.away[k] + up[k];
     }
-    draw_edges(pen, middle, half);
+    draw_edges(pen, &box);
 }
 
 /* A cylinder's axis, two directions across it, and from where to where it is drawn. */
@@ -133,14 +172,14 @@ void oz_wall_outline_add_cell(const OzWallOutline *o, OzMesh *behind, OzMesh *be
                               const float rgba[4])
 {
     Pen pen = {o, behind, before, rgba};
-    double middle[3] = {0}, half[3];
+    Box box = {.frame = NULL};
     for (int k = 0; k < 3; k++) {
         double period = oz_boundary_period(&o->snapshot->scene->boundary, k);
         bool is_height = k == 2 && period == 0;
-        middle[k] = is_height ? (o->low + o->high) / 2 : 0;
-        half[k] = is_height ? (o->high - o->low) / 2 : period > 0 ? period / 2 : o->reach / 3;
+        box.middle[k] = is_height ? (o->low + o->high) / 2 : 0;
+        box.half[k] = is_height ? (o->high - o->low) / 2 : period > 0 ? period / 2 : o->reach / 3;
     }
-    draw_edges(&pen, middle, half);
+    draw_edges(&pen, &box);
 }
 
 void oz_wall_outline_add(const OzWallOutline *o, int w, OzMesh *behind, OzMesh *before,
@@ -148,10 +187,11 @@ void oz_wall_outline_add(const OzWallOutline *o, int w, OzMesh *behind, OzMesh *
 {
     const OzWall *wall = &o->snapshot->scene->walls[w];
     double shift[3], offset = o->snapshot->wall_offset[w];
+    double angle = oz_snapshot_turn(o->snapshot, w);
     Pen pen = {o, behind, before, rgba};
     oz_wall_shape_shift(wall, offset, shift);
     if (wall->kind == OZ_WALL_BOX) {
-        draw_box(&pen, wall, shift);
+        draw_box(&pen, wall, angle, shift);
     } else if (wall->kind == OZ_WALL_CYLINDER) {
         Barrel barrel = make_barrel(o, wall, shift);
         draw_barrel(&pen, &barrel, oz_motion_turn(&wall->motion, o->snapshot->time));

@@ -201,7 +201,9 @@ static OzStatus add_sphere(OzSurface *s, const OzWall *wall, const Round *round,
     return OZ_OK;
 }
 
-static OzStatus add_box(OzSurface *s, const OzWall *wall, const double shift[3], int64_t number)
+/* point: where its own is now; frame: of how it stands (kernels/wall_swing.h). */
+static OzStatus add_box(OzSurface *s, const OzWall *wall, const double point[3],
+                        const double frame[9], int64_t number)
 {
     for (int side = 0; side < 6; side++) {
         int k = side / 2, i = (k + 1) % 3, j = (k + 2) % 3;
@@ -212,8 +214,11 @@ static OzStatus add_box(OzSurface *s, const OzWall *wall, const double shift[3],
             place[i] = (c == 1 || c == 2) - 0.5;
             place[j] = (c >= 2) - 0.5;
             for (int n = 0; n < 3; n++) {
-                double middle = wall->point[n] + shift[n] + (n == 2 ? wall->size[2] / 2 : 0);
-                corners[c][n] = middle + place[n] * wall->size[n];
+                place[n] = (place[n] + (n == 2 ? 0.5 : 0)) * wall->size[n];
+            }
+            oz_wall_swing_turn(frame, place);
+            for (int n = 0; n < 3; n++) {
+                corners[c][n] = point[n] + place[n];
             }
         }
         OZ_PASS(add_polygon(s, corners, 4, number));
@@ -270,7 +275,7 @@ static OzStatus add_wall(OzSurface *s, const OzSnapshot *now, const Ball *ball, 
     case OZ_WALL_SPHERE:
         return add_sphere(s, wall, &round, w);
     case OZ_WALL_BOX:
-        return add_box(s, wall, shift, w);
+        return add_box(s, wall, round.middle, oz_wall_swing_at(built, turn, 0).frame, w);
     default:
         return OZ_OK;
     }

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "observe/clip.h"
-#include "scene/wall_shape.h"
+#include "scene/wall_swing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static const double SLAB_LOW = 2e-3, SLAB_HIGH = 10e-3;
 
 static bool is_floor(const OzWall *wall)
 {
-    return wall->kind == OZ_WALL_PLANE && wall->normal[2] > 1 - 1e-9;
+    return wall->kind == OZ_WALL_PLANE && wall->normal[2] > 1 - 1e-9 && !oz_wall_swing_tilts(wall);
 }
 
 static void find_container(OzMeasure *measure, const OzScene *scene)

@@ -113,7 +113,9 @@ static OzStatus check_walls(const OzFromMember *from, const OzScene *scene)
         OzWallPose pose = oz_wall_motion_pose(then, time, false);
         bool smooth = then->kind == OZ_WALL_DRUM && then->tooth_count == 0;
         double turn = fmod(fabs(pose.turn), 2 * 3.14159265358979323846);
+        bool is_endless = then->kind == OZ_WALL_PLANE && oz_wall_swing_has(then);
         double reach = fmax(oz_wall_swing_reach(then), fmax(then->diameter, then->width));
+        reach = is_endless ? 1 : reach; /* a metre: more than any bed */
         double jump = fabs(pose.rise) + (smooth ? 0 : turn * reach);
         bool begins = oz_wall_motion_present(&scene->walls[w], 0, true);
         bool gone = begins && !oz_wall_motion_present(then, time, false);

@@ -1,6 +1,8 @@
 /* Periodic cells. */
 #include "scene/boundary.h"
 
+#include "scene/wall_swing.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -69,6 +71,7 @@ static bool is_alike(const OzWall *wall, const OzBoundary *boundary)
         double along = fabs(is_plane ? wall->normal[k] : wall->axis[k]);
         if (oz_boundary_period(boundary, k) > 0) {
             alike &= is_plane ? along < 1e-12 : along > 1 - 1e-12;
+            alike &= !oz_wall_swing_tilts(wall) || fabs(wall->motion.axis[k]) > 1 - 1e-12;
         }
     }
     return alike;

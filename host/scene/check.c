@@ -80,7 +80,8 @@ static void derive_axes(Checker *checker, OzWall *wall, int i)
     }
     make_unit(checker, wall->motion.direction, "walls", i, "motion.direction");
     bool is_told = wall->kind == OZ_WALL_SPHERE || wall->kind == OZ_WALL_MESH ||
-                   wall->kind == OZ_WALL_RECTANGLE || wall->motion.has_axis;
+                   wall->kind == OZ_WALL_RECTANGLE || wall->kind == OZ_WALL_BOX ||
+                   wall->motion.has_axis;
     if (is_told) {
         make_unit(checker, wall->motion.axis, "walls", i, "motion.axis");
     } else {

@@ -75,14 +75,10 @@ static void check_trace(const OzWall *wall, int index, OzNode *root, OzFaults *f
     }
 }
 
-/* Boxes are made of planes without edges, that stand as they were built. */
+/* What turns about another point than its own does turn. */
 static void check_turning(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
 {
     const OzMotion *motion = &wall->motion;
-    if (wall->kind == OZ_WALL_BOX && motion->angular_velocity != 0) {
-        FAULT(".angular_velocity", "a box does not stay as it is when it turns; expected a mesh, a "
-                                   "rectangle, a plane or a round wall");
-    }
     if (motion->has_point && !motion->has_turning) {
         FAULT(".point", "a wall without an angular_velocity has a point to turn about; expected "
                         "motion.angular_velocity with it");

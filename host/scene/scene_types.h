@@ -98,7 +98,7 @@ typedef struct OzMotion {
     double direction[3];     /* rods: a unit vector, along which it is shaken; zero: upwards   */
     double axis[3];          /* rods: a unit vector along the axis, through the wall's point ...  */
     double point[3];         /* ... or, of meshes, rectangles and discs, this one, m              */
-    bool has_axis;           /* disc: axis was written, and is not its normal                     */
+    bool has_axis;           /* disc, plane: axis was written, and is not its normal              */
     bool has_point;          /* point was written                                                 */
     double velocity[3];      /* rods, m/s: it goes on so between `from` and `until`; then
                               * direction is along it                                          */

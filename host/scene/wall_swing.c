@@ -10,10 +10,18 @@ bool oz_wall_swing_has(const OzWall *wall)
 {
     const OzMotion *motion = &wall->motion;
     bool is_told = motion->has_axis || motion->has_point;
+    bool keeps_shape = wall->kind == OZ_WALL_DISC || wall->kind == OZ_WALL_PLANE;
     bool is_free = wall->kind == OZ_WALL_MESH || wall->kind == OZ_WALL_RECTANGLE ||
-                   (wall->kind == OZ_WALL_DISC && is_told);
+                   wall->kind == OZ_WALL_BOX || (keeps_shape && is_told);
     bool turns = motion->has_turning || motion->angular_velocity != 0 || motion->turned != 0;
     return is_free && motion->present && turns;
+}
+
+bool oz_wall_swing_tilts(const OzWall *wall)
+{
+    const double *a = wall->motion.axis, *n = wall->normal;
+    double along = fabs(a[0] * n[0] + a[1] * n[1] + a[2] * n[2]);
+    return wall->kind == OZ_WALL_PLANE && oz_wall_swing_has(wall) && along < 1 - 1e-12;
 }
 
 static void cross(const double a[3], const double b[3], double to[3])
@@ -41,26 +49,34 @@ static void make_frame(double frame[9], const double axis[3], double angle)
     }
 }
 
-OzWallSwing oz_wall_swing_at(const OzWall *wall, double angle, double rate)
+OzWallSwing oz_wall_swing_side(const OzWall *wall, const double point[3], double angle, double rate)
 {
     const OzMotion *motion = &wall->motion;
     OzWallSwing swing = {.frame = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-    double arm[3] = {0}, now[3];
+    double arm[3], now[3], home[3];
     if (!oz_wall_swing_has(wall)) {
         return swing;
     }
-    for (int k = 0; k < 3 && motion->has_point; k++) {
-        arm[k] = wall->point[k] - motion->point[k];
+    for (int k = 0; k < 3; k++) {
+        arm[k] = point[k] - (motion->has_point ? motion->point[k] : wall->point[k]);
+        home[k] = wall->point[k] - point[k];
     }
     make_frame(swing.frame, motion->axis, angle);
     memcpy(now, arm, sizeof now);
     oz_wall_swing_turn(swing.frame, now);
+    oz_wall_swing_turn(swing.frame, home);
+    memcpy(swing.home, home, sizeof home);
     cross(motion->axis, now, swing.lead);
     for (int k = 0; k < 3; k++) {
         swing.away[k] = now[k] - arm[k];
         swing.lead[k] *= rate;
     }
     return swing;
+}
+
+OzWallSwing oz_wall_swing_at(const OzWall *wall, double angle, double rate)
+{
+    return oz_wall_swing_side(wall, wall->point, angle, rate);
 }
 
 OzWall oz_wall_swing_turned(const OzWall *wall, double angle)
@@ -101,6 +117,20 @@ static double rectangle_reach2(const OzWall *wall)
     return most;
 }
 
+static double box_reach2(const OzWall *wall)
+{
+    double most = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        double place[3];
+        for (int k = 0; k < 3; k++) {
+            double share = (corner >> k & 1) - (k == 2 ? 0 : 0.5);
+            place[k] = share * wall->size[k];
+        }
+        most = fmax(most, square_from_axis(wall, place));
+    }
+    return most;
+}
+
 static double mesh_reach2(const OzWall *wall)
 {
     double most = 0;
@@ -112,8 +142,11 @@ static double mesh_reach2(const OzWall *wall)
 
 double oz_wall_swing_reach(const OzWall *wall)
 {
-    if (!oz_wall_swing_has(wall)) {
+    if (!oz_wall_swing_has(wall) || wall->kind == OZ_WALL_PLANE) {
         return 0;
+    }
+    if (wall->kind == OZ_WALL_BOX) {
+        return sqrt(box_reach2(wall));
     }
     if (wall->kind == OZ_WALL_DISC) {
         const double middle[3] = {0};

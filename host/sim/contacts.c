@@ -22,8 +22,8 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
         contacts->drives[k] = oz_dialect_drive(
             &contacts->physics, k, snapshot->wall_offset[wall], snapshot->wall_velocity[wall],
             oz_motion_rate(&snapshot->scene->walls[wall].motion));
-        oz_swings_drive(&contacts->drives[k], &snapshot->scene->walls[wall], snapshot->time,
-                        snapshot->settling);
+        oz_swings_drive(&contacts->drives[k], &contacts->physics, snapshot->scene, k,
+                        snapshot->time, snapshot->settling);
     }
     return OZ_OK;
 }
@@ -122,9 +122,8 @@ OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const OzMe
     bool turned = a > b;
     Found found = {.stored = stored_of(memory)};
     OzMemory next = found.stored;
-    OzPairForce pair =
-        oz_rods_pair(first, second, oz_dialect_space(physics), law, &next,
-                     physics->parameters.dt, physics->share);
+    OzPairForce pair = oz_rods_pair(first, second, oz_dialect_space(physics), law, &next,
+                                    physics->parameters.dt, physics->share);
     if (!pair.contact.touching) {
         return OZ_OK;
     }

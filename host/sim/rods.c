@@ -170,6 +170,7 @@ OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
     int64_t first = sim->batch.step;
     const OzScene *scene = sim->batch.members[member].scene;
     const OzParameters *p = oz_rods_parameters(sim, member);
+    const int *order = oz_rods_own(sim)->wall_order;
     int walls = oz_rods_switches(sim)->walls, swung = oz_rods_switches(sim)->swung;
     size_t count = OZ_MOTION * (size_t)(steps + 1) * (size_t)walls;
     double *motion = NULL, *swing = NULL;
@@ -183,14 +184,14 @@ OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
         for (int w = 0; w < walls; w++) {
             size_t at = (size_t)k * (size_t)walls + (size_t)w;
             double *words = motion + OZ_MOTION * at;
-            const OzWall *wall = &scene->walls[oz_rods_own(sim)->wall_order[w]];
+            const OzWall *wall = &scene->walls[order[w]];
             if (!sim->batch.walls_still) {
                 put_motion(words, &wall->motion, times[1], p);
             }
             words[OZ_M_GATE] = oz_gates_bits(wall, times, sim->batch.walls_still);
             if (swung) {
-                oz_swings_words(swing + OZ_SWING * at, wall, times[1], sim->batch.walls_still,
-                                &p->units);
+                oz_swings_words(swing + OZ_SWING * at, scene, order, w, times[1],
+                                sim->batch.walls_still, &p->units);
             }
         }
     }

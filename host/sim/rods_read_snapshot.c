@@ -3,6 +3,7 @@
 #include "sim/rods_read_snapshot.h"
 
 #include "base/memory.h"
+#include "scene/wall_swing.h"
 #include "sim/contacts.h"
 #include "sim/pack.h"
 #include "sim/read_snapshot.h"
@@ -119,8 +120,8 @@ done:
     return status;
 }
 
-/* Impulses of the scene's walls from those of the kernels' sides, whose points are not the walls'.
- */
+/* Impulses of the scene's walls from those of the kernels' sides, whose points are not the walls';
+ * but those of walls that swing are about these. */
 static OzStatus find_impulses(OzSim *sim, int member, OzSnapshot *snapshot)
 {
     OzWallSide sides[OZ_WALLS_MAX];
@@ -134,7 +135,8 @@ static OzStatus find_impulses(OzSim *sim, int member, OzSnapshot *snapshot)
     memset(snapshot->wall_impulse, 0, (size_t)scene->wall_count * sizeof *snapshot->wall_impulse);
     for (int s = 0; s < count; s++) {
         double *to = snapshot->wall_impulse[sides[s].wall];
-        const double *home = scene->walls[sides[s].wall].point;
+        const OzWall *wall = &scene->walls[sides[s].wall];
+        const double *home = oz_wall_swing_has(wall) ? sides[s].shape.point : wall->point;
         for (int k = 0; k < 3; k++) {
             int l = (k + 1) % 3, m = (k + 2) % 3;
             to[k] += sum[s][k] * push;

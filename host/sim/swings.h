@@ -9,12 +9,14 @@
 /* Turns the kernel walls of a physics to where they are at a time, s; at_rest: as built. */
 void oz_swings_set(OzPhysics *physics, const OzScene *scene, double time, bool at_rest);
 
-/* Adds to how a wall moves what its point does by turning. */
-void oz_swings_drive(OzWallDrive *drive, const OzWall *wall, double time, bool at_rest);
+/* Adds to how kernel wall w moves what its point does by turning. */
+void oz_swings_drive(OzWallDrive *drive, const OzPhysics *physics, const OzScene *scene, int w,
+                     double time, bool at_rest);
 
 /* How the wall of kernel wall w moves at a time, s. */
 OzWallDrive oz_swings_drive_at(const OzPhysics *physics, const OzScene *scene, int w, double time);
 
-/* OZ_SWING words (kernels/layout.h) of a wall at a time in a device's units; at_rest: as built. */
-void oz_swings_words(double words[OZ_SWING], const OzWall *wall, double time, bool at_rest,
-                     const OzUnits *units);
+/* OZ_SWING words (kernels/layout.h) of kernel wall w, a side of wall order[w], at a time in a
+ * device's units; at_rest: as built. */
+void oz_swings_words(double words[OZ_SWING], const OzScene *scene, const int *order, int w,
+                     double time, bool at_rest, const OzUnits *units);
