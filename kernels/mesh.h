@@ -108,13 +108,17 @@ OZ_INLINE OzMeshOffer oz_mesh_offer(OzMeshGrain grain, real key, real place, OzW
     return offer;
 }
 
-/* An end, 0 or 1, or a sphere's centre. */
+/* An end, 0 or 1; a sphere has the first one alone, its centre. */
 OZ_INLINE OzMeshOffer oz_mesh_offer_end(OzMeshFace face, OzMeshGrain grain, int end)
 {
     real place = REAL(end ? -1.0 : 1.0);
     OzWallDistance at =
         oz_mesh_distance(oz_along(face.from, place, grain.half_shaft), face, grain.two_sided);
-    return oz_mesh_offer(grain, face.key + REAL(end), place, at, REAL(0.0));
+    OzMeshOffer offer = oz_mesh_offer(grain, face.key + REAL(end), place, at, REAL(0.0));
+    if (end) {
+        offer.counts = offer.counts & (oz_dot(grain.half_shaft, grain.half_shaft) > REAL(0.0));
+    }
+    return offer;
 }
 
 /* How far the plane of a triangle allows a shaft's overlap to exceed the line between its ends'

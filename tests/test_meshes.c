@@ -236,6 +236,31 @@ static void one_side_is_one_side(void **state)
     }
 }
 
+/* A sphere among rods has no second end: it touches once, as hard as on a plane. */
+static void spheres_among_rods_touch_once(void **state)
+{
+    (void)state;
+    const char *path = mesh_of_text("v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n", "obj");
+    const char *walls[] = {"{kind: plane}", mesh_wall(path, ", scale: 1e-3") + 4};
+    double push[2];
+    for (int k = 0; k < 2; k++) {
+        Rig rig;
+        rig_open(&rig,
+                 "model: rods\nprecision: double\ngravity: [0, 0, 0]\n"
+                 "time: {step: 2e-6, duration: 10}\ncontact: {contact_time: 2e-4, restitution: "
+                 "0.3, friction: 0}\ngrains:\n"
+                 "  - {kind: single, diameter: 1e-3, position: [0, 0, %g]}\n"
+                 "  - {kind: single, diameter: 1e-3, aspect: 2, position: [0, 0, 5e-3]}\n"
+                 "walls:\n  - %s\n",
+                 R * 0.99, walls[k]);
+        rig_start(&rig);
+        assert_int_equal(rig.now.contacts.count, 1);
+        push[k] = rig.now.contacts.entry[0].push;
+        rig_close(&rig);
+    }
+    assert_within(push[1], push[0], 1e-12 * push[0]); /* rounding */
+}
+
 /* What is exported is as large as the mesh, and where it is. */
 static void surfaces_are_exported(void **state)
 {
@@ -297,6 +322,7 @@ int main(void)
         cmocka_unit_test(rods_lie_on_edges),
         cmocka_unit_test(fast_grains_do_not_slip_through_edges),
         cmocka_unit_test(one_side_is_one_side),
+        cmocka_unit_test(spheres_among_rods_touch_once),
         cmocka_unit_test(surfaces_are_exported),
         cmocka_unit_test(the_device_does_as_the_reference),
         cmocka_unit_test(runs_go_on_from_states),
