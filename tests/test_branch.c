@@ -120,6 +120,24 @@ static void test_what_is_refused(void **state)
     assert_true(is_there("rest/state.h5"));
 }
 
+/* A state's springs at a mesh are of these triangles and no others. */
+static void test_other_triangles(void **state)
+{
+    (void)state;
+    static const char mesh[] = "v -%d -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n";
+    write_file("mesh.yaml", "%s",
+               "model: rods\ntime: {step: 1e-5, duration: 1e-4}\n"
+               "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4}\n"
+               "grains: [{kind: single, diameter: 1e-3, position: [0, 0, 0.5e-3]}]\n"
+               "walls: [{kind: mesh, path: mesh.obj, scale: 1e-3}]\n");
+    write_file("mesh.obj", mesh, 9);
+    expect(0, "", "run mesh.yaml -o mesh");
+    expect(0, "grains are those of mesh", "run mesh.yaml -o mesh_same --from mesh");
+    write_file("mesh.obj", mesh, 8);
+    expect(2, "mesh.obj, has other triangles than in mesh/state.h5; expected the same file",
+           "run mesh.yaml -o bad --from mesh");
+}
+
 /* A member of an ensemble, alone; and each with its own, where another sweep has no names alike. */
 static void test_an_ensemble(void **state)
 {
@@ -182,8 +200,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_settled_bed),   cmocka_unit_test(test_settled_dice),
         cmocka_unit_test(test_a_sweep),         cmocka_unit_test(test_a_branch_goes_on),
-        cmocka_unit_test(test_what_is_refused), cmocka_unit_test(test_an_ensemble),
-        cmocka_unit_test(test_it_is_kept),      cmocka_unit_test(test_a_changed_run),
+        cmocka_unit_test(test_what_is_refused), cmocka_unit_test(test_other_triangles),
+        cmocka_unit_test(test_an_ensemble),     cmocka_unit_test(test_it_is_kept),
+        cmocka_unit_test(test_a_changed_run),
     };
     return cmocka_run_group_tests(tests, make_beds, leave_work);
 }

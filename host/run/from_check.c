@@ -2,6 +2,7 @@
 #include "run/from_check.h"
 
 #include "model/wall_motion.h"
+#include "scene/wall_mesh.h"
 #include "scene/wall_swing.h"
 
 #include <math.h>
@@ -93,6 +94,23 @@ static OzStatus check_grains(const OzFromMember *from, const OzScene *scene, con
     return OZ_OK;
 }
 
+/* Springs at a mesh are those of its triangles. */
+static OzStatus check_mesh(const OzFromMember *from, const OzScene *scene, int w)
+{
+    char name[96];
+    const OzWall *wall = &scene->walls[w];
+    snprintf(name, sizeof name, "worker/sim/meshes_%d/mesh_%d/hash", from->index, w);
+    const OzStateEntry *saved = oz_state_find(&from->file->state, name);
+    if (wall->mesh && (!saved || saved->kind != OZ_STATE_INT64 ||
+                       *(const int64_t *)saved->data != (int64_t)wall->mesh->hash)) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: walls.%d, %s, has other triangles than in %s; expected the same "
+                              "file, scale and sides",
+                              scene->path, w, wall->path, from->file->path);
+    }
+    return OZ_OK;
+}
+
 /* A wall's place is that of its motion at time 0: grains that touch it would be hit by a jump. Half
  * a step's way is left at whole periods; a hundredth of the smallest radius is allowed, a hundredth
  * of the overlap that a run warns of. */
@@ -110,6 +128,7 @@ static OzStatus check_walls(const OzFromMember *from, const OzScene *scene)
     }
     for (int w = 0; w < scene->wall_count; w++) {
         const OzWall *then = &from->scene.walls[w];
+        OZ_PASS(check_mesh(from, scene, w));
         OzWallPose pose = oz_wall_motion_pose(then, time, false);
         bool smooth = then->kind == OZ_WALL_DRUM && then->tooth_count == 0;
         double turn = fmod(fabs(pose.turn), 2 * 3.14159265358979323846);
