@@ -1,5 +1,6 @@
 /* Walls whose motion changes: the closed form on both sides of the zero crossing. */
 #include "model/motion.h"
+#include "model/wall_motion.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -144,6 +145,32 @@ static void test_goes_on_between_two_times(void **state)
     ASSERT_NEAR(oz_motion_speed(&floor.wall.motion), 0.5);
 }
 
+/* 2 rad/s between 3 and 5 s; another rate that is asked for on the way ends then, too, and one that
+ * is asked for before or after has not turned yet, or turns no more. */
+static void test_turns_between_two_times(void **state)
+{
+    (void)state;
+    Floor drum = {.wall.motion = {.present = true, .angular_velocity = 2, .from = 3, .until = 5}};
+    static const double times[] = {0, 2.5, 3, 4, 5, 9}, angles[] = {0, 0, 0, 2, 4, 4};
+    static const double rates[] = {0, 0, 2, 2, 0, 0}, asked[] = {1, 4, 8};
+    static const double ends[] = {-6, -1, 4};
+    drum.scene = (OzScene){.walls = &drum.wall, .wall_count = 1};
+    for (int i = 0; i < 6; i++) {
+        OzWallPose pose = oz_wall_motion_pose(&drum.wall, times[i], false);
+        ASSERT_NEAR(pose.turn, angles[i]);
+        ASSERT_NEAR(pose.angular_velocity, rates[i]);
+        ASSERT_NEAR(oz_motion_turn(&drum.wall.motion, times[i]), angles[i]);
+        ASSERT_NEAR(oz_motion_rate(&drum.wall.motion, times[i]), rates[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+        Floor next = drum;
+        next.scene.walls = &next.wall;
+        next.wall.motion.angular_velocity = -3;
+        oz_motion_take_over(&next.scene, &drum.scene, asked[i]);
+        ASSERT_NEAR(oz_motion_turn(&next.wall.motion, 9), ends[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -152,6 +179,7 @@ int main(void)
         cmocka_unit_test(test_changes_follow_each_other),
         cmocka_unit_test(test_drums_go_on_from_their_angle),
         cmocka_unit_test(test_goes_on_between_two_times),
+        cmocka_unit_test(test_turns_between_two_times),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,6 +45,13 @@ static void print_turning(FILE *file, int w, const OzScene *scene)
     if (is_drum && gravity > 0) {
         fprintf(file, "; Froude number %.4g", turn * turn * wall->diameter / 2 / gravity);
     }
+    if (wall->motion.from > 0) {
+        fprintf(file, "; from %g s", wall->motion.from);
+    }
+    if (wall->motion.until > 0) {
+        fprintf(file, "; until %g s, by %.4g rad", wall->motion.until,
+                turn * (wall->motion.until - wall->motion.from));
+    }
     fputc('\n', file);
 }
 

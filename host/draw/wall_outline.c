@@ -194,7 +194,7 @@ void oz_wall_outline_add(const OzWallOutline *o, int w, OzMesh *behind, OzMesh *
         draw_box(&pen, wall, angle, shift);
     } else if (wall->kind == OZ_WALL_CYLINDER) {
         Barrel barrel = make_barrel(o, wall, shift);
-        draw_barrel(&pen, &barrel, oz_motion_turn(&wall->motion, o->snapshot->time));
+        draw_barrel(&pen, &barrel, angle);
     } else {
         draw_levels(&pen, wall, offset);
     }

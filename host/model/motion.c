@@ -36,6 +36,22 @@ static double steady_speed(const OzMotion *motion)
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
+static double end_of(const OzMotion *motion)
+{
+    return motion->until > 0 ? motion->until : INFINITY;
+}
+
+/* The time, or that of its start or its end where it stands still. */
+static double time_under_way(const OzMotion *motion, double time)
+{
+    return fmin(fmax(time, motion->from), fmax(end_of(motion), motion->from));
+}
+
+static bool is_under_way(const OzMotion *motion, double time)
+{
+    return time >= motion->from && time < end_of(motion);
+}
+
 void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity)
 {
     const OzShake *shake = shake_at(motion, time);
@@ -49,14 +65,14 @@ void oz_motion_offset(const OzMotion *motion, double time, double *offset, doubl
     *offset = motion->present ? amplitude * sin(phase) : 0;
     *velocity = motion->present ? amplitude * rate * cos(phase) : 0;
     double speed = motion->present ? steady_speed(motion) : 0;
-    double end = motion->until > 0 ? motion->until : INFINITY;
+    double end = end_of(motion);
     if (motion->present && motion->trace) {
         oz_trace_at(motion->trace, fmin(time, end) - motion->from, offset, velocity);
         *velocity = time < end ? *velocity : 0;
     }
     if (speed > 0) {
-        *offset = speed * (fmin(fmax(time, motion->from), fmax(end, motion->from)) - motion->from);
-        *velocity = time >= motion->from && time < end ? speed : 0;
+        *offset = speed * (time_under_way(motion, time) - motion->from);
+        *velocity = is_under_way(motion, time) ? speed : 0;
     }
 }
 
@@ -103,14 +119,15 @@ bool oz_motion_is_free(const OzMotion *motion)
     return motion->present && (direction[2] != 1 || motion->angular_velocity != 0);
 }
 
-double oz_motion_rate(const OzMotion *motion)
+double oz_motion_rate(const OzMotion *motion, double time)
 {
-    return motion->present ? motion->angular_velocity : 0;
+    return motion->present && is_under_way(motion, time) ? motion->angular_velocity : 0;
 }
 
 double oz_motion_turn(const OzMotion *motion, double time)
 {
-    return motion->turned + motion->angular_velocity * (time - motion->turned_since);
+    double since = time_under_way(motion, motion->turned_since);
+    return motion->turned + motion->angular_velocity * (time_under_way(motion, time) - since);
 }
 
 /* The wall whose periods are taps; NULL: none. */

@@ -26,8 +26,8 @@ void oz_motion_direction(const OzMotion *motion, double direction[3]);
 /* Whether it is anything else than up and down. */
 bool oz_motion_is_free(const OzMotion *motion);
 
-/* rad/s about its axis; 0 of a wall at rest. */
-double oz_motion_rate(const OzMotion *motion);
+/* rad/s about its axis at a time; 0 of a wall at rest. */
+double oz_motion_rate(const OzMotion *motion, double time);
 
 /* Angle, rad, by which the wall has turned about its point. */
 double oz_motion_turn(const OzMotion *motion, double time);

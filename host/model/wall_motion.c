@@ -26,7 +26,7 @@ OzWallPose oz_wall_motion_pose(const OzWall *wall, double time, bool at_rest)
     if (motion->present && !at_rest) {
         oz_motion_offset(motion, time, &pose.rise, &pose.speed);
         pose.turn = oz_motion_turn(motion, time);
-        pose.angular_velocity = motion->angular_velocity;
+        pose.angular_velocity = oz_motion_rate(motion, time);
     }
     return pose;
 }

@@ -33,8 +33,8 @@ static bool goes_on(const OzMotion *motion)
     return motion->velocity[0] != 0 || motion->velocity[1] != 0 || motion->velocity[2] != 0;
 }
 
-/* A wall that goes on goes along one line, and has an end after its start. Upright cylinders hold
- * pictures and the room for grains in place. */
+/* A wall that goes on goes along one line, and ends after it starts, as one that turns does.
+ * Upright cylinders hold pictures and the room for grains in place. */
 static void check_steady(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
 {
     const OzMotion *motion = &wall->motion;
@@ -45,10 +45,13 @@ static void check_steady(const OzWall *wall, int index, OzNode *root, OzFaults *
     if (goes_on(motion) && oz_wall_shape_is_upright(wall) && (v[0] != 0 || v[1] != 0)) {
         FAULT(".velocity", "an upright cylinder goes sideways; expected another wall");
     }
-    if (!goes_on(motion) && !motion->file && (motion->from > 0 || motion->until > 0)) {
-        FAULT(motion->from > 0 ? ".from" : ".until",
-              "a wall without a velocity starts or stops; expected motion.velocity or motion.file "
-              "with it");
+    bool is_timed = motion->from > 0 || motion->until > 0;
+    const char *timed = motion->from > 0 ? ".from" : ".until";
+    if (is_timed && motion->frequency > 0) {
+        FAULT(timed, "a wall that is shaken starts or stops; expected one of the two");
+    } else if (is_timed && !goes_on(motion) && !motion->file && !motion->has_turning) {
+        FAULT(timed, "a wall that neither goes on nor turns starts or stops; expected "
+                     "motion.velocity, motion.angular_velocity or motion.file with it");
     }
     if (motion->until > 0 && motion->until <= motion->from) {
         FAULT(".until", "a wall stops at %g s and starts at %g s; expected a later end",

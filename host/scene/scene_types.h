@@ -86,7 +86,8 @@ typedef enum OzMeasured { OZ_MEASURED_OFFSET, OZ_MEASURED_ACCELERATION } OzMeasu
 typedef struct OzTrace OzTrace; /* scene/trace.h */
 
 /* Sinusoidal motion along a direction: offset A sin(2 pi f t), 0 at time 0 and along it first,
- * unless it took over from another motion (model/motion.h); or a steady one, or a trace. */
+ * unless it took over from another motion (model/motion.h); or a steady one, or a trace. Beside
+ * them it may turn. */
 typedef struct OzMotion {
     bool present;
     double frequency;          /* Hz                                                           */
@@ -100,9 +101,9 @@ typedef struct OzMotion {
     double point[3];         /* ... or, of meshes, rectangles and discs, this one, m              */
     bool has_axis;           /* disc, plane: axis was written, and is not its normal              */
     bool has_point;          /* point was written                                                 */
-    double velocity[3];      /* rods, m/s: it goes on so between `from` and `until`; then
-                              * direction is along it                                          */
-    double from, until;      /* s; until 0: for ever */
+    double velocity[3];      /* rods, m/s: it goes on so; then direction is along it            */
+    double from, until;      /* s: when it starts to turn, to go on or to follow its trace, and
+                              * when it stops; until 0: for ever                               */
     char *file, *column;     /* of a trace; NULL: none; NULL: the only one         */
     OzMeasured measured;
     bool closed;    /* accelerations: it ends where it began */

@@ -19,9 +19,10 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
     }
     for (int k = 0; k < contacts->physics.wall_count; k++) {
         int wall = contacts->physics.wall_order[k];
+        const OzMotion *motion = &snapshot->scene->walls[wall].motion;
         contacts->drives[k] = oz_dialect_drive(
             &contacts->physics, k, snapshot->wall_offset[wall], snapshot->wall_velocity[wall],
-            oz_motion_rate(&snapshot->scene->walls[wall].motion));
+            snapshot->settling ? 0 : oz_motion_rate(motion, snapshot->time));
         oz_swings_drive(&contacts->drives[k], &contacts->physics, snapshot->scene, k,
                         snapshot->time, snapshot->settling);
     }

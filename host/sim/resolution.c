@@ -43,7 +43,7 @@ static double fastest_start(const OzScene *scene, const OzGrains *grains)
         oz_motion_offset(&scene->walls[w].motion, 0, &offset, &speed);
         const OzWall *wall = &scene->walls[w];
         double widest = fmax(wall->diameter, fmax(wall->diameters[0], wall->diameters[1]));
-        double rim = fabs(oz_motion_rate(&wall->motion)) * widest / 2;
+        double rim = fabs(wall->motion.angular_velocity) * widest / 2;
         fastest = fmax(fastest, fabs(speed) + rim);
     }
     return fastest;

@@ -161,7 +161,7 @@ static void put_motion(double words[OZ_MOTION], const OzMotion *motion, double t
     words[OZ_M_SPEED] = speed / oz_units_speed(&p->units);
     words[OZ_M_RISE] = rint(offset / p->length_unit);
     words[OZ_M_RISE_REST] = offset / p->length_unit - words[OZ_M_RISE];
-    words[OZ_M_RATE] = oz_motion_rate(motion) * p->units.time;
+    words[OZ_M_RATE] = oz_motion_rate(motion, time) * p->units.time;
 }
 
 OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)

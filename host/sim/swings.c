@@ -24,7 +24,7 @@ static OzWallSwing swing_at(const OzWall *wall, const double point[3], double ti
         return oz_wall_swing_side(wall, point, 0, 0);
     }
     return oz_wall_swing_side(wall, point, oz_motion_turn(&wall->motion, time),
-                              oz_motion_rate(&wall->motion));
+                              oz_motion_rate(&wall->motion, time));
 }
 
 void oz_swings_set(OzPhysics *physics, const OzScene *scene, double time, bool at_rest)
@@ -62,7 +62,8 @@ OzWallDrive oz_swings_drive_at(const OzPhysics *physics, const OzScene *scene, i
     const OzWall *wall = &scene->walls[physics->wall_order[w]];
     double offset, speed;
     oz_motion_offset(&wall->motion, time, &offset, &speed);
-    OzWallDrive drive = oz_dialect_drive(physics, w, offset, speed, oz_motion_rate(&wall->motion));
+    OzWallDrive drive =
+        oz_dialect_drive(physics, w, offset, speed, oz_motion_rate(&wall->motion, time));
     oz_swings_drive(&drive, physics, scene, w, time, false);
     return drive;
 }
