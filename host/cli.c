@@ -36,7 +36,7 @@ static const OzCliCommand command_rows[] = {
      "a paper's figures from its runs: runs what a study has not yet, then draws it", 1, 1,
      "orzo figures scenes/pournin2005/study.yaml --quick"},
     {"keys", "[PART]", "c",
-     "every scene key (that holds PART): type, unit, range, default, meaning", 0, 1,
+     "every scene key (that holds PART, or speaks of it): type, unit, range, default, meaning", 0, 1,
      "orzo keys contact."},
     {"bench", "[SCENE]...", "oQFzCbysdtS",
      "speed on this machine: an6 and a ladder of beds, or scenes", 0, OZ_CLI_PATHS_MAX,

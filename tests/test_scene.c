@@ -330,6 +330,34 @@ static void lists_each_key_once_by_model(void **state)
     free(text);
 }
 
+/* What `orzo keys PART` prints of one part; NULL when nothing holds it. The caller frees it. */
+static char *keys_of(const char *part)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    bool any = oz_describe_keys(part, file);
+    fclose(file);
+    if (!any) {
+        free(text);
+        text = NULL;
+    }
+    return text;
+}
+
+static void finds_keys_by_path_else_by_text(void **state)
+{
+    (void)state;
+    char *contact = keys_of("contact."), *drum = keys_of("Drum");
+    assert_non_null(strstr(contact, "\ncontact.friction\n"));
+    assert_null(strstr(contact, "\ngravity\n"));
+    assert_non_null(strstr(drum, "walls[].kind\n")); /* no path holds drum */
+    assert_null(strstr(drum, "\ngravity\n"));
+    assert_null(keys_of("no such word"));
+    free(contact);
+    free(drum);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -345,6 +373,7 @@ int main(void)
         cmocka_unit_test(refuses_huge_files),
         cmocka_unit_test(rows_are_complete),
         cmocka_unit_test(lists_each_key_once_by_model),
+        cmocka_unit_test(finds_keys_by_path_else_by_text),
     };
     if (chdir(ORZO_TESTS) != 0) {
         return 1;

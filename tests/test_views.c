@@ -169,6 +169,19 @@ static void paper_is_white_and_without_text(void **state)
     bed_free(&bed);
 }
 
+/* A still bed's colours end at the speed of a fall through it, or where the scene says. */
+static void colours_by_speed_end_where_the_scene_says(void **state)
+{
+    (void)state;
+    Bed bed;
+    bed_create(&bed, 1, 1e-3, 0);
+    place(&bed, 0, 0, 0, 1.5e-3, along_z);
+    assert_true(oz_renderer_look(&bed.scene, &bed.snapshot).speed_high > 0.05);
+    bed.scene.movie.speed_scale = 0.03;
+    assert_true(oz_renderer_look(&bed.scene, &bed.snapshot).speed_high == 0.03);
+    bed_free(&bed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -177,6 +190,7 @@ int main(void)
         cmocka_unit_test(zoom_and_target_choose_the_part),
         cmocka_unit_test(two_views_are_of_two_sides),
         cmocka_unit_test(paper_is_white_and_without_text),
+        cmocka_unit_test(colours_by_speed_end_where_the_scene_says),
     };
     return cmocka_run_group_tests(tests, begin_drawing, end_drawing);
 }

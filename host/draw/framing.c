@@ -298,6 +298,9 @@ OzLook oz_framing_look(const OzScene *scene, const OzSnapshot *snapshot)
     } else {
         frame_standing(&look, scene, snapshot);
     }
+    if (scene->movie.speed_scale > 0) {
+        look.speed_high = scene->movie.speed_scale;
+    }
     look.force_high =
         scene->movie.force_scale > 0 ? scene->movie.force_scale : oz_pressed_scale(snapshot, &look);
     return look;

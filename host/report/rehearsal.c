@@ -18,7 +18,7 @@ static OzStatus wait_for(void *context, double time, double ratio)
 {
     Patience *patience = context;
     patience->time = time;
-    oz_stage_say(&patience->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
+    oz_stage_say(&patience->stage, "settling: %.3f s, kinetic energy %.3g of what lifts all by a diameter", time, ratio);
     return oz_clock_now() < patience->deadline
                ? OZ_OK
                : oz_status_fail(OZ_ERR_INTERRUPTED, "settling takes too long");

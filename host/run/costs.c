@@ -34,7 +34,7 @@ void oz_costs_log(const OzWorker *workers, int worker_count, int64_t member_coun
     OzRenderQueueTimes pictures = oz_render_queue_take_times(render_queue);
     double steps = counts.steps > 0 ? (double)counts.steps : 1;
     double waited = pictures.waited / worker_count;
-    if (spent <= 0) {
+    if (spent <= 0 || counts.steps == 0) {
         return; /* ended before its first step */
     }
     if (pictures.waited > 0) {

@@ -100,7 +100,7 @@ static OzStatus watch_settling(void *context, double time, double ratio)
 {
     OzWorker *worker = context;
     if (worker->leads) {
-        oz_stage_say(&worker->stage, "settling: %.3f s, kinetic energy %.3g N m g d", time, ratio);
+        oz_stage_say(&worker->stage, "settling: %.3f s, kinetic energy %.3g of what lifts all by a diameter", time, ratio);
     }
     if (must_end(worker)) {
         return oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at %.9g s of settling", time);

@@ -305,14 +305,32 @@ static void print_path(const OzKey *first, FILE *file)
     }
 }
 
-bool oz_describe_keys(const char *part, FILE *file)
+/* Whether a row's path holds the part, or with by_text anything that is printed of it. */
+static bool holds(const OzKey *key, const char *part, bool by_text)
+{
+    if (!part || !by_text) {
+        return !part || strstr(key->path, part);
+    }
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file) {
+        return false;
+    }
+    print_path(key, file);
+    bool does = fclose(file) == 0 && strcasestr(text, part);
+    free(text);
+    return does;
+}
+
+static bool describe_keys(const char *part, bool by_text, FILE *file)
 {
     static const unsigned sections[] = {EVERY_MODEL, 1u << OZ_MODEL_RODS, 1u << OZ_MODEL_TRIGRAINS};
     bool any = false;
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         bool begun = false;
         for (const OzKey *key = oz_keys_all(); key->path; key++) {
-            if ((part && !strstr(key->path, part)) || oz_keys_find(key->path) != key ||
+            if (oz_keys_find(key->path) != key || !holds(key, part, by_text) ||
                 models_of(key->path) != sections[i]) {
                 continue;
             }
@@ -326,4 +344,9 @@ bool oz_describe_keys(const char *part, FILE *file)
         }
     }
     return any;
+}
+
+bool oz_describe_keys(const char *part, FILE *file)
+{
+    return describe_keys(part, false, file) || (part && describe_keys(part, true, file));
 }

@@ -21,7 +21,8 @@ void oz_describe_names(const char *group, int model, unsigned kinds, unsigned sh
 /* The names of the choice at path whose bits are set, as in "single or lattice"; cut to size. */
 void oz_describe_bits(unsigned bits, const char *path, char *text, size_t size);
 
-/* Every key whose path holds this part (NULL: every key), once, those of every model first, then
- * those of one alone: meaning, type, range, unit, default and what it belongs to. False when there
- * is none. */
+/* Every key whose path holds this part (NULL: every key), or where there is none, of which anything
+ * that is printed does, in small or capital letters; once, those of every model first, then those
+ * of one alone: meaning, type, range, unit, default and what it belongs to. False when there is
+ * none. */
 bool oz_describe_keys(const char *part, FILE *file);

@@ -24,6 +24,7 @@ typedef struct OzFaults {
     OzFault *rows;
     int count;
     int left_out; /* beyond the most that are kept */
+    int misspelt; /* of these, unknown keys that are nearly a known one */
     bool no_memory;
 } OzFaults;
 

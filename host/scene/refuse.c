@@ -54,6 +54,7 @@ void oz_refuse_unknown(OzFaults *faults, const OzNode *node, int model, unsigned
     bool near = oz_describe_nearest(path, model, text, sizeof text);
     oz_tree_path(node, false, path, sizeof path);
     if (near) {
+        faults->misspelt++;
         oz_faults_add(faults, node->source, node->line, "unknown key %.100s; did you mean %s?",
                       path, text);
         return;

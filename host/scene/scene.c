@@ -230,6 +230,9 @@ static OzStatus read_all(Loader *loader, OzScene *scene, const char *text, size_
         OZ_PASS(parse_setting(loader, settings[i], i));
     }
     OZ_PASS(oz_read_scene(scene, loader->root, &loader->faults));
+    if (loader->faults.misspelt > 0) {
+        return OZ_OK; /* what else does not fit may be no more than the lack of these keys */
+    }
     oz_wall_shape_meet(scene);
     OZ_PASS(oz_trace_load_walls(scene, &loader->faults));
     OZ_PASS(oz_wall_meshes_load(scene, loader->running, loader->root, &loader->faults));

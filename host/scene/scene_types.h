@@ -352,6 +352,7 @@ typedef struct OzMovieSettings {
     bool has_background;
     bool legend;        /* what the colours mean       */
     double force_scale; /* N, at the top of colours by force; 0: by the bed's weight */
+    double speed_scale; /* m/s, at the top of colours by speed; 0: by walls or the bed        */
     bool chains;        /* forces are drawn as lines between grains, the wider the larger */
     char *title;        /* over the pictures; NULL: the scene's */
 } OzMovieSettings;
