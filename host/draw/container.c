@@ -2,6 +2,7 @@
 #include "draw/container.h"
 
 #include "draw/framing.h"
+#include "draw/obstacle.h"
 #include "draw/wall_outline.h"
 #include "draw/wall_sheet.h"
 #include "scene/wall_swing.h"
@@ -378,6 +379,19 @@ static void add_sheet(OzContainer *container, const Scope *scope, int row)
     oz_wall_sheet_add(&sheet, row);
 }
 
+static void add_obstacle(OzContainer *container, const Scope *scope, int row)
+{
+    OzObstacle obstacle = {.snapshot = scope->snapshot,
+                           .look = scope->look,
+                           .camera = scope->camera,
+                           .solid = &container->meshes[OZ_CONTAINER_OBSTACLES],
+                           .lines = &container->meshes[OZ_CONTAINER_OUTLINES],
+                           .line_width = line_width(scope),
+                           .top = scope->top,
+                           .is_cut = scope->view == OZ_VIEW_CUT};
+    oz_obstacle_add(&obstacle, row);
+}
+
 /* Where its highest corner is seen, view coordinates. */
 static double highest(const OzMesh *mesh, const OzCamera *camera)
 {
@@ -413,6 +427,8 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
         has_cylinder |= oz_wall_shape_is_upright(wall);
         if (wall->kind == OZ_WALL_PLANE) {
             add_plane(container, &scope, w);
+        } else if (oz_obstacle_is(wall)) {
+            add_obstacle(container, &scope, w);
         } else if (oz_wall_shape_is_sheet(wall)) {
             add_sheet(container, &scope, w);
         } else if (!oz_wall_shape_is_upright(wall)) {

@@ -11,6 +11,8 @@ typedef enum OzContainerMesh {
     OZ_CONTAINER_BEHIND,       /* panes and lines behind the grains                  */
     OZ_CONTAINER_GLASS_BEHIND, /* of the upright cylinder, which stands still        */
     OZ_CONTAINER_END_BEHIND,   /* its upper end, as high as grains fly               */
+    OZ_CONTAINER_OBSTACLES,    /* opaque, among the grains, with depth               */
+    OZ_CONTAINER_OUTLINES,     /* of these                                           */
     OZ_CONTAINER_BEFORE,       /* after the grains: bodies of floors, panes, lines   */
     OZ_CONTAINER_GLASS_BEFORE,
     OZ_CONTAINER_END_BEFORE,

@@ -117,8 +117,9 @@ static void draw_meshes(const OzGlDrawing *drawing, int first, int last, const O
 {
     for (int i = first; i <= last; i++) {
         const OzMesh *mesh = &drawing->container.meshes[i];
-        (i == OZ_CONTAINER_FLOORS ? oz_mesh_gl_draw_solid : oz_mesh_gl_draw_over)(
-            &drawing->mesh_gl, mesh, camera, size[0], size[1]);
+        bool is_solid = i == OZ_CONTAINER_FLOORS || i == OZ_CONTAINER_OBSTACLES;
+        (is_solid ? oz_mesh_gl_draw_solid : oz_mesh_gl_draw_over)(&drawing->mesh_gl, mesh, camera,
+                                                                  size[0], size[1]);
     }
 }
 
@@ -131,7 +132,7 @@ static OzStatus draw_view(OzGlDrawing *drawing, const OzBodies *bodies, int view
     open_panel(&drawing->context.gl, &camera->panels[view], look->height, size);
     if (!look->bare) {
         OZ_PASS(oz_container_build(container, bodies->snapshot, look, camera, look->views[view]));
-        draw_meshes(drawing, OZ_CONTAINER_FLOORS, OZ_CONTAINER_END_BEHIND, camera, size);
+        draw_meshes(drawing, OZ_CONTAINER_FLOORS, OZ_CONTAINER_OUTLINES, camera, size);
     }
     oz_capsules_draw(&drawing->capsules, view, bodies, size[0], size[1]);
     if (!look->bare) {

@@ -26,8 +26,9 @@ OzStatus oz_host_drawing_begin(OzHostDrawing *drawing, const OzBodies *bodies, i
 static void paint(const OzHostDrawing *drawing, const OzDrawn *drawn, const OzBodies *bodies,
                   int view, OzContainerMesh mesh)
 {
+    bool is_solid = mesh == OZ_CONTAINER_FLOORS || mesh == OZ_CONTAINER_OBSTACLES;
     oz_mesh_rows_paint(drawn, &drawing->container.meshes[mesh], bodies->camera, bodies->look, view,
-                       mesh == OZ_CONTAINER_FLOORS ? OZ_MESH_SOLID : OZ_MESH_OVER);
+                       is_solid ? OZ_MESH_SOLID : OZ_MESH_OVER);
 }
 
 static OzStatus lay(OzHostDrawing *drawing, const OzDrawn *drawn, const OzBodies *bodies, int view,
@@ -59,6 +60,8 @@ OzStatus oz_host_drawing_draw(OzHostDrawing *drawing, const OzDrawn *drawn, cons
     paint(drawing, drawn, bodies, view, OZ_CONTAINER_BEHIND);
     OZ_PASS(lay(drawing, drawn, bodies, view, false));
     paint(drawing, drawn, bodies, view, OZ_CONTAINER_END_BEHIND);
+    paint(drawing, drawn, bodies, view, OZ_CONTAINER_OBSTACLES);
+    paint(drawing, drawn, bodies, view, OZ_CONTAINER_OUTLINES);
     OZ_PASS(draw_grains(drawn, bodies, view));
     paint(drawing, drawn, bodies, view, OZ_CONTAINER_BEFORE);
     OZ_PASS(lay(drawing, drawn, bodies, view, true));

@@ -12,11 +12,9 @@ enum {
     SEGMENTS = 96 /* of a turn: as circles of other walls have */
 };
 
-/* Whether a point is within the wall: the free side of most, not of one that has grains outside. */
 static bool is_within(const OzWallLevels *levels, const double point[3])
 {
-    bool is_inside = levels->wall->side == OZ_SIDE_INSIDE;
-    return (oz_wall_shape_distance(levels->wall, levels->offset, point, NULL) > 0) == is_inside;
+    return oz_wall_shape_distance(levels->wall, levels->offset, point, NULL) > 0;
 }
 
 /* Where a ray meets the wall; false where it begins behind the wall or stays free as far as the
