@@ -45,9 +45,43 @@ OZ_INLINE void oz_element_contacts_classify(OzWork *w, int region)
     w->touch_count[region] = count;
 }
 
+#if OZ_TRIANGLE_FIELD
+
+/* outer[k]: edge k of an element is one of its outer ones. */
+OZ_INLINE void oz_element_contacts_outer(const OzWork *w, const int *slots, mask outer[3])
+{
+    int edges[OZ_LANES];
+    for (int l = 0; l < OZ_LANES; l++) {
+        edges[l] = w->outer_edges[slots[l]];
+    }
+    OZ_UNROLL
+    for (int k = 0; k < 3; k++) {
+        outer[k] = oz_lanes_mask_of((OZ_LANES_LOAD(edges) & (1 << k)) != 0);
+    }
+}
+
+#endif
+
+OZ_INLINE OzOverlap oz_element_contacts_overlap(const OzWork *w, const OzTriangle *a,
+                                                const OzTriangle *b, const int *slots_a,
+                                                const int *slots_b)
+{
+#if OZ_TRIANGLE_FIELD
+    mask outer_a[3], outer_b[3];
+    oz_element_contacts_outer(w, slots_a, outer_a);
+    oz_element_contacts_outer(w, slots_b, outer_b);
+    mask wall = oz_lanes_mask_of(OZ_LANES_LOAD(slots_b) >= w->z.free_slots);
+    OzFieldPair pair = oz_field_pair(a, b, outer_a, outer_b, wall);
+    return oz_field_overlap(a, b, &pair);
+#else
+    return oz_triangle_overlap(a, b);
+#endif
+}
+
 /* Two triangles. */
 OZ_INLINE OzElementPush oz_element_contacts_triangles(const OzWork *w, const OzElement *a,
-                                                      const OzElement *b)
+                                                      const OzElement *b, const int *slots_a,
+                                                      const int *slots_b)
 {
     OzElementPush push;
     OzTriangle first, second;
@@ -57,7 +91,7 @@ OZ_INLINE OzElementPush oz_element_contacts_triangles(const OzWork *w, const OzE
         first.corner[k] = oz_minus2(a->triangle.corner[k], a->position);
         second.corner[k] = oz_minus2(b->triangle.corner[k], a->position);
     }
-    OzOverlap o = oz_triangle_overlap(&first, &second);
+    OzOverlap o = oz_element_contacts_overlap(w, &first, &second, slots_a, slots_b);
     real stiffness = REAL(w->parameters->stiffness);
     push.force = oz_scale2(o.push, stiffness);
     push.torque_a = -(stiffness * o.moment);
@@ -211,7 +245,7 @@ OZ_INLINE void oz_element_contacts_push(OzWork *w, int region, int step, OzEleme
         mask present = oz_lanes_mask_of(OZ_LANES_IOTA + first < end);
         OzElement element_a = oz_element_work_element(w, a),
                   element_b = oz_element_work_element(w, b);
-        OzElementPush push = oz_element_contacts_triangles(w, &element_a, &element_b);
+        OzElementPush push = oz_element_contacts_triangles(w, &element_a, &element_b, a, b);
 #if OZ_DISCS
         oz_element_contacts_discs(w, &element_a, &element_b, a, b, &push);
 #endif

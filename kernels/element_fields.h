@@ -25,6 +25,7 @@
     X(real, reference_outer, z.blocks *OZ_ELEMENT_REFERENCE, LIST)                                 \
     X(integer, body, z.slots, STATE)                                                               \
     X(integer, wall, z.slots, STATE)                                                               \
+    X(integer, outer_edges, OZ_TRIANGLE_FIELD ? z.slots : 0, LIST)                                 \
     X(integer, cell_of, z.slots, LIST)                                                             \
     X(integer, cell_first, z.cells + 2, LIST)                                                      \
     X(scalar, sorted_x, z.slots + OZ_LANES, LIST)                                                  \

@@ -167,8 +167,7 @@ static void assert_same(const OzScene *a, const OzScene *b)
     SAME(broadphase);
     SAME(skin);
     SAME(gyroscopic);
-    SAME(triangles.stiffness);
-    SAME(triangles.force_point);
+    SAME(triangles);
     SAME(beams.stiffness);
     SAME(beams.second_moment);
     SAME(beams.damping);
@@ -290,7 +289,8 @@ static void writes_trigrains(void **state)
              " angular_velocity: 1}}\n"
              "observe: {outlet: 0}\nmovie: {outlines: false, beams: true, colour: grey}\n",
         SETTINGS("snapshots.strobe=1/7", "beams.substeps=3", "integrator=velocity-verlet",
-                 "beams.damping_shear=balanced", "triangles.force_point=midpoint"));
+                 "beams.damping_shear=balanced", "triangles.force_point=midpoint",
+                 "triangles.overlap=field"));
     assert_true(scene.observe.has_outlet && scene.gravity[1] == -9.81 && scene.gravity[2] == 0);
     assert_true(scene.populations[1].angular_velocity[2] == -3 && scene.populations[2].count == 6);
     /* degrees to rad: a product's rounding */

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -143,6 +144,22 @@ void oz_elements_rest_beam(OzElements *elements, int64_t k)
     elements->beam_length[k] = hypot(x, y);
     elements->beam_rest_a[k] = elements->angle[a] - direction;
     elements->beam_rest_b[k] = elements->angle[b] - direction;
+}
+
+int oz_elements_outer_edges(const OzElements *elements, int64_t i)
+{
+    int64_t first = 0, end = elements->outline_count;
+    int edges = 0;
+    while (first < end) {
+        int64_t middle = first + (end - first) / 2;
+        bool before = elements->outline_element[middle] < i;
+        first = before ? middle + 1 : first;
+        end = before ? end : middle;
+    }
+    for (; first < elements->outline_count && elements->outline_element[first] == i; first++) {
+        edges |= 1 << elements->outline_edge[first];
+    }
+    return edges;
 }
 
 void oz_elements_corners(const OzElements *elements, int64_t i, const double position[2],

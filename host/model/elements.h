@@ -61,6 +61,9 @@ void oz_elements_set_disc(OzElements *elements, int64_t i, const double centre[2
 /* Rest length and angles of beam k from its elements' positions and angles now. */
 void oz_elements_rest_beam(OzElements *elements, int64_t k);
 
+/* Its edges on the outside of its body, as bits 0..2; a disc has none. */
+int oz_elements_outer_edges(const OzElements *elements, int64_t i);
+
 /* The world coordinates of an element's corners at a position and angle. */
 void oz_elements_corners(const OzElements *elements, int64_t i, const double position[2],
                          double angle, double corners[6]);

@@ -71,6 +71,8 @@ static const char *const SHAPES[] = {OZ_SHAPES(OZ_CHOICES_SHAPE) NULL};
 static const char *const EXPORTS[] = {OZ_EXPORTS(OZ_CHOICES_EXPORT) NULL};
 static const char *const FORCE_POINTS[] = {
     [OZ_FORCE_CENTROID] = "centroid", [OZ_FORCE_MIDPOINT] = "midpoint", NULL};
+static const char *const OVERLAP_FORCES[] = {
+    [OZ_OVERLAP_KINDS] = "kinds", [OZ_OVERLAP_FIELD] = "field", NULL};
 static const char *const DAMPING_SHEARS[] = {
     [OZ_SHEAR_NONE] = "none", [OZ_SHEAR_BALANCED] = "balanced", NULL};
 static const char *const OBSERVE_AT[] = {

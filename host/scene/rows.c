@@ -131,6 +131,8 @@ static const OzKey KEYS[] = {
      .help = "full Euler equations; false drops the gyroscopic term"},
     {"triangles.stiffness", NUMBER(1e-6, 1e15, "N/m^2"), AT(triangles.stiffness), DEFAULT("2e6"),
      FLAT, .help = "Y: force over overlap area"},
+    {"triangles.overlap", CHOICE(OVERLAP_FORCES), AT(triangles.overlap), DEFAULT("kinds"), FLAT,
+     .help = "force by how edges cross (Poeschel), or of a potential: the field of depths"},
     {"triangles.force_point", CHOICE(FORCE_POINTS), AT(triangles.force_point), DEFAULT("centroid"),
      FLAT, .help = "where it acts: the overlap's centroid (conservative), or its chord's midpoint"},
     {"beams.stiffness", NUMBER(0, 1e15, "N/m"), AT(beams.stiffness), DEFAULT("100"), FLAT,

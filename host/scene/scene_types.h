@@ -27,12 +27,14 @@ typedef enum OzRestitutionAt { OZ_RESTITUTION_CENTRE, OZ_RESTITUTION_CONTACT } O
 typedef enum OzCalibration { OZ_CALIBRATION_NONE, OZ_CALIBRATION_DISCRETE } OzCalibration;
 
 typedef enum OzForcePoint { OZ_FORCE_CENTROID, OZ_FORCE_MIDPOINT } OzForcePoint;
+typedef enum OzOverlapForce { OZ_OVERLAP_KINDS, OZ_OVERLAP_FIELD } OzOverlapForce;
 typedef enum OzDampingShear { OZ_SHEAR_NONE, OZ_SHEAR_BALANCED } OzDampingShear;
 
 /* trigrains: what two overlapping triangles do to each other. */
 typedef struct OzTriangleValues {
     double stiffness; /* Y, N/m^2: force over overlap area                            */
-    OzForcePoint force_point;
+    OzOverlapForce overlap;
+    OzForcePoint force_point; /* of kinds                                             */
 } OzTriangleValues;
 
 /* trigrains: the beams that hold a grain's triangles together. */

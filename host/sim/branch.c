@@ -32,10 +32,10 @@ static bool may_differ(const char *name)
 {
     static const char *const names[] = {
         "LEDGER",    "INTEGRATOR_ID", /* MOVES_BEFORE and ORDER tell */
-        "FRICTION",  "HISTORY",       "SLIP_SCALE",   "ATTRACTION_CLAMP", "SURFACES",
-        "ADHESION",  "DRAG",          "ROLLING",      "ROLLING_SPRING",   "LAW_ID",
-        "LINE",      "SMOOTH",        "AT_CONTACT",   "GYROSCOPIC",       "MOVING",
-        "ALL_PAIRS", "FORCE_POINT",   "DAMPING_SHEAR"};
+        "FRICTION",  "HISTORY",       "SLIP_SCALE",    "ATTRACTION_CLAMP", "SURFACES",
+        "ADHESION",  "DRAG",          "ROLLING",       "ROLLING_SPRING",   "LAW_ID",
+        "LINE",      "SMOOTH",        "AT_CONTACT",    "GYROSCOPIC",       "MOVING",
+        "ALL_PAIRS", "FORCE_POINT",   "DAMPING_SHEAR", "TRIANGLE_FIELD"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(name, names[i]) == 0) {
             return true;

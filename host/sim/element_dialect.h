@@ -5,9 +5,10 @@
 #include "sim/element_laws.h"
 #include "sim/host_switches.h"
 
-#define OZ_FORCE_POINT   oz_host_switches_now.midpoint
-#define OZ_DAMPING_SHEAR oz_host_switches_now.balanced
+#define OZ_TRIANGLE_FIELD oz_host_switches_now.field
+#define OZ_FORCE_POINT    oz_host_switches_now.midpoint
+#define OZ_DAMPING_SHEAR  oz_host_switches_now.balanced
 
 #include "kernels/beam.h"
 #include "kernels/disc.h"
-#include "kernels/triangle.h"
+#include "kernels/triangle_field.h"

@@ -6,16 +6,17 @@
 #undef OZ_MOVING
 #undef OZ_LEDGER
 #undef OZ_IMPULSES
-#define OZ_LANES    (s->lanes)
-#define OZ_GROUP    (s->group)
-#define OZ_RESORT   (s->resort)
-#define OZ_TILES    0
-#define OZ_ORDER    (s->order)
-#define OZ_MOVING   (s->moving)
-#define OZ_DISCS    (s->discs)
-#define OZ_SUBSTEPS (s->substeps)
-#define OZ_LEDGER   (s->ledger)
-#define OZ_IMPULSES (s->impulses)
+#define OZ_LANES          (s->lanes)
+#define OZ_GROUP          (s->group)
+#define OZ_RESORT         (s->resort)
+#define OZ_TILES          0
+#define OZ_ORDER          (s->order)
+#define OZ_MOVING         (s->moving)
+#define OZ_DISCS          (s->discs)
+#define OZ_TRIANGLE_FIELD (s->triangle_field)
+#define OZ_SUBSTEPS       (s->substeps)
+#define OZ_LEDGER         (s->ledger)
+#define OZ_IMPULSES       (s->impulses)
 
 size_t oz_element_fields_items(int field, const void *switches, const void *sizes)
 {

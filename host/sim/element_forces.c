@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "model/wall_motion.h"
-#include "sim/element_dialect.h"
+#include "sim/element_overlap.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -94,12 +94,12 @@ static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, i
         return OZ_OK;
     }
     double stiffness = f->scene->triangles.stiffness;
-    OzOverlap o = oz_triangle_overlap(&one, &other);
-    if (o.swallowed || o.deep) {
+    OzOverlap o = oz_element_overlap_find(f->elements, a, b, &one, &other);
+    if (!OZ_TRIANGLE_FIELD && (o.swallowed || o.deep)) {
         note_fault(f, o.swallowed ? OZ_ELEMENT_SWALLOWED : OZ_ELEMENT_DEEP, a, b);
     }
     judge_depth(f, o.share, a, b);
-    if (!(o.kind > 0)) {
+    if (!(o.kind > 0 || (OZ_TRIANGLE_FIELD && o.area > 0))) { /* swallowed ones have no kind */
         return OZ_OK;
     }
     OzVec2 force = oz_scale2(o.push, stiffness);

@@ -1,7 +1,7 @@
 /* Triangles and discs by the contact laws of the kernels. */
 #include "sim/element_meet.h"
 
-#include "sim/element_dialect.h"
+#include "sim/element_overlap.h"
 
 #include <math.h>
 
@@ -34,7 +34,7 @@ static OzElementMeeting meet_triangles(const OzScene *scene, const OzElements *p
     OzTriangle one = triangle_of(p, a), other = triangle_of(p, b);
     OzElementMeeting m = {0};
     if (oz_triangle_near(&one, &other, 0)) {
-        OzOverlap o = oz_triangle_overlap(&one, &other);
+        OzOverlap o = oz_element_overlap_find(p, a, b, &one, &other);
         m.broken = o.deep || o.swallowed;
         m.force = scene->triangles.stiffness * o.area;
         m.energy = scene->triangles.stiffness * o.energy;

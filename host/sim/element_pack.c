@@ -154,6 +154,26 @@ done:
     return status;
 }
 
+/* What contacts with a potential know of elements. */
+static OzStatus write_outer_edges(OzArrays *arrays, int member, const OzElements *elements)
+{
+    OzStatus status = OZ_OK;
+    const OzElementSizes *z = oz_element_fields_sizes(arrays);
+    int *edges = NULL;
+    if (!oz_element_fields_switches(arrays)->triangle_field) {
+        return OZ_OK;
+    }
+    OZ_TRY(OZ_NEW(&edges, z->slots));
+    for (int64_t i = 0; i < elements->count; i++) {
+        edges[oz_element_fields_slot(z, elements, i)] = oz_elements_outer_edges(elements, i);
+    }
+    OZ_TRY(oz_arrays_write(arrays, OZ_ELEMENT_FIELD_outer_edges, member, edges,
+                           (size_t)z->slots * sizeof *edges));
+done:
+    free(edges);
+    return status;
+}
+
 /* Which beams each element has, by partner: beams are ordered by their first element, then by the
  * second. */
 static OzStatus write_adjacency(OzArrays *arrays, int member, const OzElements *elements)
@@ -249,6 +269,7 @@ OzStatus oz_element_pack_start(OzArrays *arrays, int member, const OzElementPara
     OZ_PASS(write_state(arrays, member, parameters, grains->elements, start));
     OZ_PASS(write_slow_loads(arrays, member, units, grains->elements, start->touch));
     OZ_PASS(oz_element_pack_bodies(arrays, member, grains, ~0U));
+    OZ_PASS(write_outer_edges(arrays, member, grains->elements));
     OZ_PASS(write_beams(arrays, member, units, grains->elements));
     return write_ledger(arrays, member, units, &start->power);
 }

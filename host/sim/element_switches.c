@@ -36,7 +36,8 @@ OzElementSwitches oz_element_switches_derive(const OzScene *scene, const OzGrain
     s.beams = grains->elements->beam_count > 0 || grains->count == 0; /* none: as those of others */
     s.substeps = gear || !s.beams ? 1 : (int)scene->beams.substeps;
     s.resort = grains->elements->count > device->small_most && s.substeps == 1;
-    s.force_point = (int)scene->triangles.force_point;
+    s.triangle_field = scene->triangles.overlap == OZ_OVERLAP_FIELD;
+    s.force_point = s.triangle_field ? 0 : (int)scene->triangles.force_point;
     s.damping_shear = (int)scene->beams.damping_shear;
     s.ledger = scene->observe.ledger;
     s.impulses = scene->observe.walls == OZ_OBSERVE_WALLS_MEAN && scene->wall_count > 0;

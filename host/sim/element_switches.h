@@ -19,6 +19,7 @@
     X(DISCS, discs, "discs")                                                                       \
     X(BEAMS, beams, "beams")                                                                       \
     X(SUBSTEPS, substeps, NULL)                                                                    \
+    X(TRIANGLE_FIELD, triangle_field, NULL)                                                        \
     X(FORCE_POINT, force_point, NULL)                                                              \
     X(DAMPING_SHEAR, damping_shear, NULL)                                                          \
     X(IMPULSES, impulses, "mean forces on walls")

@@ -13,6 +13,7 @@ OzHostSwitches oz_host_switches_rods(const OzSwitches *switches)
 OzHostSwitches oz_host_switches_elements(const OzScene *scene)
 {
     OzHostSwitches before = oz_host_switches_now;
+    oz_host_switches_now.field = scene->triangles.overlap == OZ_OVERLAP_FIELD;
     oz_host_switches_now.midpoint = scene->triangles.force_point == OZ_FORCE_MIDPOINT;
     oz_host_switches_now.balanced = scene->beams.damping_shear == OZ_SHEAR_BALANCED;
     return before;

@@ -7,8 +7,9 @@
 
 typedef struct OzHostSwitches {
     OzSwitches rods;
-    bool midpoint, balanced; /* trigrains: the force point of triangles' contacts; beams' damping
-                                moments are balanced by a shear force */
+    bool field, midpoint, balanced; /* trigrains: triangles' contacts have a potential; the force
+                                       point of those that have not; beams' damping moments are
+                                       balanced by a shear force */
 } OzHostSwitches;
 
 extern _Thread_local OzHostSwitches oz_host_switches_now;

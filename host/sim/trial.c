@@ -49,6 +49,27 @@ static void copy_elements(OzElements *to, const OzElements *from, int64_t first,
     }
 }
 
+/* The outlines of elements from first on, before end. */
+static int64_t outlines_of(const OzElements *p, int64_t first, int64_t end, int64_t *first_outline)
+{
+    int64_t count = 0;
+    for (int64_t k = p->outline_count - 1; k >= 0; k--) {
+        if (p->outline_element[k] >= first && p->outline_element[k] < end) {
+            *first_outline = k;
+            count++;
+        }
+    }
+    return count;
+}
+
+static void copy_outlines(OzElements *to, const OzElements *from, int64_t first_outline, int first)
+{
+    for (int64_t k = 0; k < to->outline_count; k++) {
+        to->outline_element[k] = from->outline_element[first_outline + k] - first;
+        to->outline_edge[k] = from->outline_edge[first_outline + k];
+    }
+}
+
 static void copy_beams(OzElements *to, const OzElements *from, int64_t first_beam,
                        int first_element)
 {
@@ -66,6 +87,7 @@ static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grain
 {
     const OzElements *from = grains->elements;
     int64_t first = from->first[grain], count = from->first[grain + 1] - first, first_beam;
+    int64_t first_outline = 0;
     OzElementCounts counts = {.grains = 1, .walls = 1, .free_elements = count, .wall_elements = 1};
     double size = grains->diameter[grain];
     *t = (Throw){.scene = *scene, .floor = {.kind = OZ_WALL_SEGMENT, .contact = scene->contact}};
@@ -74,6 +96,7 @@ static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grain
     t->scene.wall_count = 1;
     t->scene.observe.ledger = false;
     counts.beams = beams_of(from, grain, &first_beam);
+    counts.outlines = outlines_of(from, first, first + count, &first_outline);
     OZ_PASS(oz_grains_create(&t->grains, 1));
     OZ_PASS(oz_elements_create(&t->grains.elements, &counts));
     t->grains.diameter[0] = size;
@@ -85,6 +108,7 @@ static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grain
     to->body[count] = 1;
     copy_elements(to, from, first, count);
     copy_beams(to, from, first_beam, (int)first);
+    copy_outlines(to, from, first_outline, (int)first);
     double corners[6] = {-20 * size, 0, 0, -4 * size, 20 * size, 0};
     return oz_elements_set_triangle(to, count, corners, 0);
 }
