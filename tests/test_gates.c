@@ -170,6 +170,42 @@ static void a_gate_that_is_gone_is_not_shown(void **state)
     rig_close(&rig);
 }
 
+/* Corners of glass in one of a container's meshes; lines are less clear. */
+static int count_glass(const OzContainer *container, int mesh)
+{
+    int count = 0;
+    for (size_t i = 0; i < container->meshes[mesh].count; i++) {
+        count += container->meshes[mesh].corners[i].rgba[3] < 0.6F;
+    }
+    return count;
+}
+
+/* A box is six panes of two triangles, of which front and lid are before the grains when seen from
+ * a little above; a closed drum is a band and two discs of 96 quads each. */
+static void closed_containers_are_of_glass(void **state)
+{
+    (void)state;
+    static const char *const walls[] = {
+        "  - {kind: box, size: [8e-3, 6e-3, 5e-3]}",
+        "  - {kind: cylinder, diameter: 8e-3, axis: [0, 1, 0], length: 5e-3, ends: closed}"};
+    for (int round = 0; round < 2; round++) {
+        Rig rig;
+        OzContainer container = {.high = 0};
+        rig_open(&rig, SPHERES, 0.0, "symplectic-euler",
+                 "  - {kind: single, diameter: 1e-3, position: [0, 1e-3, 2e-3]}", walls[round]);
+        rig_start(&rig);
+        OzLook look = oz_framing_look(&rig.scene, &rig.now);
+        OzCamera camera = oz_camera_make(&look, 0);
+        must(oz_container_build(&container, &rig.now, &look, &camera, OZ_VIEW_LATERAL));
+        int behind = count_glass(&container, OZ_CONTAINER_BEHIND);
+        int before = count_glass(&container, OZ_CONTAINER_BEFORE);
+        assert_int_equal(before + behind, round ? 3 * 96 * 6 : 36);
+        assert_true(round ? before > 96 * 6 : before == 12);
+        oz_container_free(&container);
+        rig_close(&rig);
+    }
+}
+
 /* Rods and spheres, or spheres alone, fly about between walls of which a sheet and a cylinder go,
  * and a sphere and another sheet come, in the middle of hits. */
 static const char crowd[] =
@@ -222,6 +258,7 @@ int main(void)
         cmocka_unit_test(a_wall_that_comes_does_work),
         cmocka_unit_test(a_joint_does_not_count_what_is_gone),
         cmocka_unit_test(a_gate_that_is_gone_is_not_shown),
+        cmocka_unit_test(closed_containers_are_of_glass),
         cmocka_unit_test(the_device_does_as_the_reference),
     };
     return cmocka_run_group_tests(tests, open_rig_device, close_rig_device);

@@ -83,11 +83,15 @@ static void find_extent(const OzLook *look, int view, double unit, double size[2
     double azimuth = 0, elevation = 0, half_height = 0.5 * (look->height_high - look->height_low);
     choose_side(look, view, &azimuth, &elevation);
     bool from_above = fabs(elevation) > atan(1.0);
-    double wide = look->is_round ? 1 : fabs(cos(azimuth)) + fabs(sin(azimuth));
-    double front = look->flat ? 0 : from_above ? half_height : look->half_width;
+    double along = fabs(cos(azimuth)), across = fabs(sin(azimuth)), middle = look->half_width;
+    const double *side = look->half_sides;
+    bool is_square = look->is_round || look->flat || !(side[0] > 0);
+    double wide = is_square ? middle : along * side[0] + across * side[1];
+    double deep = is_square ? middle : across * side[0] + along * side[1];
+    double front = look->flat ? 0 : from_above ? half_height : deep;
     double nearer = EYE_DISTANCE / (EYE_DISTANCE - front / unit);
-    double upright = half_height * cos(elevation) + look->half_width * wide * fabs(sin(elevation));
-    size[0] = 2 * look->half_width * wide / unit * nearer;
+    double upright = half_height * cos(elevation) + deep * fabs(sin(elevation));
+    size[0] = 2 * wide / unit * nearer;
     size[1] = 2 * upright / unit * nearer;
 }
 

@@ -241,7 +241,7 @@ static void plane_square(Polygon *polygon, const Scope *scope, const double poin
 {
     const double *centre = scope->camera->centre;
     double size = 8 * scope->camera->unit, height = 0;
-    int least = fabs(n[0]) < fabs(n[1]) ? 0 : 1;
+    int least = fabs(n[0]) >= fabs(n[1]);
     least = fabs(n[2]) < fabs(n[least]) ? 2 : least;
     double e[3] = {0}, f[3];
     for (int k = 0; k < 3; k++) {
@@ -342,15 +342,14 @@ static void add_plane(OzContainer *container, const Scope *scope, int row)
 
 static OzWallOutline outline_of(const Scope *scope)
 {
-    OzWallOutline outline = {.snapshot = scope->snapshot,
-                             .camera = scope->camera,
-                             .line_width = line_width(scope),
-                             .low = scope->look->height_low,
-                             .high = scope->top,
-                             .reach = 1.5 * scope->look->half_width,
-                             .is_cut = scope->view == OZ_VIEW_CUT,
-                             .cut = scope->look->cut};
-    return outline;
+    return (OzWallOutline){.snapshot = scope->snapshot,
+                           .camera = scope->camera,
+                           .line_width = line_width(scope),
+                           .low = scope->look->height_low,
+                           .high = scope->top,
+                           .reach = 1.5 * scope->look->half_width,
+                           .is_cut = scope->view == OZ_VIEW_CUT,
+                           .cut = scope->look->cut};
 }
 
 static void add_lines(OzContainer *container, const Scope *scope, int row)
@@ -432,6 +431,7 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
         } else if (oz_wall_shape_is_sheet(wall)) {
             add_sheet(container, &scope, w);
         } else if (!oz_wall_shape_is_upright(wall)) {
+            add_sheet(container, &scope, w);
             add_lines(container, &scope, w);
         }
     }

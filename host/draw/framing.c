@@ -168,7 +168,7 @@ static void widen(Room *room, const OzScene *scene)
 {
     double height = room->high[2] - room->low[2];
     double wide = fmax(room->high[0] - room->low[0], room->high[1] - room->low[1]);
-    double margin = fmax(0.15 * wide, 0.5 * (0.4 * height - wide));
+    double margin = fmax(0.06 * wide, 0.5 * (0.4 * height - wide));
     for (int k = 0; k < 2; k++) {
         room->low[k] -= margin;
         room->high[k] += margin;
@@ -274,8 +274,10 @@ static void frame_standing(OzLook *look, const OzScene *scene, const OzSnapshot 
     if (look->is_round) {
         look->half_width = radius;
     } else {
-        double wide = fmax(room.high[0] - room.low[0], room.high[1] - room.low[1]);
-        look->half_width = fmax(0.5 * wide, 1e-9);
+        for (int k = 0; k < 2; k++) {
+            look->half_sides[k] = fmax(0.5 * (room.high[k] - room.low[k]), 1e-9);
+        }
+        look->half_width = fmax(look->half_sides[0], look->half_sides[1]);
         look->centre[0] = 0.5 * (room.low[0] + room.high[0]);
         look->centre[1] = 0.5 * (room.low[1] + room.high[1]);
         look->cut = look->centre[1];
@@ -328,6 +330,8 @@ void oz_framing_keep(OzLook *look, const OzLook *framed)
     look->centre[0] = framed->centre[0];
     look->centre[1] = framed->centre[1];
     look->half_width = framed->half_width;
+    look->half_sides[0] = framed->half_sides[0];
+    look->half_sides[1] = framed->half_sides[1];
     look->cut = framed->cut;
     look->speed_high = framed->speed_high;
     look->force_high = framed->force_high;
@@ -339,6 +343,7 @@ OzStatus oz_framing_state(OzLook *look, OzStateVisit *visit)
     OZ_PASS(oz_state_double(visit, "height_high", "m", &look->height_high, 1));
     OZ_PASS(oz_state_double(visit, "centre", "m", look->centre, 2));
     OZ_PASS(oz_state_double(visit, "half_width", "m", &look->half_width, 1));
+    OZ_PASS(oz_state_double(visit, "half_sides", "m", look->half_sides, 2));
     OZ_PASS(oz_state_double(visit, "cut", "m", &look->cut, 1));
     OZ_PASS(oz_state_double(visit, "force_high", "N", &look->force_high, 1));
     return oz_state_double(visit, "speed_high", "m/s", &look->speed_high, 1);

@@ -19,9 +19,10 @@ typedef struct OzLook {
     double force_high;              /* N, the same for OZ_COLOUR_FORCE, and the scale of chains */
     bool chains;                    /* forces as lines; rods and spheres thin */
     double centre[2];               /* m: x and y at the middle of the picture */
-    double half_width; /* m: what is framed to the left and right of the middle, and in depth */
-    double cut;        /* m: the cut view shows what lies at y above this */
-    double elevation;  /* rad: how far above the horizon the camera stands, but for: */
+    double half_width; /* m: no point of what is framed is farther from the middle along x or y */
+    double half_sides[2]; /* m: the same of each of them; 0: half_width of both                  */
+    double cut;           /* m: the cut view shows what lies at y above this */
+    double elevation;     /* rad: how far above the horizon the camera stands, but for: */
     double free_azimuth, free_elevation; /* rad: of OZ_VIEW_FREE (scene_types.h) */
     double zoom;                         /* times as large as what fits; 0: 1 */
     double target[3]; /* m: what is in the middle of the picture, instead of what is framed's */

@@ -81,7 +81,8 @@ static void add_line(const OzWallSheet *s, const double from[3], const double to
 
 /* A wall that stands between eye and grains is before them; one whose far side faces the eye from
  * below is a floor to what lies on it. */
-static void add_rectangle(const OzWallSheet *s, const OzWallShape *shape, const double point[3])
+static void add_rectangle(const OzWallSheet *s, const OzWallShape *shape, const double point[3],
+                          bool has_lines)
 {
     double second[3], seen[3];
     Patch patch = {.count = 4};
@@ -103,7 +104,7 @@ static void add_rectangle(const OzWallSheet *s, const OzWallShape *shape, const 
     if (s->is_cut) {
         cut_off(&whole, s->cut);
     }
-    for (int i = 0; i < whole.count; i++) {
+    for (int i = 0; has_lines && i < whole.count; i++) {
         add_line(s, whole.points[i], whole.points[(i + 1) % whole.count], before, RIM);
     }
 }
@@ -134,7 +135,7 @@ static Stave stave_at(const OzWallShape *shape, const double point[3], double an
 
 /* Outsides that face the eye are before the grains; a disc has none, and is a floor under most. */
 static void add_band(const OzWallSheet *s, const OzWallShape *shape, const double point[3],
-                     double turned)
+                     double turned, bool has_lines)
 {
     bool is_flat = shape->extent[1] == 0;
     double seen[3];
@@ -150,10 +151,10 @@ static void add_band(const OzWallSheet *s, const OzWallShape *shape, const doubl
         memcpy(patch.points[2], b.rims[1], sizeof b.rims[1]);
         memcpy(patch.points[3], b.rims[0], sizeof b.rims[0]);
         add_patch(s, &patch, middle.normal, before);
-        for (int rim = 0; rim < 2; rim++) {
+        for (int rim = 0; has_lines && rim < 2; rim++) {
             add_line(s, a.rims[rim], b.rims[rim], before, RIM);
         }
-        if (i % (AROUND / STAVES) == 0) {
+        if (has_lines && i % (AROUND / STAVES) == 0) {
             add_line(s, a.rims[0], a.rims[1], before, STAVE);
         }
     }
@@ -196,6 +197,96 @@ static void add_mesh(const OzWallSheet *s, const OzWallMesh *triangles, const do
     }
 }
 
+/* A tube as a band, and its ends as discs. */
+static void add_tube(const OzWallSheet *s, const OzWall *wall, const double point[3])
+{
+    OzWallShape band = {.kind = OZ_WALL_BAND, .radius = wall->diameter / 2}, end = band;
+    double u[3], v[3], far_end[3];
+    oz_wall_shape_axis(wall, band.normal);
+    oz_wall_shape_across(band.normal, u, v);
+    memcpy(band.across, u, sizeof u);
+    band.extent[0] = band.radius;
+    band.extent[1] = wall->length;
+    add_band(s, &band, point, 0, false);
+    if (wall->ends != OZ_ENDS_CLOSED) {
+        return;
+    }
+    memcpy(end.across, u, sizeof u);
+    for (int k = 0; k < 3; k++) {
+        far_end[k] = point[k] + wall->length * band.normal[k];
+        end.normal[k] = -band.normal[k];
+    }
+    add_band(s, &end, far_end, 0, false);
+    memcpy(end.normal, band.normal, sizeof band.normal);
+    add_band(s, &end, point, 0, false);
+}
+
+/* A box's sides are planes that face each other: the box's middle from one of these, and which is
+ * the opposite one. */
+static int find_opposite(const OzWallShape *sides, int i, double *half)
+{
+    for (int j = 0; j < OZ_WALL_SIDES_MAX; j++) {
+        const double *n = sides[i].normal, *m = sides[j].normal;
+        if (n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < -0.5) {
+            *half = 0;
+            for (int k = 0; k < 3; k++) {
+                *half += 0.5 * n[k] * (sides[j].point[k] - sides[i].point[k]);
+            }
+            return j;
+        }
+    }
+    return i;
+}
+
+static void add_box(const OzWallSheet *s, const OzWallShape *sides, const double shift[3])
+{
+    double half[OZ_WALL_SIDES_MAX], middle[3] = {shift[0], shift[1], shift[2]};
+    int opposite[OZ_WALL_SIDES_MAX];
+    for (int i = 0; i < OZ_WALL_SIDES_MAX; i++) {
+        const double *n = sides[i].normal, *p = sides[i].point;
+        opposite[i] = find_opposite(sides, i, &half[i]);
+        for (int k = 0; k < 3 && opposite[i] > i; k++) {
+            middle[k] += n[k] * (n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + half[i]);
+        }
+    }
+    for (int i = 0; i < OZ_WALL_SIDES_MAX; i++) {
+        OzWallShape pane = {.kind = OZ_WALL_RECTANGLE};
+        int other[2], count = 0;
+        double point[3];
+        for (int j = 0; j < OZ_WALL_SIDES_MAX && count < 2; j++) {
+            if (opposite[j] > j && j != i && opposite[j] != i) {
+                other[count++] = j;
+            }
+        }
+        memcpy(pane.normal, sides[i].normal, sizeof pane.normal);
+        memcpy(pane.across, sides[other[0]].normal, sizeof pane.across);
+        pane.extent[0] = half[other[0]];
+        pane.extent[1] = half[other[1]];
+        for (int k = 0; k < 3; k++) {
+            point[k] = middle[k] - half[i] * pane.normal[k];
+        }
+        add_rectangle(s, &pane, point, false);
+    }
+}
+
+/* What is no sheet, as the sheets it is like. */
+static void add_panes(const OzWallSheet *s, int w)
+{
+    const OzWall *built = &s->snapshot->scene->walls[w];
+    const OzWall wall = oz_wall_swing_turned(built, oz_snapshot_turn(s->snapshot, w));
+    OzWallShape sides[OZ_WALL_SIDES_MAX];
+    double shift[3], point[3];
+    oz_wall_shape_shift(&wall, s->snapshot->wall_offset[w], shift);
+    for (int k = 0; k < 3; k++) {
+        point[k] = wall.point[k] + shift[k];
+    }
+    if (wall.kind == OZ_WALL_BOX && oz_wall_shape_sides(&wall, sides) == OZ_WALL_SIDES_MAX) {
+        add_box(s, sides, shift);
+    } else if (wall.kind == OZ_WALL_CYLINDER && wall.side != OZ_SIDE_OUTSIDE && wall.length > 0) {
+        add_tube(s, &wall, point);
+    }
+}
+
 void oz_wall_sheet_add(const OzWallSheet *s, int w)
 {
     const OzWall *built = &s->snapshot->scene->walls[w];
@@ -209,11 +300,13 @@ void oz_wall_sheet_add(const OzWallSheet *s, int w)
     for (int k = 0; k < 3; k++) {
         point[k] += wall->point[k];
     }
-    if (wall->kind == OZ_WALL_MESH) {
+    if (!oz_wall_shape_is_sheet(built)) {
+        add_panes(s, w);
+    } else if (wall->kind == OZ_WALL_MESH) {
         add_mesh(s, wall->mesh, point, oz_wall_swing_at(built, turn, 0).frame);
     } else if (wall->kind == OZ_WALL_RECTANGLE) {
-        add_rectangle(s, &shape, point);
+        add_rectangle(s, &shape, point, true);
     } else {
-        add_band(s, &shape, point, oz_wall_swing_has(built) ? 0 : turn);
+        add_band(s, &shape, point, oz_wall_swing_has(built) ? 0 : turn, true);
     }
 }

@@ -15,5 +15,6 @@ typedef struct OzWallSheet {
     double cut;        /* m                                  */
 } OzWallSheet;
 
-/* Adds wall w of the scene where it is now. */
+/* Adds wall w of the scene where it is now; of a box, and of a cylinder that has a length and holds
+ * grains, the glass without lines; of other walls nothing. */
 void oz_wall_sheet_add(const OzWallSheet *sheet, int w);
