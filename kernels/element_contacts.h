@@ -67,11 +67,10 @@ OZ_INLINE OzOverlap oz_element_contacts_overlap(const OzWork *w, const OzTriangl
                                                 const int *slots_b)
 {
 #if OZ_TRIANGLE_FIELD
-    mask outer_a[3], outer_b[3];
-    oz_element_contacts_outer(w, slots_a, outer_a);
-    oz_element_contacts_outer(w, slots_b, outer_b);
-    mask wall = oz_lanes_mask_of(OZ_LANES_LOAD(slots_b) >= w->z.free_slots);
-    OzFieldPair pair = oz_field_pair(a, b, outer_a, outer_b, wall);
+    OzFieldPair pair;
+    oz_element_contacts_outer(w, slots_a, pair.outer_a);
+    oz_element_contacts_outer(w, slots_b, pair.outer_b);
+    oz_field_weigh(&pair, oz_lanes_mask_of(OZ_LANES_LOAD(slots_b) >= w->z.free_slots));
     return oz_field_overlap(a, b, &pair);
 #else
     return oz_triangle_overlap(a, b);

@@ -24,8 +24,7 @@ typedef struct OzFieldFacet {
 
 /* One of two triangles as its field tells. */
 typedef struct OzFieldSide {
-    OzFieldFacet facet[3]; /* by edge                */
-    mask several;          /* there are more than one */
+    OzFieldFacet facet[3]; /* by edge */
 } OzFieldSide;
 
 /* A part of an edge, from its start at low to high, of 0..1; empty unless high > low. */
@@ -68,7 +67,6 @@ OZ_INLINE OzFieldSide oz_field_side(const OzTriangle *t, const mask outer[3])
             facet->rise = oz_choose2(outer[k], inward, nothing);
         }
     }
-    side.several = (outer[0] & outer[1]) | (outer[1] & outer[2]) | (outer[2] & outer[0]);
     if (OZ_ANY(none)) {
         side.facet[0].offset = none ? oz_field_inradius(t) : side.facet[0].offset;
         side.facet[0].present = side.facet[0].present | none;
@@ -131,17 +129,18 @@ OZ_INLINE OzFieldPiece oz_field_piece(const OzFieldSide *side, int k, OzVec2 fro
     return oz_field_cut_out(&side->facet[k], span, side->facet[k].present, from, to);
 }
 
-/* The only facet. */
-OZ_INLINE OzFieldFacet oz_field_only(const OzFieldSide *side)
+/* The facet of a triangle that has one outer edge. */
+OZ_INLINE OzFieldFacet oz_field_only(const OzTriangle *t, const mask outer[3])
 {
-    OzFieldFacet only = side->facet[0];
-    OZ_UNROLL
-    for (int k = 1; k < 3; k++) {
-        mask is = side->facet[k].present;
-        only.rise = oz_choose2(is, side->facet[k].rise, only.rise);
-        only.corner = oz_choose2(is, side->facet[k].corner, only.corner);
-        only.offset = is ? side->facet[k].offset : only.offset;
-    }
+    OzFieldFacet only;
+    OzVec2 end = oz_choose2(outer[1], t->corner[2], t->corner[1]);
+    end = oz_choose2(outer[2], t->corner[0], end);
+    only.corner = oz_choose2(outer[1], t->corner[1], t->corner[0]);
+    only.corner = oz_choose2(outer[2], t->corner[2], only.corner);
+    OzVec2 inward = oz_left2(oz_minus2(end, only.corner));
+    only.rise = oz_scale2(inward, REAL(1.0) / oz_length2(inward));
+    only.offset = REAL(0.0);
+    only.present = outer[0] | outer[1] | outer[2];
     return only;
 }
 
@@ -154,19 +153,21 @@ OZ_INLINE void oz_field_press(OzFieldPiece p, real weight, OzOverlap *o)
     o->moment += weight * (mean * oz_dot2(p.start, p.along) + bend * oz_dot2(p.along, p.along));
 }
 
-/* Adds what the field of one triangle does to the other, whose edges in the first are given: times
- * `weight`, which is negative when the field is b's and the edges are a's. */
-OZ_INLINE void oz_field_push(const OzFieldSide *side, const OzTriangleElements *edges, real weight,
-                             OzOverlap *o)
+/* Adds what the field of triangle t does to the other, whose edges in t are given: times `weight`,
+ * which is negative when the field is b's and the edges are a's. */
+OZ_INLINE void oz_field_push(const OzTriangle *t, const mask outer[3],
+                             const OzTriangleElements *edges, real weight, OzOverlap *o)
 {
-    if (OZ_ANY(side->several)) {
+    mask odd = outer[0] ^ outer[1] ^ outer[2], all = outer[0] & outer[1] & outer[2];
+    if (OZ_ANY(all | !odd)) { /* not one outer edge */
+        OzFieldSide side = oz_field_side(t, outer);
         OZ_UNROLL
         for (int i = 0; i < 9; i++) {
             int k = i / 3, e = i % 3;
-            oz_field_press(oz_field_piece(side, k, edges->from[e], edges->to[e]), weight, o);
+            oz_field_press(oz_field_piece(&side, k, edges->from[e], edges->to[e]), weight, o);
         }
     } else {
-        OzFieldFacet only = oz_field_only(side);
+        OzFieldFacet only = oz_field_only(t, outer);
         OZ_UNROLL
         for (int e = 0; e < 3; e++) {
             OzFieldPiece p;
@@ -195,21 +196,16 @@ OZ_INLINE void oz_field_edges(const OzTriangle *a, const OzTriangle *b, OzTriang
     }
 }
 
-/* The field of a pair: who is how deep in whom, and how much each counts. */
+/* The field of a pair: which edges of each are outer ones, and how much each one's depth counts. */
 typedef struct OzFieldPair {
-    OzFieldSide a, b;
+    mask outer_a[3], outer_b[3];
     real weight_a, weight_b; /* a half each among grains; against walls b's does not count */
 } OzFieldPair;
 
-OZ_INLINE OzFieldPair oz_field_pair(const OzTriangle *a, const OzTriangle *b, const mask outer_a[3],
-                                    const mask outer_b[3], mask b_is_wall)
+OZ_INLINE void oz_field_weigh(OzFieldPair *pair, mask b_is_wall)
 {
-    OzFieldPair pair;
-    pair.a = oz_field_side(a, outer_a);
-    pair.b = oz_field_side(b, outer_b);
-    pair.weight_a = b_is_wall ? REAL(1.0) : REAL(0.5);
-    pair.weight_b = b_is_wall ? REAL(0.0) : REAL(0.5);
-    return pair;
+    pair->weight_a = b_is_wall ? REAL(1.0) : REAL(0.5);
+    pair->weight_b = b_is_wall ? REAL(0.0) : REAL(0.5);
 }
 
 /* What a does to b: push, moment, area and share. Nothing is too deep for it: the masks are false.
@@ -223,8 +219,8 @@ OZ_INLINE OzOverlap oz_field_overlap(const OzTriangle *a, const OzTriangle *b,
     oz_field_edges(a, b, &of_a, &of_b);
     o.push = origin;
     o.moment = REAL(0.0);
-    oz_field_push(&pair->a, &of_b, pair->weight_a, &o);
-    oz_field_push(&pair->b, &of_a, -pair->weight_b, &o);
+    oz_field_push(a, pair->outer_a, &of_b, pair->weight_a, &o);
+    oz_field_push(b, pair->outer_b, &of_a, -pair->weight_b, &o);
     o.area = REAL(0.5) * (oz_triangle_sweep(&of_a, origin, &moment, &along) +
                           oz_triangle_sweep(&of_b, origin, &moment, &along));
     o.area = oz_larger(o.area, REAL(0.0));
@@ -288,6 +284,8 @@ OZ_INLINE real oz_field_energy(const OzTriangle *a, const OzTriangle *b, const O
 {
     OzTriangleElements of_a, of_b;
     oz_field_edges(a, b, &of_a, &of_b);
-    return pair->weight_a * oz_field_integral(a, &pair->a, b, &of_a, &of_b) +
-           pair->weight_b * oz_field_integral(b, &pair->b, a, &of_b, &of_a);
+    OzFieldSide side_a = oz_field_side(a, pair->outer_a);
+    OzFieldSide side_b = oz_field_side(b, pair->outer_b);
+    return pair->weight_a * oz_field_integral(a, &side_a, b, &of_a, &of_b) +
+           pair->weight_b * oz_field_integral(b, &side_b, a, &of_b, &of_a);
 }

@@ -8,6 +8,7 @@
 #include "sim/element_forces.h"
 #include "sim/read_snapshot.h"
 #include "sim/sim.h"
+#include "sim/trial.h"
 
 #include <stdlib.h>
 
@@ -204,6 +205,27 @@ static void test_swallowed(void **state)
     rig_close(&rig);
 }
 
+/* How far a hit of 0.1 m/s at a floor bends the second star, its outline copied along. */
+static double bend_of(const char *overlap)
+{
+    ElementRig rig;
+    OzTrial trial;
+    open_rig(&rig, stars, 1e-6, overlap);
+    must(oz_trial_hit(&trial, &rig.scene, &rig.grains, 1, 0.1));
+    rig_close(&rig);
+    return trial.bend;
+}
+
+/* A tip is softer than by kinds (test_triangle_field.c, test_corner) and bends less; with a depth
+ * that did not know the outline it would bend more, 1.04 of the kinds'. */
+static void test_trial(void **state)
+{
+    (void)state;
+    double field = bend_of("field"), kinds = bend_of("kinds");
+    print_message("a hit bends by %.4g rad, by kinds %.4g\n", field, kinds);
+    assert_true(field < 0.97 * kinds && field > 0.8 * kinds);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,6 +233,7 @@ int main(void)
         cmocka_unit_test(test_sums),
         cmocka_unit_test(test_energy_in_a_heap),
         cmocka_unit_test(test_swallowed),
+        cmocka_unit_test(test_trial),
         cmocka_unit_test(test_device),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

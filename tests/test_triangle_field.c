@@ -59,12 +59,13 @@ typedef struct Pair {
 
 static OzFieldPair field_of(const Pair *p)
 {
-    mask a[3], b[3];
+    OzFieldPair pair;
     for (int k = 0; k < 3; k++) {
-        a[k] = p->outer_a >> k & 1;
-        b[k] = p->outer_b >> k & 1;
+        pair.outer_a[k] = p->outer_a >> k & 1;
+        pair.outer_b[k] = p->outer_b >> k & 1;
     }
-    return oz_field_pair(&p->a, &p->b, a, b, p->wall);
+    oz_field_weigh(&pair, p->wall);
+    return pair;
 }
 
 static OzOverlap overlap_of(const Pair *p)

@@ -5,17 +5,17 @@
 #include "model/elements.h"
 #include "sim/element_dialect.h"
 
-static inline OzFieldPair oz_element_overlap_field(const OzElements *elements, int a, int b,
-                                                   const OzTriangle *one, const OzTriangle *other)
+static inline OzFieldPair oz_element_overlap_field(const OzElements *elements, int a, int b)
 {
+    OzFieldPair pair;
     int edges_a = oz_elements_outer_edges(elements, a);
     int edges_b = oz_elements_outer_edges(elements, b);
-    mask outer_a[3], outer_b[3];
     for (int k = 0; k < 3; k++) {
-        outer_a[k] = edges_a >> k & 1;
-        outer_b[k] = edges_b >> k & 1;
+        pair.outer_a[k] = edges_a >> k & 1;
+        pair.outer_b[k] = edges_b >> k & 1;
     }
-    return oz_field_pair(one, other, outer_a, outer_b, b >= elements->free_count);
+    oz_field_weigh(&pair, b >= elements->free_count);
+    return pair;
 }
 
 /* Of elements a and b, which are where the triangles say. With a potential, all but push, moment,
@@ -25,7 +25,7 @@ static inline OzOverlap oz_element_overlap_find(const OzElements *elements, int 
 {
     OzOverlap o = oz_triangle_overlap(one, other);
     if (OZ_TRIANGLE_FIELD) {
-        OzFieldPair pair = oz_element_overlap_field(elements, a, b, one, other);
+        OzFieldPair pair = oz_element_overlap_field(elements, a, b);
         OzOverlap felt = oz_field_overlap(one, other, &pair);
         o.push = felt.push;
         o.moment = felt.moment;

@@ -154,7 +154,8 @@ done:
     return status;
 }
 
-/* What contacts with a potential know of elements. */
+/* What contacts with a potential know of elements. Discs, which have no edges, count as those of
+ * one: lanes of one outer edge are the quickest. */
 static OzStatus write_outer_edges(OzArrays *arrays, int member, const OzElements *elements)
 {
     OzStatus status = OZ_OK;
@@ -165,7 +166,9 @@ static OzStatus write_outer_edges(OzArrays *arrays, int member, const OzElements
     }
     OZ_TRY(OZ_NEW(&edges, z->slots));
     for (int64_t i = 0; i < elements->count; i++) {
-        edges[oz_element_fields_slot(z, elements, i)] = oz_elements_outer_edges(elements, i);
+        bool disc = elements->radius[i] > 0;
+        edges[oz_element_fields_slot(z, elements, i)] =
+            disc ? 1 : oz_elements_outer_edges(elements, i);
     }
     OZ_TRY(oz_arrays_write(arrays, OZ_ELEMENT_FIELD_outer_edges, member, edges,
                            (size_t)z->slots * sizeof *edges));
