@@ -1,5 +1,5 @@
 /* A contact of two triangles that has a potential in every kind (after Munjiza's potential contact,
- * The Combined Finite-Discrete Element Method, 2004, section 2.4, with a field measured from the
+ * The Combined Finite-Discrete Element Method, 2004, section 2.3, with a field measured from the
  * outside of a grain). The depth of a point of a triangle is its distance (m) from the nearest of
  * the triangle's outer edges, those on the outside of its grain or wall. Times the stiffness Y, the
  * potential of triangles a and b is
