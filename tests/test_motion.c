@@ -1,6 +1,7 @@
 /* Walls whose motion changes: the closed form on both sides of the zero crossing. */
 #include "model/motion.h"
 #include "model/wall_motion.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -107,6 +108,57 @@ static void test_changes_follow_each_other(void **state)
     ASSERT_NEAR(oz_motion_tap(&fourth.scene, 0.2), 2);
 }
 
+/* 3 mm at 5 Hz, from 60 degrees of the sine on, between 0.2 and 0.73 s: where it was built before,
+ * where it has come to afterwards; periods are counted from time 0. */
+static void test_shakes_from_a_phase_between_two_times(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "model: rods\ntime: {step: 1e-5, duration: 1}\n"
+        "contact: {contact_time: 1e-3, restitution: 0.5}\n"
+        "grains:\n  - {kind: single, diameter: 0.01, position: [0, 0, 0.1]}\nwalls:\n"
+        "  - {kind: plane, motion: {frequency: 5, amplitude: 3, phase: 60, from: 0.2, until: "
+        "0.73}}\n";
+    OzScene scene;
+    assert_int_equal(oz_scene_parse(&scene, "phase.yaml", text, NULL, 0), OZ_OK);
+    const OzMotion *motion = &scene.walls[0].motion;
+    for (double t = 0; t < 1; t += 0.0313) {
+        double way = fmin(fmax(t, 0.2), 0.73) - 0.2, offset, speed, moves = t >= 0.2 && t < 0.73;
+        oz_motion_offset(motion, t, &offset, &speed);
+        ASSERT_NEAR(offset, 3 * (sin(2 * PI * 5 * way + PI / 3) - sin(PI / 3)));
+        ASSERT_NEAR(speed / 100, moves * 0.3 * PI * cos(2 * PI * 5 * way + PI / 3));
+        assert_true(fabs(offset) <= oz_motion_reach(motion));
+        ASSERT_NEAR(oz_motion_tap(&scene, t), 5 * t);
+        ASSERT_NEAR(oz_motion_time(&scene, 5 * t), t);
+    }
+    oz_scene_free(&scene);
+}
+
+/* 10 Hz from the sine's top on: asked for another at 0.01 s, it is on at 0.025 s, where the sine
+ * crosses zero, 1 below where the wall was built. */
+static void test_takes_over_from_a_phase(void **state)
+{
+    (void)state;
+    Floor old, next;
+    double speed = 0, before = 0;
+    make(&old, 1, 10);
+    old.wall.motion.shake = (OzShake){.phase = PI / 2, .base = 1};
+    make(&next, 3, 20);
+    oz_motion_take_over(&next.scene, &old.scene, 0.01);
+    ASSERT_NEAR(oz_motion_since(&next.scene), 0.025);
+    for (double t = 0.01; t < 0.025; t += 0.003) {
+        assert_true(offset_at(&next, t, &speed) == offset_at(&old, t, &before));
+    }
+    ASSERT_NEAR(offset_at(&next, 0.025, &speed), -1);
+    ASSERT_NEAR(speed / (-3 * 2 * PI * 20), 1);
+    ASSERT_NEAR(offset_at(&next, 0.025 + 0.0125, &speed), -4);
+    ASSERT_NEAR(oz_motion_tap(&next.scene, 0.025), 0.25);
+    ASSERT_NEAR(oz_motion_tap(&next.scene, 0.075), 1.25);
+    for (double t = 0; t < 0.3; t += 0.007) {
+        ASSERT_NEAR(oz_motion_time(&next.scene, oz_motion_tap(&next.scene, t)), t);
+    }
+}
+
 /* A drum changes at once, and its angle does not jump. */
 static void test_drums_go_on_from_their_angle(void **state)
 {
@@ -177,6 +229,8 @@ int main(void)
         cmocka_unit_test(test_takes_over_at_zero_crossing),
         cmocka_unit_test(test_unchanged_stays),
         cmocka_unit_test(test_changes_follow_each_other),
+        cmocka_unit_test(test_shakes_from_a_phase_between_two_times),
+        cmocka_unit_test(test_takes_over_from_a_phase),
         cmocka_unit_test(test_drums_go_on_from_their_angle),
         cmocka_unit_test(test_goes_on_between_two_times),
         cmocka_unit_test(test_turns_between_two_times),

@@ -18,7 +18,17 @@ static void print_shaken(FILE *file, int w, const OzScene *scene)
     } else {
         fprintf(file, "along [%.3g, %.3g, %.3g] and back", d[0], d[1], d[2]);
     }
-    fprintf(file, " at %g Hz: %.4g times gravity\n", motion->frequency, motion->acceleration_ratio);
+    fprintf(file, " at %g Hz: %.4g times gravity", motion->frequency, motion->acceleration_ratio);
+    if (motion->phase != 0) {
+        fprintf(file, "; from %g degrees on", motion->phase);
+    }
+    if (motion->from > 0 || motion->until > 0) {
+        fprintf(file, "; from %g s", motion->from);
+    }
+    if (motion->until > 0) {
+        fprintf(file, " until %g s", motion->until);
+    }
+    fputc('\n', file);
 }
 
 static void print_steady(FILE *file, int w, const OzMotion *motion)

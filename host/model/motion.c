@@ -16,7 +16,8 @@ static double sign_of(const OzShake *shake)
 
 static const OzShake *shake_at(const OzMotion *motion, double time)
 {
-    return time < motion->shake.since ? &motion->before : &motion->shake;
+    bool is_before = time < motion->shake.since && motion->before.frequency > 0;
+    return is_before ? &motion->before : &motion->shake;
 }
 
 /* The scene's numbers are those of the shake that it asks for. */
@@ -54,16 +55,19 @@ static bool is_under_way(const OzMotion *motion, double time)
 
 void oz_motion_offset(const OzMotion *motion, double time, double *offset, double *velocity)
 {
-    const OzShake *shake = shake_at(motion, time);
+    double way = time_under_way(motion, time);
+    bool moves = is_under_way(motion, time);
+    const OzShake *shake = shake_at(motion, way);
     if (motion->is_driven) {
         *offset = motion->driven[1] + motion->driven[2] * (time - motion->driven[0]);
         *velocity = motion->driven[2];
         return;
     }
     double amplitude = sign_of(shake) * amplitude_of(motion, shake);
-    double rate = 2 * PI * frequency_of(motion, shake), phase = rate * (time - shake->since);
-    *offset = motion->present ? amplitude * sin(phase) : 0;
-    *velocity = motion->present ? amplitude * rate * cos(phase) : 0;
+    double rate = 2 * PI * frequency_of(motion, shake),
+           phase = rate * (way - shake->since) + shake->phase;
+    *offset = motion->present ? amplitude * sin(phase) - shake->base : 0;
+    *velocity = motion->present && moves ? amplitude * rate * cos(phase) : 0;
     double speed = motion->present ? steady_speed(motion) : 0;
     double end = end_of(motion);
     if (motion->present && motion->trace) {
@@ -71,8 +75,8 @@ void oz_motion_offset(const OzMotion *motion, double time, double *offset, doubl
         *velocity = time < end ? *velocity : 0;
     }
     if (speed > 0) {
-        *offset = speed * (time_under_way(motion, time) - motion->from);
-        *velocity = is_under_way(motion, time) ? speed : 0;
+        *offset = speed * (way - motion->from);
+        *velocity = moves ? speed : 0;
     }
 }
 
@@ -95,7 +99,7 @@ static void copy_drive(OzMotion *to, const OzMotion *from)
 
 double oz_motion_reach(const OzMotion *motion)
 {
-    double shaken = motion->present ? motion->amplitude : 0;
+    double shaken = motion->present ? motion->amplitude + fabs(motion->shake.base) : 0;
     return motion->present && motion->trace ? motion->trace->reach : shaken;
 }
 
@@ -149,7 +153,7 @@ double oz_motion_tap(const OzScene *scene, double time)
         return scene->period > 0 ? time / scene->period : 0;
     }
     const OzShake *shake = shake_at(motion, time);
-    return shake->halves / 2 + (time - shake->since) / (1 / frequency_of(motion, shake));
+    return shake->taps + (time - shake->since) / (1 / frequency_of(motion, shake));
 }
 
 double oz_motion_time(const OzScene *scene, double tap)
@@ -158,9 +162,9 @@ double oz_motion_time(const OzScene *scene, double tap)
     if (!motion) {
         return tap * scene->period;
     }
-    bool is_before = tap < motion->shake.halves / 2;
+    bool is_before = tap < motion->shake.taps && motion->before.frequency > 0;
     const OzShake *shake = is_before ? &motion->before : &motion->shake;
-    return shake->since + (tap - shake->halves / 2) * (1 / frequency_of(motion, shake));
+    return shake->since + (tap - shake->taps) * (1 / frequency_of(motion, shake));
 }
 
 double oz_motion_since(const OzScene *scene)
@@ -183,7 +187,7 @@ static OzShake running_shake(const OzMotion *motion, double time)
 static double halves_to_go(const OzShake *shake, double time)
 {
     const double rounding = 1e-9;
-    return ceil(2 * shake->frequency * (time - shake->since) - rounding);
+    return ceil(2 * shake->frequency * (time - shake->since) + shake->phase / PI - rounding);
 }
 
 static void take_shake(OzMotion *next, const OzMotion *running, double time)
@@ -196,9 +200,13 @@ static void take_shake(OzMotion *next, const OzMotion *running, double time)
     next->before = running_shake(running, time);
     next->shake.since = time;
     if (next->before.frequency > 0) {
-        double halves = halves_to_go(&next->before, time);
-        next->shake.since = next->before.since + halves / (2 * next->before.frequency);
+        double halves = halves_to_go(&next->before, time_under_way(running, time));
+        double left = halves - next->before.phase / PI;
+        next->shake.since = next->before.since + left / (2 * next->before.frequency);
         next->shake.halves = next->before.halves + halves;
+        next->shake.taps = next->before.taps + left / 2;
+        next->shake.base = next->before.base;
+        next->shake.phase = 0;
     }
 }
 
@@ -256,6 +264,9 @@ static OzStatus shake_state(OzShake *shake, OzStateVisit *visit, const char *nam
     OZ_PASS(oz_state_enter(visit, name, 1));
     OZ_PASS(oz_state_double(visit, "since", "s", &shake->since, 1));
     OZ_PASS(oz_state_double(visit, "halves", "half periods", &shake->halves, 1));
+    OZ_PASS(oz_state_double(visit, "phase", "rad", &shake->phase, 1));
+    OZ_PASS(oz_state_double(visit, "base", "m", &shake->base, 1));
+    OZ_PASS(oz_state_double(visit, "taps", "periods", &shake->taps, 1));
     OZ_PASS(oz_state_double(visit, "amplitude", "m", &shake->amplitude, 1));
     OZ_PASS(oz_state_double(visit, "frequency", "Hz", &shake->frequency, 1));
     oz_state_leave(visit);

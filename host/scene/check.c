@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "scene/check_flat.h"
+#include "scene/check_motion.h"
 #include "scene/check_solid.h"
 #include "scene/keys.h"
 #include "scene/value.h"
@@ -12,8 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 typedef struct Checker {
     OzScene *scene;
@@ -46,27 +45,6 @@ static void make_unit(Checker *checker, double vector[3], const char *list, int 
         for (int axis = 0; axis < 3; axis++) {
             vector[axis] /= length;
         }
-    }
-}
-
-/* Either of amplitude and acceleration ratio gives the other: A (2 pi f)^2 = ratio g. */
-static void derive_motion(Checker *checker, OzMotion *motion, int i)
-{
-    double gravity = length_of(checker->scene->gravity);
-    double omega = 2 * PI * motion->frequency;
-    if (!motion->present || omega == 0) {
-        return;
-    }
-    if (motion->written_amplitude != 0) {
-        motion->amplitude = motion->written_amplitude;
-        motion->acceleration_ratio = gravity > 0 ? motion->amplitude * omega * omega / gravity : 0;
-        return;
-    }
-    motion->amplitude = motion->acceleration_ratio * gravity / (omega * omega);
-    if (gravity == 0 && motion->acceleration_ratio > 0) {
-        char path[64];
-        snprintf(path, sizeof path, "walls.%d.motion.acceleration_ratio", i);
-        fault(checker, path, "%s without gravity; expected amplitude", path);
     }
 }
 
@@ -133,7 +111,8 @@ static void derive_walls(Checker *checker)
         if (wall->motion.present && scene->model == OZ_MODEL_RODS) {
             derive_axes(checker, wall, i);
         }
-        derive_motion(checker, &wall->motion, i);
+        double gravity = length_of(scene->gravity);
+        oz_check_motion_derive(&wall->motion, gravity, i, checker->root, checker->faults);
         if (wall->motion.present && wall->motion.frequency > 0 && scene->period == 0) {
             scene->period = 1 / wall->motion.frequency;
         }

@@ -3,6 +3,10 @@
 
 #include "scene/wall_shape.h"
 
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
 /* A fault at a key of the wall's motion, or at the motion itself (name: ""). */
 #define FAULT(name, ...)                                                                           \
     do {                                                                                           \
@@ -33,7 +37,7 @@ static bool goes_on(const OzMotion *motion)
     return motion->velocity[0] != 0 || motion->velocity[1] != 0 || motion->velocity[2] != 0;
 }
 
-/* A wall that goes on goes along one line, and ends after it starts, as one that turns does.
+/* A wall that goes on goes along one line, and any ends after it starts.
  * Upright cylinders hold pictures and the room for grains in place. */
 static void check_steady(const OzWall *wall, int index, OzNode *root, OzFaults *faults)
 {
@@ -47,11 +51,13 @@ static void check_steady(const OzWall *wall, int index, OzNode *root, OzFaults *
     }
     bool is_timed = motion->from > 0 || motion->until > 0;
     const char *timed = motion->from > 0 ? ".from" : ".until";
-    if (is_timed && motion->frequency > 0) {
-        FAULT(timed, "a wall that is shaken starts or stops; expected one of the two");
-    } else if (is_timed && !goes_on(motion) && !motion->file && !motion->has_turning) {
-        FAULT(timed, "a wall that neither goes on nor turns starts or stops; expected "
+    bool moves = motion->frequency > 0 || goes_on(motion) || motion->file || motion->has_turning;
+    if (is_timed && !moves) {
+        FAULT(timed, "a wall that does not move starts or stops; expected motion.frequency, "
                      "motion.velocity, motion.angular_velocity or motion.file with it");
+    }
+    if (motion->phase != 0 && !(motion->frequency > 0)) {
+        FAULT(".phase", "a wall that is not shaken has a phase; expected motion.frequency with it");
     }
     if (motion->until > 0 && motion->until <= motion->from) {
         FAULT(".until", "a wall stops at %g s and starts at %g s; expected a later end",
@@ -110,4 +116,33 @@ void oz_check_motion_wall(const OzWall *wall, int index, OzNode *root, OzFaults 
     check_trace(wall, index, root, faults);
     check_steady(wall, index, root, faults);
     check_turning(wall, index, root, faults);
+}
+
+/* Where it was built, whatever its phase. */
+static void start(OzMotion *motion)
+{
+    double phase = motion->phase * PI / 180;
+    motion->shake = (OzShake){.since = motion->from,
+                              .phase = phase,
+                              .base = motion->amplitude * sin(phase),
+                              .taps = motion->from * motion->frequency};
+}
+
+void oz_check_motion_derive(OzMotion *motion, double gravity, int index, OzNode *root,
+                            OzFaults *faults)
+{
+    double omega = 2 * PI * motion->frequency;
+    if (!motion->present || omega == 0) {
+        return;
+    }
+    if (motion->written_amplitude != 0) {
+        motion->amplitude = motion->written_amplitude;
+        motion->acceleration_ratio = gravity > 0 ? motion->amplitude * omega * omega / gravity : 0;
+    } else {
+        motion->amplitude = motion->acceleration_ratio * gravity / (omega * omega);
+    }
+    start(motion);
+    if (motion->written_amplitude == 0 && gravity == 0 && motion->acceleration_ratio > 0) {
+        FAULT(".acceleration_ratio", "%s without gravity; expected amplitude", path_);
+    }
 }

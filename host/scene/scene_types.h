@@ -75,10 +75,13 @@ typedef struct OzContactValues {
     double poisson_ratio;           /* hertz-mindlin                                          */
 } OzContactValues;
 
-/* A stretch of shaking: offset (-1)^halves A sin(2 pi f (t - since)). */
+/* A stretch of shaking: offset (-1)^halves A sin(2 pi f (t - since) + phase) - base. */
 typedef struct OzShake {
-    double since;                /* s, a zero crossing                          */
-    double halves;               /* whole: half periods of the wall before that */
+    double since;                /* s: motion.from, then where the sine crosses zero             */
+    double halves;               /* whole: half periods of the sine before that                  */
+    double phase;                /* rad: motion.phase, then 0                                    */
+    double base;                 /* m: taken off, so that the wall starts where it was built     */
+    double taps;                 /* periods of the wall from time 0 to `since`                   */
     double amplitude, frequency; /* m, Hz */
 } OzShake;
 
@@ -87,7 +90,7 @@ typedef enum OzMeasured { OZ_MEASURED_OFFSET, OZ_MEASURED_ACCELERATION } OzMeasu
 
 typedef struct OzTrace OzTrace; /* scene/trace.h */
 
-/* Sinusoidal motion along a direction: offset A sin(2 pi f t), 0 at time 0 and along it first,
+/* Sinusoidal motion along a direction: offset A (sin(2 pi f (t - from) + phase) - sin phase),
  * unless it took over from another motion (model/motion.h); or a steady one, or a trace. Beside
  * them it may turn. */
 typedef struct OzMotion {
@@ -97,6 +100,7 @@ typedef struct OzMotion {
     double amplitude;          /* m                                                      written */
     double written_amplitude;  /* m; 0 when the acceleration ratio was written                  */
     bool has_ratio, has_amplitude, has_turning; /* whether these were written, also as 0        */
+    double phase;            /* degrees, where the sine starts                                */
     double angular_velocity; /* rad/s: trigrains about the wall's point; rods about its axis  */
     double direction[3];     /* rods: a unit vector, along which it is shaken; zero: upwards   */
     double axis[3];          /* rods: a unit vector along the axis, through the wall's point ...  */
@@ -104,15 +108,15 @@ typedef struct OzMotion {
     bool has_axis;           /* disc, plane: axis was written, and is not its normal              */
     bool has_point;          /* point was written                                                 */
     double velocity[3];      /* rods, m/s: it goes on so; then direction is along it            */
-    double from, until;      /* s: when it starts to turn, to go on or to follow its trace, and
-                              * when it stops; until 0: for ever                               */
+    double from, until;      /* s: when it starts to be shaken, to turn, to go on or to follow its
+                              * trace, and when it stops; until 0: for ever                    */
     char *file, *column;     /* of a trace; NULL: none; NULL: the only one         */
     OzMeasured measured;
     bool closed;    /* accelerations: it ends where it began */
     double scale;   /* SI over what the file has                                                */
     OzTrace *trace; /* shared with the scene's copies; NULL: none                               */
     OzShake shake;  /* since when it is shaken so (amplitude and frequency are those above);
-                     * zero in a scene as loaded                                                */
+                     * in a scene as loaded since the start                                     */
     OzShake before; /* how it is shaken until then                                              */
     double turned, turned_since; /* rad, s: its angle at a time, and that time; zero as loaded  */
     bool is_driven;              /* from outside (sim/push.h), instead of all offsets above     */
