@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Cells of a grid at most: so many for each triangle, and some. Fewer cells are larger, with longer
- * lists; at 100 000 triangles these take a tenth of a second to fill. */
+ * lists. */
 static const double cells_a_face = 8, cells_more = 4096;
 
 /* Grains reach that much farther than they do, in float. */
@@ -24,6 +24,8 @@ typedef struct Grid {
     int cells[3], count;
     int *first; /* count + 1 */
     int *face;
+    int *found; /* cell and triangle of each entry, in the order of triangles, while it is made */
+    int64_t entries, capacity;
 } Grid;
 
 static void choose_cells(Grid *grid, const OzWallMesh *mesh, double reach)
@@ -43,15 +45,19 @@ static void choose_cells(Grid *grid, const OzWallMesh *mesh, double reach)
     }
 }
 
-/* Whether a grain in a cell may touch a triangle: the cell's corners are so far from its middle. */
-static bool reaches(const Grid *grid, const int at[3], int face)
+/* Whether a grain in a cell may touch a triangle: the cell's corners are so far from its middle.
+ * normal: a unit vector across it, or none; most cells are too far from its plane already. */
+static bool reaches(const Grid *grid, const int at[3], int face, const double normal[3])
 {
-    double middle[3], nearest[3];
+    const double *corner = grid->mesh->corners + 9 * (size_t)face;
+    double middle[3], nearest[3], off = 0;
+    double most = grid->reach + margin * sqrt(0.75) * grid->cell;
     for (int k = 0; k < 3; k++) {
         middle[k] = grid->low[k] + (at[k] + 0.5) * grid->cell;
+        off += normal[k] * (middle[k] - corner[k]);
     }
-    return oz_wall_mesh_face_distance(grid->mesh, face, middle, nearest) <=
-           grid->reach + margin * sqrt(0.75) * grid->cell;
+    return !(fabs(off) > margin * most) &&
+           oz_wall_mesh_face_distance(grid->mesh, face, middle, nearest) <= most;
 }
 
 /* Cells that a triangle's box reaches into. */
@@ -67,49 +73,53 @@ static void cells_of(const Grid *grid, int face, int from[3], int to[3])
     }
 }
 
-/* Counts a triangle into its cells' entries after the next, or puts it there. */
-static void enter(Grid *grid, int face, bool puts)
+/* Counts a triangle into its cells' entries after the next, and notes which they are. */
+static OzStatus enter(Grid *grid, int face)
 {
     int from[3], to[3], at[3];
+    double normal[3];
     cells_of(grid, face, from, to);
+    oz_mesh_edges_normal(grid->mesh->corners + 9 * (size_t)face, normal);
     for (at[2] = from[2]; at[2] <= to[2]; at[2]++) {
         for (at[1] = from[1]; at[1] <= to[1]; at[1]++) {
             for (at[0] = from[0]; at[0] <= to[0]; at[0]++) {
                 int cell = (at[2] * grid->cells[1] + at[1]) * grid->cells[0] + at[0];
-                if (reaches(grid, at, face)) {
-                    int *entry = &grid->first[cell + (puts ? 1 : 2)];
-                    if (puts) {
-                        grid->face[*entry] = face;
-                    }
-                    ++*entry;
+                if (!reaches(grid, at, face, normal)) {
+                    continue;
                 }
+                OZ_PASS(oz_memory_room((void **)&grid->found, &grid->capacity,
+                                       2 * grid->entries + 2, sizeof *grid->found,
+                                       "triangles of cells"));
+                grid->found[2 * grid->entries] = cell;
+                grid->found[2 * grid->entries++ + 1] = face;
+                grid->first[cell + 2]++;
             }
         }
     }
+    return OZ_OK;
 }
 
-/* In the order of triangles within each cell. The caller frees first and face. */
+/* In the order of triangles within each cell. The caller frees first, face and found. */
 static OzStatus make(Grid *grid, const OzWallMesh *mesh, double reach)
 {
+    const int64_t most = 1000000000;
     choose_cells(grid, mesh, reach);
     OZ_PASS(OZ_NEW(&grid->first, grid->count + 2));
-    for (int face = 0; face < mesh->count; face++) {
-        enter(grid, face, false);
+    for (int face = 0; face < mesh->count && grid->entries <= most; face++) {
+        OZ_PASS(enter(grid, face));
     }
-    double all = 0;
     for (int c = 2; c < grid->count + 2; c++) {
-        all += grid->first[c];
         grid->first[c] += grid->first[c - 1];
     }
-    if (all > 1e9 || grid->count > 1 << 23) {
+    if (grid->entries > most || grid->count > 1 << 23) {
         return oz_status_fail(OZ_ERR_MEMORY,
                               "a mesh of %d triangles near %.3g m wide grains has %.3g entries in "
                               "%d cells; expected at most 1e9",
-                              mesh->count, 2 * reach, all, grid->count);
+                              mesh->count, 2 * reach, (double)grid->entries, grid->count);
     }
-    OZ_PASS(OZ_NEW(&grid->face, all));
-    for (int face = 0; face < mesh->count; face++) {
-        enter(grid, face, true);
+    OZ_PASS(OZ_NEW(&grid->face, (size_t)grid->entries));
+    for (int64_t entry = 0; entry < grid->entries; entry++) {
+        grid->face[grid->first[grid->found[2 * entry] + 1]++] = grid->found[2 * entry + 1];
     }
     return OZ_OK;
 }
@@ -118,6 +128,7 @@ static void release(Grid *grid)
 {
     free(grid->first);
     free(grid->face);
+    free(grid->found);
 }
 
 /* Meshes in the order of kernels' walls, which is the scene's. */
