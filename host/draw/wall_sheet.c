@@ -221,8 +221,8 @@ static void add_tube(const OzWallSheet *s, const OzWall *wall, const double poin
     add_band(s, &end, point, 0, false);
 }
 
-/* A box's sides are planes that face each other: the box's middle from one of these, and which is
- * the opposite one. */
+/* A box's sides are planes that face each other: which one is opposite side i, and half the way
+ * there, m. */
 static int find_opposite(const OzWallShape *sides, int i, double *half)
 {
     for (int j = 0; j < OZ_WALL_SIDES_MAX; j++) {
@@ -238,9 +238,11 @@ static int find_opposite(const OzWallShape *sides, int i, double *half)
     return i;
 }
 
-static void add_box(const OzWallSheet *s, const OzWallShape *sides, const double shift[3])
+/* Sides as built, each turned as the wall is now. */
+static void add_box(const OzWallSheet *s, const OzWallShape *sides, const OzWall *built,
+                    double turn, const double shift[3])
 {
-    double half[OZ_WALL_SIDES_MAX], middle[3] = {shift[0], shift[1], shift[2]};
+    double half[OZ_WALL_SIDES_MAX], middle[3] = {0};
     int opposite[OZ_WALL_SIDES_MAX];
     for (int i = 0; i < OZ_WALL_SIDES_MAX; i++) {
         const double *n = sides[i].normal, *p = sides[i].point;
@@ -265,6 +267,12 @@ static void add_box(const OzWallSheet *s, const OzWallShape *sides, const double
         for (int k = 0; k < 3; k++) {
             point[k] = middle[k] - half[i] * pane.normal[k];
         }
+        const OzWallSwing swing = oz_wall_swing_side(built, point, turn, 0);
+        oz_wall_swing_turn(swing.frame, pane.normal);
+        oz_wall_swing_turn(swing.frame, pane.across);
+        for (int k = 0; k < 3; k++) {
+            point[k] += swing.away[k] + shift[k];
+        }
         add_rectangle(s, &pane, point, false);
     }
 }
@@ -273,15 +281,16 @@ static void add_box(const OzWallSheet *s, const OzWallShape *sides, const double
 static void add_panes(const OzWallSheet *s, int w)
 {
     const OzWall *built = &s->snapshot->scene->walls[w];
-    const OzWall wall = oz_wall_swing_turned(built, oz_snapshot_turn(s->snapshot, w));
+    double turn = oz_snapshot_turn(s->snapshot, w);
+    const OzWall wall = oz_wall_swing_turned(built, turn);
     OzWallShape sides[OZ_WALL_SIDES_MAX];
     double shift[3], point[3];
     oz_wall_shape_shift(&wall, s->snapshot->wall_offset[w], shift);
     for (int k = 0; k < 3; k++) {
         point[k] = wall.point[k] + shift[k];
     }
-    if (wall.kind == OZ_WALL_BOX && oz_wall_shape_sides(&wall, sides) == OZ_WALL_SIDES_MAX) {
-        add_box(s, sides, shift);
+    if (wall.kind == OZ_WALL_BOX && oz_wall_shape_sides(built, sides) == OZ_WALL_SIDES_MAX) {
+        add_box(s, sides, built, turn, shift);
     } else if (wall.kind == OZ_WALL_CYLINDER && wall.side != OZ_SIDE_OUTSIDE && wall.length > 0) {
         add_tube(s, &wall, point);
     }
