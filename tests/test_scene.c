@@ -241,6 +241,19 @@ static void expect_refusal(char *text, const char *message)
     free(text);
 }
 
+/* All that walks a tree recurses: a path of 60000 groups once ended the program. */
+static void refuses_deep_settings(void **state)
+{
+    (void)state;
+    char *setting = repeat("", "a.", 60000);
+    setting[strlen(setting) - 1] = '=';
+    OzScene scene;
+    assert_int_equal(oz_scene_parse(&scene, "deep.yaml", SMALL, &setting, 1), OZ_ERR_INPUT);
+    assert_non_null(strstr(oz_status_text(), ".a....: a.a."));
+    assert_non_null(strstr(oz_status_text(), "names more than 32 groups; expected a key"));
+    free(setting);
+}
+
 static void refuses_huge_files(void **state)
 {
     (void)state;
@@ -371,6 +384,7 @@ int main(void)
         cmocka_unit_test(names_a_misspelt_key_once),
         cmocka_unit_test(names_corners_as_written),
         cmocka_unit_test(refuses_huge_files),
+        cmocka_unit_test(refuses_deep_settings),
         cmocka_unit_test(rows_are_complete),
         cmocka_unit_test(lists_each_key_once_by_model),
         cmocka_unit_test(finds_keys_by_path_else_by_text),

@@ -165,7 +165,10 @@ static int how_far(const OzKey *key, const char *path, size_t group, size_t *len
         return LONGEST_NAME;
     }
     *length = group + name_at(key->path + group, name);
-    return oz_spelling_distance(path + group, name);
+    int letters = (int)strlen(path + group), more = (int)strlen(name) - letters;
+    return abs(more) > oz_spelling_slips((size_t)letters)
+               ? LONGEST_NAME
+               : oz_spelling_distance(path + group, name);
 }
 
 bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size)

@@ -8,7 +8,6 @@
 #include <yaml.h>
 
 enum {
-    DEEPEST = 32,           /* scenes need 5; the builder and all that walks the tree recurse */
     MOST_KEYS = 1000,       /* in one map; the search for duplicates is quadratic             */
     LARGEST_TEXT = 1 << 21, /* 10000 populations; the worst text makes a tree 60 times its size */
 };
@@ -206,9 +205,10 @@ static OzStatus build(Builder *builder, OzNode **node, int depth)
 {
     OzStatus status = OZ_OK;
     *node = NULL;
-    if (depth > DEEPEST) {
+    if (depth > OZ_TREE_DEEPEST) {
         return STOP(builder, line_of(builder->event.start_mark),
-                    "nested deeper than %d; expected at most that", DEEPEST);
+                    "nested deeper than %d; expected at most that",
+                    OZ_TREE_DEEPEST);
     }
     switch (builder->event.type) {
     case YAML_ALIAS_EVENT:

@@ -139,11 +139,25 @@ static OzStatus enter(OzNode *node, const char *name, const OzSource *source, Oz
     return OZ_OK;
 }
 
+static bool is_too_deep(const char *path)
+{
+    int names = 1;
+    for (; *path; path++) {
+        names += *path == '.';
+    }
+    return names > OZ_TREE_DEEPEST;
+}
+
 OzStatus oz_layers_set(OzNode *root, const char *path, OzNode *value, OzFaults *faults)
 {
     OzStatus status = OZ_OK;
     OzNode *node = root;
     char *copy = NULL, *rest = NULL;
+    if (is_too_deep(path)) {
+        oz_faults_add(faults, value->source, 1, "%.40s... names more than %d groups; expected a key",
+                      path, OZ_TREE_DEEPEST);
+        goto done;
+    }
     OZ_TRY(oz_memory_text(&copy, path));
     rest = copy;
     const char *name = strsep(&rest, ".");

@@ -21,6 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { LONGEST_LABEL = 200 }; /* letters of a setting in its faults */
+
 typedef struct Loader {
     const OzScene *running; /* that the scene shall take over from; NULL: none      */
     OzSource *sources;      /* the scene, what it extends, then one for each setting */
@@ -190,7 +192,8 @@ static OzStatus parse_setting(Loader *loader, const char *setting, int i)
     OzNode *value = NULL;
     const char *equals = strchr(setting, '=');
     char *path = NULL;
-    if (asprintf(&loader->labels[i + 2], "--set %s", setting) < 0) {
+    const char *cut = strlen(setting) > LONGEST_LABEL ? "..." : "";
+    if (asprintf(&loader->labels[i + 2], "--set %.*s%s", LONGEST_LABEL, setting, cut) < 0) {
         loader->labels[i + 2] = NULL;
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a setting");
     }

@@ -117,22 +117,40 @@ OzNode *oz_tree_nearest(OzNode *root, const char *path)
     return descend(root, path, &rest);
 }
 
+/* Appends text to a path of `used` characters, as much of it as fits; returns the new length. */
+static size_t append(char *path, size_t size, size_t used, const char *text)
+{
+    size_t length = strnlen(text, size - 1 - used);
+    memcpy(path + used, text, length);
+    path[used + length] = '\0';
+    return used + length;
+}
+
+/* Writes the path of node; returns its length. */
+static size_t write_path(const OzNode *node, bool as_key, char *path, size_t size)
+{
+    if (!node->parent) {
+        return 0;
+    }
+    size_t used = write_path(node->parent, as_key, path, size);
+    bool entry = node->parent->kind == OZ_NODE_MAP;
+    char number[16];
+    if (!entry && as_key) {
+        return append(path, size, used, "[]");
+    }
+    if (node->parent->parent) {
+        used = append(path, size, used, ".");
+    }
+    if (!entry) {
+        snprintf(number, sizeof number, "%d", node->index);
+    }
+    return append(path, size, used, entry ? node->key : number);
+}
+
 void oz_tree_path(const OzNode *node, bool as_key, char *path, size_t size)
 {
     path[0] = '\0';
-    if (!node->parent) {
-        return;
-    }
-    oz_tree_path(node->parent, as_key, path, size);
-    const char *dot = node->parent->parent ? "." : "";
-    size_t used = strlen(path);
-    if (node->parent->kind == OZ_NODE_MAP) {
-        snprintf(path + used, size - used, "%s%s", dot, node->key);
-    } else if (as_key) {
-        snprintf(path + used, size - used, "[]");
-    } else {
-        snprintf(path + used, size - used, "%s%d", dot, node->index);
-    }
+    write_path(node, as_key, path, size);
 }
 
 void oz_tree_fault(OzNode *root, OzFaults *faults, const char *path, const char *format, ...)

@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+enum { OZ_TREE_DEEPEST = 32 }; /* levels; scenes need 5, and all that walks a tree recurses */
+
 typedef enum OzNodeKind { OZ_NODE_SCALAR, OZ_NODE_LIST, OZ_NODE_MAP } OzNodeKind;
 
 typedef struct OzNode OzNode;
