@@ -104,7 +104,8 @@ static void check_sizes(const OzWall *wall, int i, OzNode *root, OzFaults *fault
     char path[64];
     double least = fmin(wall->size[0], fmin(wall->size[1], wall->size[2]));
     snprintf(path, sizeof path, "walls.%d.size", i);
-    if (wall->kind == OZ_WALL_BOX && oz_tree_at(root, path) && !(least > 0)) {
+    bool is_read = oz_tree_at(root, path) && !oz_faults_name(faults, path);
+    if (wall->kind == OZ_WALL_BOX && is_read && !(least > 0)) {
         oz_tree_fault(root, faults, path, "%s has a side of %g m; expected more than 0", path,
                       least);
     }

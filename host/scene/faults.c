@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* More than anyone reads; a file of noise must not fill the memory with messages. */
 enum { MOST_FAULTS = 100 };
@@ -63,6 +64,16 @@ void oz_faults_add(OzFaults *faults, const OzSource *source, int line, const cha
     }
     blank_controls(fault.text);
     keep(faults, fault);
+}
+
+bool oz_faults_name(const OzFaults *faults, const char *path)
+{
+    bool found = false;
+    for (int i = 0; i < faults->count && !found; i++) {
+        const char *named = strstr(faults->rows[i].text, path);
+        found = named && strchr(". ", named[strlen(path)]);
+    }
+    return found;
 }
 
 static bool comes_after(const OzFault *a, const OzFault *b)

@@ -32,6 +32,9 @@ typedef struct OzFaults {
 void oz_faults_add(OzFaults *faults, const OzSource *source, int line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* Whether a fault is of the value at path, or of one in it. */
+bool oz_faults_name(const OzFaults *faults, const char *path);
+
 /* OZ_OK without any fault; otherwise fails with OZ_ERR_INPUT and every fault on its own line. */
 OzStatus oz_faults_report(OzFaults *faults);
 

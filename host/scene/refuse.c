@@ -20,10 +20,11 @@ static void refuse_item_key(OzFaults *faults, const OzNode *node, const OzKey *k
                   kind->path, kind->help, names);
 }
 
-/* Keys that had another home, and this one now. */
+/* Keys that are looked for here and have another name. */
 static const struct {
     const char *was, *is;
 } moved[] = {
+    {"grains[].length", "aspect: a grain's whole length over its diameter"},
     {"observe.contacts", "the group contacts, as in contacts: {}"},
     {"observe.contacts_interval", "contacts.interval"},
 };
@@ -33,8 +34,10 @@ static bool refuse_moved(OzFaults *faults, const OzNode *node, const char *path)
 {
     for (size_t k = 0; k < sizeof moved / sizeof *moved; k++) {
         if (strcmp(path, moved[k].was) == 0) {
-            oz_faults_add(faults, node->source, node->line, "%s has another name now; expected %s",
-                          path, moved[k].is);
+            char written[LONGEST_PATH];
+            oz_tree_path(node, false, written, sizeof written);
+            oz_faults_add(faults, node->source, node->line, "%s has another name; expected %s",
+                          written, moved[k].is);
             return true;
         }
     }
