@@ -171,6 +171,13 @@ static int how_far(const OzKey *key, const char *path, size_t group, size_t *len
                : oz_spelling_distance(path + group, name);
 }
 
+bool oz_describe_nears(const char *path, const OzKey *key)
+{
+    size_t group = group_length(path), length = 0, letters = strlen(path + group);
+    return letters <= LONGEST_NAME &&
+           how_far(key, path, group, &length) <= oz_spelling_slips(letters);
+}
+
 bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size)
 {
     size_t group = group_length(path);

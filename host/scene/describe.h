@@ -13,6 +13,9 @@ void oz_describe_node(const OzNode *node, char *text, size_t size);
 /* The model's known path that an unknown one was probably meant to be; false when none is near. */
 bool oz_describe_nearest(const char *path, int model, char *nearest, size_t size);
 
+/* Whether the unknown path could be a misspelling of the key: the nearest is one of these. */
+bool oz_describe_nears(const char *path, const OzKey *key);
+
 /* The model's names directly below a group ("" is the scene itself), with commas; of a list's items
  * those of the kinds and shapes whose bits are set (0: of any). */
 void oz_describe_names(const char *group, int model, unsigned kinds, unsigned shapes, char *text,

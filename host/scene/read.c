@@ -83,17 +83,18 @@ static bool is_known(const char *path)
     return oz_keys_find(path) || oz_keys_is_group(path);
 }
 
-/* Whether a key that was written below the map but is not known is taken for the one at `wanted`:
+/* Whether a key that was written below the map but is not known is taken for the wanted one:
  * who is told what was meant need not be told that it is missing. */
-static bool is_misspelt(const Reader *reader, const OzNode *map, const char *wanted)
+static bool is_misspelt(const Reader *reader, const OzNode *map, const OzKey *wanted)
 {
     char path[LONGEST_PATH], near[LONGEST_PATH];
     bool found = false;
     for (int i = 0; map->kind == OZ_NODE_MAP && i < map->count && !found; i++) {
         oz_tree_path(map->items[i], true, path, sizeof path);
         found = is_known(path) ? is_misspelt(reader, map->items[i], wanted)
-                               : oz_describe_nearest(path, reader->model, near, sizeof near) &&
-                                     strcmp(near, wanted) == 0;
+                               : oz_describe_nears(path, wanted) &&
+                                     oz_describe_nearest(path, reader->model, near, sizeof near) &&
+                                     strcmp(near, wanted->path) == 0;
     }
     return found;
 }
@@ -260,7 +261,7 @@ static bool is_required(const Reader *reader, const OzKey *key, const Place *pla
 
 static bool is_there(const Reader *reader, const OzKey *key, const Place *place)
 {
-    return written(place, key) || is_misspelt(reader, place->node, key->path);
+    return written(place, key) || is_misspelt(reader, place->node, key);
 }
 
 static void check_required(const Reader *reader, const Place *place)
