@@ -124,6 +124,36 @@ static void test_density(void **state)
     bed_free(&bed);
 }
 
+/* Forty upright rods on what is a floor 1 mm high, and over what is none. */
+static void test_floors(void **state)
+{
+    (void)state;
+    const double d = 0.5e-3, length = 2e-3, disc = PI * 16e-6;
+    const OzWall box = {.kind = OZ_WALL_BOX, .point = {0, 0, 1e-3}, .size = {0.01, 0.008, 0.1}};
+    const OzWall tube = {.kind = OZ_WALL_CYLINDER, .diameter = 8e-3, .length = 0.1};
+    OzWall pot = tube, hung = tube, drum = tube, tumbler = box, turned = box;
+    pot.axis[2] = 1, pot.point[2] = 1e-3, pot.ends = OZ_ENDS_CLOSED;
+    hung.axis[2] = -1, hung.point[2] = 0.101, hung.ends = OZ_ENDS_CLOSED;
+    drum.axis[1] = 1, drum.ends = OZ_ENDS_CLOSED;
+    tumbler.motion = (OzMotion){.present = true, .angular_velocity = 1, .axis = {1, 0, 0}};
+    turned.motion = (OzMotion){.present = true, .angular_velocity = 1, .axis = {0, 0, -1}};
+    const OzWall walls[] = {box, pot, hung, turned, drum, tumbler};
+    const double areas[] = {80e-6, disc, disc, 80e-6, 0, 0};
+    for (int w = 0; w < 6; w++) {
+        Bed bed;
+        bed_create(&bed, 40, d, length);
+        bed.walls[0] = walls[w];
+        bed.scene.wall_count = 1;
+        for (int64_t i = 0; i < 40; i++) {
+            put(&bed, i, 1e-3 + (length + d) / 2, 0, 0, 1);
+        }
+        double all = 40 * oz_grains_volume(d, length) / (areas[w] * (length + d));
+        assert_near(value_of(&bed, "density_all"), areas[w] ? all : -1e99, 1e-9); /* nine digits */
+        assert_near(value_of(&bed, "count_layer1"), areas[w] ? 40 : -1e99, 0);
+        bed_free(&bed);
+    }
+}
+
 static void test_density_com_and_slab(void **state)
 {
     (void)state;
@@ -405,6 +435,7 @@ int main(void)
         cmocka_unit_test(test_clip_tilted),
         cmocka_unit_test(test_clip_slope),
         cmocka_unit_test(test_density),
+        cmocka_unit_test(test_floors),
         cmocka_unit_test(test_density_com_and_slab),
         cmocka_unit_test(test_angle),
         cmocka_unit_test(test_layers),

@@ -2,33 +2,22 @@
  * list of observables. */
 #include "command/inspect_columns.h"
 
+#include "observe/basin.h"
 #include "observe/series.h"
-#include "scene/wall_swing.h"
 
 #include <stdbool.h>
 #include <string.h>
 
-/* As oz_measure_create finds area and floor. */
 static bool lacks_area(const OzScene *scene, const OzGrains *grains)
 {
     (void)grains;
-    bool any = false;
-    for (int w = 0; w < scene->wall_count; w++) {
-        any |= oz_wall_shape_is_upright(&scene->walls[w]);
-    }
-    return !any;
+    return !(oz_basin_area(scene) > 0);
 }
 
 static bool lacks_floor(const OzScene *scene, const OzGrains *grains)
 {
     (void)grains;
-    bool any = false;
-    for (int w = 0; w < scene->wall_count; w++) {
-        const OzWall *wall = &scene->walls[w];
-        any |=
-            wall->kind == OZ_WALL_PLANE && wall->normal[2] > 1 - 1e-9 && !oz_wall_swing_tilts(wall);
-    }
-    return !any;
+    return oz_basin_floor(scene) < 0;
 }
 
 static bool lacks_shafts(const OzScene *scene, const OzGrains *grains)
@@ -76,14 +65,18 @@ static bool lacks_second(const OzScene *scene, const OzGrains *grains)
     return grains->count < 2;
 }
 
+#define NO_FLOOR "no level floor, from which they are measured"
+
 /* A column belongs to the first row whose beginning and end its name has. */
 static const struct {
     const char *begin, *end;
     bool (*lacks)(const OzScene *scene, const OzGrains *grains);
     const char *why;
 } reasons[] = {
-    {"density", "", lacks_area, "no upright cylinder, whose area they need"},
-    {"density", "", lacks_floor, "no level plane as a floor"},
+    {"density", "", lacks_area, "no upright cylinder or box, whose area they need"},
+    {"density", "", lacks_floor, NO_FLOOR},
+    {"count_layer", "", lacks_floor, NO_FLOOR},
+    {"angle_layer", "", lacks_floor, NO_FLOOR},
     {"angle", "", lacks_shafts, "no shafts"},
     {"nematic_", "", lacks_shafts, "no shafts"},
     {"psi6", "", lacks_shafts, "no shafts"},

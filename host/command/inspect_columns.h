@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-/* Prints "density, density_all: no level plane as a floor; tap: no wall moves up and down", or
+/* Prints "density, density_all: no level floor; tap: no wall moves up and down", or
  * "none". Columns that a scene does not have at all (of the other model, of a ledger not asked for)
  * are not named, nor those that fill only when something happens (the size of the last avalanche).
  */

@@ -3,14 +3,14 @@
 #include "observe/measure.h"
 
 #include "base/memory.h"
+#include "observe/basin.h"
 #include "observe/clip.h"
-#include "scene/wall_swing.h"
+#include "scene/wall_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double DEGREES = 57.29577951308232;
 /* The share of the volume that counts as outliers; the slack keeps 50 equal grains of 1000 within
  * it whatever the rounding of their sum. */
@@ -18,30 +18,12 @@ static const double OUTLIERS = 0.05, OUTLIERS_SLACK = 1 + 1e-9;
 /* The slab leaves out the ordered floor layer and, in the paper's bed, the loose top. */
 static const double SLAB_LOW = 2e-3, SLAB_HIGH = 10e-3;
 
-static bool is_floor(const OzWall *wall)
-{
-    return wall->kind == OZ_WALL_PLANE && wall->normal[2] > 1 - 1e-9 && !oz_wall_swing_tilts(wall);
-}
-
-static void find_container(OzMeasure *measure, const OzScene *scene)
-{
-    measure->floor = -1;
-    for (int w = 0; w < scene->wall_count; w++) {
-        const OzWall *wall = &scene->walls[w];
-        if (measure->floor < 0 && is_floor(wall)) {
-            measure->floor = w;
-        }
-        if (measure->area == 0 && oz_wall_shape_is_upright(wall)) {
-            measure->area = PI / 4 * wall->diameter * wall->diameter;
-        }
-    }
-}
-
 OzStatus oz_measure_create(OzMeasure *measure, const OzScene *scene, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
     memset(measure, 0, sizeof *measure);
-    find_container(measure, scene);
+    measure->floor = oz_basin_floor(scene);
+    measure->area = oz_basin_area(scene);
     OZ_TRY(OZ_NEW(&measure->volume, grains->count));
     OZ_TRY(OZ_NEW(&measure->heap, grains->count));
     OZ_TRY(OZ_NEW(&measure->top, grains->count));
@@ -70,7 +52,7 @@ static double floor_height(const OzMeasure *measure, const OzSnapshot *snapshot)
     int w = measure->floor;
     double shift[3];
     oz_wall_shape_shift(&snapshot->scene->walls[w], snapshot->wall_offset[w], shift);
-    return snapshot->scene->walls[w].point[2] + shift[2];
+    return oz_basin_bottom(&snapshot->scene->walls[w]) + shift[2];
 }
 
 /* Sinks heap[root] until no grain below it is higher. */
@@ -203,8 +185,11 @@ bool oz_measure_angle(const OzSnapshot *snapshot, double *value)
 void oz_measure_layers(const OzMeasure *measure, const OzSnapshot *snapshot,
                        OzLayer layers[OZ_MEASURE_LAYERS])
 {
-    double bottom = measure->floor < 0 ? 0 : snapshot->scene->walls[measure->floor].point[2];
     memset(layers, 0, OZ_MEASURE_LAYERS * sizeof *layers);
+    if (measure->floor < 0) {
+        return;
+    }
+    double bottom = oz_basin_bottom(&snapshot->scene->walls[measure->floor]);
     for (int64_t i = 0; i < snapshot->count; i++) {
         double level = floor((snapshot->position[3 * i + 2] - bottom) /
                              snapshot->scene->observe.layer_thickness);

@@ -8,8 +8,8 @@ enum { OZ_MEASURE_LAYERS = 4 };
 
 /* What never changes during a run, and room to work in. A zeroed one may be freed. */
 typedef struct OzMeasure {
-    int floor;      /* row of the first plane wall whose normal is +z, or -1      */
-    double area;    /* m^2, cross-section of the first cylinder; 0 without one    */
+    int floor;      /* of the walls, as observe/basin.h finds it; -1 without one  */
+    double area;    /* m^2, cross-section of the container; 0 without one         */
     double *volume; /* m^3, of each grain                                         */
     double total;   /* m^3, sum of volume                                         */
     double mass;    /* kg, of all grains                                          */
@@ -28,7 +28,7 @@ OzStatus oz_measure_create(OzMeasure *measure, const OzScene *scene, const OzGra
 void oz_measure_free(OzMeasure *measure);
 
 /* Each function below returns true and *value, or false where the scene or the bed has no such
- * value (no cylinder, no floor, no rod, no grain). A NaN in the state gives NaN. */
+ * value (no container, no floor, no rod, no grain). A NaN in the state gives NaN. */
 
 /* All volume / (area H), and 0.95 of it, which is the density without the 5 %. H: order the grains
  * by their highest point and take them from the top while the volume taken is at most 5 % of all
@@ -49,8 +49,8 @@ bool oz_measure_density_slab(const OzMeasure *measure, const OzSnapshot *snapsho
 bool oz_measure_angle(const OzSnapshot *snapshot, double *value);
 
 /* The layers of thickness scene->observe.layer_thickness, by grain centre, from the place of the
- * floor at rest (z = 0 without a floor); layer i holds i x thickness <= height < (i + 1) x
- * thickness. */
+ * floor at rest; layer i holds i x thickness <= height < (i + 1) x thickness. All are empty without
+ * a floor. */
 void oz_measure_layers(const OzMeasure *measure, const OzSnapshot *snapshot,
                        OzLayer layers[OZ_MEASURE_LAYERS]);
 

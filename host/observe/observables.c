@@ -71,7 +71,7 @@ static bool angle_layer(const OzObservation *o, double *value)
 static bool count_layer(const OzObservation *o, double *value)
 {
     *value = (double)o->layers[o->index].count;
-    return true;
+    return o->measure->floor >= 0;
 }
 
 static bool nematic(const OzObservation *o, double *value)
@@ -292,7 +292,7 @@ static const OzColumn list[] = {
     {"time", "s", "time since the settled bed", ALL, ALWAYS, false, time_now, 0},
     {"tap", "1", "time / period of the first moving wall; empty without one", ALL, ALWAYS, false, tap, 0},
     {"density", "1", "0.95 V/(area H): H above the moving floor, without the top 5 % of the volume; "
-     "this and every density is empty without cylinder or floor", RODS, ALWAYS, false, density, 0},
+     "this and every density is empty without upright cylinder or box, or floor", RODS, ALWAYS, false, density, 0},
     {"density_all", "1", "V/(area H), the same H", RODS, ALWAYS, false, density_all, 0},
     {"density_tap_mean", "1", "mean of density over the samples of the last two periods of the first moving "
      "wall: samples_per_tap a period, or one at the phase of observe.at", RODS, ALWAYS, false, tap_mean,
@@ -303,7 +303,7 @@ static const OzColumn list[] = {
      RODS, ALWAYS, false, density_com, 0},
     {"density_com_tap_mean", "1", "the same mean of density_com", RODS, ALWAYS, false, tap_mean,
      OZ_TAP_DENSITY_COM},
-    {"density_slab", "1", "share of the cylinder filled from 2 to 10 mm above the moving floor",
+    {"density_slab", "1", "share of the container filled from 2 to 10 mm above the moving floor",
      RODS, ALWAYS, false, density_slab, 0},
     {"density_slab_tap_mean", "1", "the same mean of density_slab", RODS, ALWAYS, false, tap_mean,
      OZ_TAP_DENSITY_SLAB},
@@ -311,8 +311,8 @@ static const OzColumn list[] = {
      false, angle, 0},
     {"angle_tap_mean", "degrees", "the same mean of angle", RODS, ALWAYS, false, tap_mean, OZ_TAP_ANGLE},
     {"angle_layer<i>", "degrees", "angle in the layers 1 to 4, from the floor's place at rest up, by grain centre; "
-     "empty without rods", RODS, LAYERS, false, angle_layer, 0},
-    {"count_layer<i>", "1", "grains whose centre lies in a layer", RODS, LAYERS, true, count_layer, 0},
+     "empty without rods or a floor", RODS, LAYERS, false, angle_layer, 0},
+    {"count_layer<i>", "1", "grains whose centre lies in a layer; empty without a floor", RODS, LAYERS, true, count_layer, 0},
     {"nematic_s", "1", "largest eigenvalue of <3uu - 1>/2, rods only: 1 aligned, 0 isotropic", RODS, ALWAYS,
      false, nematic, 0},
     {"nematic_axis", "1", "mean of (3 (u.a)^2 - 1)/2, rods only, a the axis of the first cylinder, else z; this "
