@@ -3,12 +3,17 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/stage.h"
 #include "scene/mesh_edges.h"
 #include "scene/mesh_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+/* Of a larger file, in bytes, a person is told when its reading lasts. */
+enum { LARGE_FILE = 4000000 };
 
 /* Cells for each triangle: a few triangles are in a cell then. */
 static const double cells_a_face = 2;
@@ -180,11 +185,27 @@ done:
     return status;
 }
 
+/* A large file's reading is told of while it lasts. */
+static OzStatus fill_patiently(OzWallMesh *mesh, const char *path, double scale, bool two_sided)
+{
+    OzStage stage;
+    struct stat file = {0};
+    bool is_large = stat(path, &file) == 0 && file.st_size > LARGE_FILE;
+    if (is_large) {
+        oz_stage_begin(&stage, "reading %s", path);
+    }
+    OzStatus status = fill(mesh, path, scale, two_sided);
+    if (is_large) {
+        oz_stage_end(&stage);
+    }
+    return status;
+}
+
 OzStatus oz_wall_mesh_load(OzWallMesh **mesh, const char *path, double scale, bool two_sided)
 {
     OZ_PASS(OZ_NEW(mesh, 1));
     (*mesh)->users = 1;
-    OzStatus status = fill(*mesh, path, scale, two_sided);
+    OzStatus status = fill_patiently(*mesh, path, scale, two_sided);
     if (status != OZ_OK) {
         oz_wall_mesh_drop(*mesh);
         *mesh = NULL;

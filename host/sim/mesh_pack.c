@@ -2,6 +2,7 @@
 #include "sim/mesh_pack.h"
 
 #include "base/memory.h"
+#include "base/stage.h"
 #include "scene/wall_mesh.h"
 #include "sim/scalars.h"
 #include "sim/sides.h"
@@ -13,6 +14,9 @@
 /* Cells of a grid at most: so many for each triangle, and some. Fewer cells are larger, with longer
  * lists. */
 static const double cells_a_face = 8, cells_more = 4096;
+
+/* Of more, a person is told when it lasts. */
+enum { MANY_FACES = 100000 };
 
 /* Grains reach that much farther than they do, in float. */
 static const double margin = 1.001;
@@ -45,19 +49,46 @@ static void choose_cells(Grid *grid, const OzWallMesh *mesh, double reach)
     }
 }
 
-/* Whether a grain in a cell may touch a triangle: the cell's corners are so far from its middle.
- * normal: a unit vector across it, or none; most cells are too far from its plane already. */
-static bool reaches(const Grid *grid, const int at[3], int face, const double normal[3])
+/* A triangle as seen from cells: its centre, how far its corners are from there, and a unit vector
+ * across it, or none. */
+typedef struct Face {
+    int index;
+    double centre[3], radius, normal[3];
+} Face;
+
+static Face face_of(const OzWallMesh *mesh, int index)
 {
-    const double *corner = grid->mesh->corners + 9 * (size_t)face;
-    double middle[3], nearest[3], off = 0;
+    const double *p = mesh->corners + 9 * (size_t)index;
+    Face face = {.index = index};
+    for (int k = 0; k < 3; k++) {
+        face.centre[k] = (p[k] + p[3 + k] + p[6 + k]) / 3;
+    }
+    for (int c = 0; c < 3; c++) {
+        double x = p[3 * c] - face.centre[0], y = p[3 * c + 1] - face.centre[1];
+        double z = p[3 * c + 2] - face.centre[2];
+        face.radius = fmax(face.radius, sqrt(x * x + y * y + z * z));
+    }
+    oz_mesh_edges_normal(p, face.normal);
+    return face;
+}
+
+/* Whether a grain in a cell may touch a triangle: the cell's corners are so far from its middle.
+ * Most cells are too far from its plane already, or are near enough to its centre. */
+static bool reaches(const Grid *grid, const int at[3], const Face *face)
+{
+    double middle[3], nearest[3], off = 0, square = 0;
     double most = grid->reach + margin * sqrt(0.75) * grid->cell;
     for (int k = 0; k < 3; k++) {
         middle[k] = grid->low[k] + (at[k] + 0.5) * grid->cell;
-        off += normal[k] * (middle[k] - corner[k]);
+        double away = middle[k] - face->centre[k];
+        off += face->normal[k] * away;
+        square += away * away;
     }
-    return !(fabs(off) > margin * most) &&
-           oz_wall_mesh_face_distance(grid->mesh, face, middle, nearest) <= most;
+    if (fabs(off) > margin * most || sqrt(square) > margin * (most + face->radius)) {
+        return false;
+    }
+    return sqrt(square) <= most ||
+           oz_wall_mesh_face_distance(grid->mesh, face->index, middle, nearest) <= most;
 }
 
 /* Cells that a triangle's box reaches into. */
@@ -74,24 +105,23 @@ static void cells_of(const Grid *grid, int face, int from[3], int to[3])
 }
 
 /* Counts a triangle into its cells' entries after the next, and notes which they are. */
-static OzStatus enter(Grid *grid, int face)
+static OzStatus enter(Grid *grid, int index)
 {
     int from[3], to[3], at[3];
-    double normal[3];
-    cells_of(grid, face, from, to);
-    oz_mesh_edges_normal(grid->mesh->corners + 9 * (size_t)face, normal);
+    Face face = face_of(grid->mesh, index);
+    cells_of(grid, index, from, to);
     for (at[2] = from[2]; at[2] <= to[2]; at[2]++) {
         for (at[1] = from[1]; at[1] <= to[1]; at[1]++) {
             for (at[0] = from[0]; at[0] <= to[0]; at[0]++) {
                 int cell = (at[2] * grid->cells[1] + at[1]) * grid->cells[0] + at[0];
-                if (!reaches(grid, at, face, normal)) {
+                if (!reaches(grid, at, &face)) {
                     continue;
                 }
                 OZ_PASS(oz_memory_room((void **)&grid->found, &grid->capacity,
                                        2 * grid->entries + 2, sizeof *grid->found,
                                        "triangles of cells"));
                 grid->found[2 * grid->entries] = cell;
-                grid->found[2 * grid->entries++ + 1] = face;
+                grid->found[2 * grid->entries++ + 1] = index;
                 grid->first[cell + 2]++;
             }
         }
@@ -100,7 +130,7 @@ static OzStatus enter(Grid *grid, int face)
 }
 
 /* In the order of triangles within each cell. The caller frees first, face and found. */
-static OzStatus make(Grid *grid, const OzWallMesh *mesh, double reach)
+static OzStatus sort(Grid *grid, const OzWallMesh *mesh, double reach)
 {
     const int64_t most = 1000000000;
     choose_cells(grid, mesh, reach);
@@ -122,6 +152,21 @@ static OzStatus make(Grid *grid, const OzWallMesh *mesh, double reach)
         grid->face[grid->first[grid->found[2 * entry] + 1]++] = grid->found[2 * entry + 1];
     }
     return OZ_OK;
+}
+
+/* The same; of many triangles it is told while it lasts. */
+static OzStatus make(Grid *grid, const OzWallMesh *mesh, double reach)
+{
+    OzStage stage;
+    bool is_large = mesh->count > MANY_FACES;
+    if (is_large) {
+        oz_stage_begin(&stage, "sorting %d triangles into cells", mesh->count);
+    }
+    OzStatus status = sort(grid, mesh, reach);
+    if (is_large) {
+        oz_stage_end(&stage);
+    }
+    return status;
 }
 
 static void release(Grid *grid)
