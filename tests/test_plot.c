@@ -7,7 +7,7 @@ static const char scene[] = "model: rods\n"
                             "contact: {contact_time: 5e-3, restitution: 0.5}\n"
                             "grains: [{kind: random, count: 2, diameter: 1e-3}]\n"
                             "walls: [{kind: plane}]\n"
-                            "observe: {interval: 0.02}\n";
+                            "observe: {interval: 0.02, walls: true}\n";
 
 static int begin(void **state)
 {
@@ -39,6 +39,9 @@ static void a_run_is_drawn(void **state)
     expect(0, "run/plot.svg", "plot run kinetic speed_max contact_count");
     assert_int_equal(count_of("run/plot.svg", curve), 3);
     assert_true(contains("run/plot.svg", "kinetic, J") && contains("run/plot.svg", "time, s"));
+    expect(0, "run/plot.svg", "plot run wall0_fz wall0_tx");
+    assert_true(contains("run/plot.svg", "wall0_fz, N<") &&
+                contains("run/plot.svg", "wall0_tx, N m"));
     expect(0, "run/plot.svg", "plot run deep_count"); /* which stays 0 */
     assert_false(contains("said", "Warning"));
     char *png = read_file("run/plot.png", NULL);

@@ -129,10 +129,25 @@ static void send_text(FILE *gnuplot, const char *text)
     fputc('\'', gnuplot);
 }
 
+/* Whether a column of the list has that name; `wall<i>_f<x>` has wall0_fx. */
+static bool has_name(const char *listed, const char *name)
+{
+    while (*listed && *name) {
+        bool is_part = *listed == '<';
+        size_t length = is_part ? strspn(name, "0123456789xyz") : *listed == *name;
+        if (length == 0) {
+            return false;
+        }
+        listed += is_part ? strcspn(listed, ">") + 1 : 1;
+        name += length;
+    }
+    return *listed == *name;
+}
+
 static const char *unit_of(const char *name)
 {
     const OzColumn *column = oz_series_columns();
-    while (column->name && strcmp(column->name, name) != 0) {
+    while (column->name && !has_name(column->name, name)) {
         column++;
     }
     return column->name && strcmp(column->unit, "1") != 0 ? column->unit : "";
@@ -238,8 +253,8 @@ static OzStatus draw(const Work *work, const char *terminal, const char *picture
                 terminal, WIDTH, 60 + PANEL_HEIGHT * work->count);
         send_text(gnuplot, path);
         fprintf(gnuplot,
-                "\nset datafile separator ','\nset datafile missing ''\nset lmargin 12\nset "
-                "autoscale xfix\nset grid lc rgb '#dddddd'\n"
+                "\nset datafile separator ','\nset datafile missing ''\nset lmargin 12\n"
+                "set format y '%%.4g'\nset autoscale xfix\nset grid lc rgb '#dddddd'\n"
                 "set multiplot layout %d,1 title ",
                 work->count);
         send_text(gnuplot, work->folder);
