@@ -131,17 +131,26 @@ static void divide(OzCamera *camera, const OzLook *look, double left, double rig
 }
 
 /* Blank borders for the overlay, in text sizes beside the margin: the colour bar's column on the
- * right (as much on the left where there is room), captions below, the heading above. */
+ * right, captions below, the heading above. On the left as much as on the right, in wide pictures
+ * whose views are as large with it. */
 static void place(OzCamera *camera, const OzLook *look, int view, double heading)
 {
     double font = camera->font;
     double margin = font > 0 ? 0.8 * font : 0.02 * fmin(look->width, look->height);
     double column = look->no_legend ? 0 : (look->colour == OZ_COLOUR_TYPE ? 9 : 6) * font;
-    double right = look->width - margin - column;
-    double left = margin + (look->width > 1.3 * look->height ? column : 0);
+    double right = look->width - margin - column, left = margin;
     double top = margin + heading * font, bottom = look->height - margin - 1.3 * font;
-    double gaps = look->view_count > 1 ? 1.12 : 1.0;
-    double widest = fit(camera, look, view, (right - left) / look->view_count / gaps, bottom - top);
+    double views = look->view_count * (look->view_count > 1 ? 1.12 : 1.0);
+    double widest = fit(camera, look, view, (right - left) / views, bottom - top);
+    double scale = camera->scale;
+    if (look->width > 1.3 * look->height) {
+        left = margin + column;
+        widest = fit(camera, look, view, (right - left) / views, bottom - top);
+        if (camera->scale < 0.98 * scale) {
+            left = margin;
+            widest = fit(camera, look, view, (right - left) / views, bottom - top);
+        }
+    }
     divide(camera, look, left, right, 0.5 * (top + bottom), widest);
 }
 

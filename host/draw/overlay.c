@@ -101,7 +101,7 @@ static void add_captions(const Page *page)
     static const char *const names[] = {[OZ_VIEW_LATERAL] = "lateral view",
                                         [OZ_VIEW_CUT] = "axial cut",
                                         [OZ_VIEW_TOP] = "from above",
-                                        [OZ_VIEW_FREE] = ""};
+                                        [OZ_VIEW_FREE] = "free view"};
     char every[48];
     if (page->look->flat) {
         snprintf(every, sizeof every, "a state every %.4g s", page->look->strobe);
