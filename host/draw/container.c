@@ -373,6 +373,7 @@ static void add_sheet(OzContainer *container, const Scope *scope, int row)
                          .behind = &container->meshes[OZ_CONTAINER_BEHIND],
                          .before = &container->meshes[OZ_CONTAINER_BEFORE],
                          .line_width = line_width(scope),
+                         .reach = 1.5 * scope->look->half_width,
                          .is_cut = scope->view == OZ_VIEW_CUT,
                          .cut = scope->look->cut};
     oz_wall_sheet_add(&sheet, row);
@@ -428,8 +429,6 @@ OzStatus oz_container_build(OzContainer *container, const OzSnapshot *snapshot, 
             add_plane(container, &scope, w);
         } else if (oz_obstacle_is(wall)) {
             add_obstacle(container, &scope, w);
-        } else if (oz_wall_shape_is_sheet(wall)) {
-            add_sheet(container, &scope, w);
         } else if (!oz_wall_shape_is_upright(wall)) {
             add_sheet(container, &scope, w);
             add_lines(container, &scope, w);

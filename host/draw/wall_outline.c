@@ -190,6 +190,9 @@ void oz_wall_outline_add(const OzWallOutline *o, int w, OzMesh *behind, OzMesh *
     double angle = oz_snapshot_turn(o->snapshot, w);
     Pen pen = {o, behind, before, rgba};
     oz_wall_shape_shift(wall, offset, shift);
+    if (oz_wall_shape_is_sheet(wall)) {
+        return;
+    }
     if (wall->kind == OZ_WALL_BOX) {
         draw_box(&pen, wall, angle, shift);
     } else if (wall->kind == OZ_WALL_CYLINDER) {

@@ -16,7 +16,7 @@ typedef struct OzWallOutline {
 } OzWallOutline;
 
 /* Adds the lines of wall w of the scene where it is now: those behind the grains and those before
- * them. */
+ * them; a sheet has its own (draw/wall_sheet.h). */
 void oz_wall_outline_add(const OzWallOutline *outline, int w, OzMesh *behind, OzMesh *before,
                          const float rgba[4]);
 

@@ -197,17 +197,20 @@ static void add_mesh(const OzWallSheet *s, const OzWallMesh *triangles, const do
     }
 }
 
-/* A tube as a band, and its ends as discs. */
+/* A tube as a band, and its ends as discs; an endless one is as long as its lines. */
 static void add_tube(const OzWallSheet *s, const OzWall *wall, const double point[3])
 {
     OzWallShape band = {.kind = OZ_WALL_BAND, .radius = wall->diameter / 2}, end = band;
-    double u[3], v[3], far_end[3];
+    double u[3], v[3], far_end[3], from[3], before = wall->length > 0 ? 0 : s->reach;
     oz_wall_shape_axis(wall, band.normal);
     oz_wall_shape_across(band.normal, u, v);
     memcpy(band.across, u, sizeof u);
     band.extent[0] = band.radius;
-    band.extent[1] = wall->length;
-    add_band(s, &band, point, 0, false);
+    band.extent[1] = wall->length + 2 * before;
+    for (int k = 0; k < 3; k++) {
+        from[k] = point[k] - before * band.normal[k];
+    }
+    add_band(s, &band, from, 0, false);
     if (wall->ends != OZ_ENDS_CLOSED) {
         return;
     }
@@ -277,6 +280,26 @@ static void add_box(const OzWallSheet *s, const OzWallShape *sides, const OzWall
     }
 }
 
+/* A ball in patches between parallels and meridians. */
+static void add_ball(const OzWallSheet *s, const OzWall *wall, const double point[3])
+{
+    for (int i = 0; i < AROUND / 2 * AROUND; i++) {
+        Patch patch = {.count = 4};
+        double seen[3], normal[3] = {0, 0, 0};
+        for (int c = 0; c < 4; c++) {
+            double across = 2 * PI * (i % AROUND + (c == 1 || c == 2)) / AROUND;
+            double down = 2 * PI * (i / AROUND + (c >= 2)) / AROUND;
+            const double out[3] = {sin(down) * cos(across), sin(down) * sin(across), cos(down)};
+            for (int k = 0; k < 3; k++) {
+                patch.points[c][k] = point[k] + wall->diameter / 2 * out[k];
+                normal[k] += out[k] / 4;
+            }
+        }
+        oz_camera_turn(s->camera, normal, seen);
+        add_patch(s, &patch, normal, seen[2] > 0);
+    }
+}
+
 /* What is no sheet, as the sheets it is like. */
 static void add_panes(const OzWallSheet *s, int w)
 {
@@ -291,8 +314,10 @@ static void add_panes(const OzWallSheet *s, int w)
     }
     if (wall.kind == OZ_WALL_BOX && oz_wall_shape_sides(built, sides) == OZ_WALL_SIDES_MAX) {
         add_box(s, sides, built, turn, shift);
-    } else if (wall.kind == OZ_WALL_CYLINDER && wall.side != OZ_SIDE_OUTSIDE && wall.length > 0) {
+    } else if (wall.kind == OZ_WALL_CYLINDER && wall.side != OZ_SIDE_OUTSIDE) {
         add_tube(s, &wall, point);
+    } else if (wall.kind == OZ_WALL_SPHERE) {
+        add_ball(s, &wall, point);
     }
 }
 

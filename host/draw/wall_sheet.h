@@ -11,10 +11,11 @@ typedef struct OzWallSheet {
     const OzCamera *camera;
     OzMesh *behind, *before;
     double line_width; /* pixels                             */
+    double reach;      /* m: endless tubes reach so far to either side */
     bool is_cut;       /* what lies before y = cut is left out */
     double cut;        /* m                                  */
 } OzWallSheet;
 
-/* Adds wall w of the scene where it is now; of a box, and of a cylinder that has a length and holds
- * grains, the glass without lines; of other walls nothing. */
+/* Adds wall w of the scene where it is now; of a box, and of a cylinder or ball that holds grains,
+ * the glass without lines; of other walls nothing. */
 void oz_wall_sheet_add(const OzWallSheet *sheet, int w);
