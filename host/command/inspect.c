@@ -30,6 +30,7 @@ static void print_grains(FILE *file, const OzGrains *grains)
                                "kg m^2, across the shaft");
     oz_inspect_range_print_all(file, "inertia_axis", grains->inertia_axis, NULL, grains->count,
                                "kg m^2, about it");
+    oz_inspect_range_print_places(file, grains->position, grains->count, false);
 }
 
 /* Whether a run would refuse member i of a sweep; said by name. */

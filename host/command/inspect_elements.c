@@ -18,6 +18,7 @@ static void print_bodies(FILE *file, const OzGrains *grains)
                                "m (circle around)");
     oz_inspect_range_print_all(file, "mass", grains->mass, NULL, grains->count, "kg");
     oz_inspect_range_print_all(file, "inertia", grains->inertia, NULL, grains->count, "kg m^2");
+    oz_inspect_range_print_places(file, grains->position, grains->count, true);
     fprintf(file, "elements             %lld of grains, %lld of walls\n",
             (long long)elements->free_count, (long long)(elements->count - elements->free_count));
     oz_inspect_range_print_all(file, "triangle", elements->area, elements->radius,

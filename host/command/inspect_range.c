@@ -2,7 +2,6 @@
 #include "command/inspect_range.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 void oz_inspect_range_print(FILE *file, const char *name, double low, double high, const char *unit)
@@ -26,5 +25,18 @@ void oz_inspect_range_print_all(FILE *file, const char *name, const double *valu
     }
     if (high >= low) {
         oz_inspect_range_print(file, name, low, high, unit);
+    }
+}
+
+void oz_inspect_range_print_places(FILE *file, const double *places, int64_t count, bool is_flat)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    for (int k = 0; k < (is_flat ? 2 : 3) && count > 0; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int64_t i = 0; i < count; i++) {
+            low = fmin(low, places[3 * i + k]);
+            high = fmax(high, places[3 * i + k]);
+        }
+        oz_inspect_range_print(file, names[k], low, high, "m (centres, as placed)");
     }
 }

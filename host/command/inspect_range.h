@@ -1,6 +1,7 @@
 /* A line about numbers that lie between two. */
 #pragma once
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -12,3 +13,6 @@ void oz_inspect_range_print(FILE *file, const char *name, double low, double hig
  * those above 0 are left out (discs, where triangles are meant). */
 void oz_inspect_range_print_all(FILE *file, const char *name, const double *values,
                                 const double *radius, int64_t count, const char *unit);
+
+/* `x low ... high m` and the same of y and, unless flat, of z: of count places of three numbers. */
+void oz_inspect_range_print_places(FILE *file, const double *places, int64_t count, bool is_flat);
