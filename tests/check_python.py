@@ -115,6 +115,7 @@ def test_picture():
 def test_examples():
     sys.path.insert(0, EXAMPLES)
     import calibrate_friction
+    import calibrate_with_grainlearning
     import control_floor
     import plot_angle
     import to_pandas
@@ -129,6 +130,22 @@ def test_examples():
     angle = calibrate_friction.mean_angle(0.3, 2)[0]
     friction = calibrate_friction.main(angle, steps=4, seeds=2)
     assert abs(friction - 0.3) < 0.15  # two seeds tell an angle to 0.5 degrees, friction to 0.05; the last interval is 0.06 wide
+    angle, reach = calibrate_friction.heaps(0.3, 2).mean(axis=0)
+    friction, spread = calibrate_with_grainlearning.main(angle, reach, iterations=2, samples=8, seeds=2)
+    assert abs(friction - 0.3) < 0.15 and 0 < spread < 0.2  # as above; the second samples are drawn from the first eight
+
+
+def test_notebook():
+    """The angle is plotted in one place of a notebook, again and again."""
+    import nbclient
+    import nbformat
+
+    cell = f"import sys; sys.path.insert(0, {EXAMPLES!r}); import plot_angle; plot_angle.main(3)"
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell)])
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    outputs = notebook.cells[0].outputs
+    pictures = [output for output in outputs if "image/png" in output.get("data", {})]
+    assert len(pictures) == 1 and any("3 taps" in output.get("text", "") for output in outputs)
 
 
 for name, test in list(globals().items()):

@@ -7,8 +7,8 @@ cd "$(dirname "$0")/.." || exit 1
 build=$(dirname "$program")
 work=$build/python
 mkdir -p "$work" || stop "cannot make $work"
-install_python "$work/environment" numpy cffi pandas matplotlib scikit-build-core ||
-    { echo "NumPy, cffi, pandas, Matplotlib and scikit-build-core cannot be installed: not tried"; exit 77; }
+install_python "$work/environment" numpy cffi pandas matplotlib grainlearning ipykernel nbclient scikit-build-core ||
+    { echo "the packages of tests/requirements.txt cannot be installed: not tried"; exit 77; }
 "$work/environment/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation --no-deps --force-reinstall \
     ./host/python -C "cmake.define.ORZO_LIBRARY=$build/liborzo.so" || exit 1
 

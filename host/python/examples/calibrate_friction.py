@@ -31,24 +31,30 @@ settle: {{drag: 70, time_max: 0.2, rest_time: 0.02}}
 """
 
 
-def angle_of_repose(friction, seed):
-    """Degrees: of a line through the highest grains of the heap's slices."""
+def heap(friction, seed):
+    """What is left of the column: the slope of a line through its slices' highest grains (degrees), and how far it reaches (mm)."""
     with orzo.Scene(text=HEAP, settings={"contact.friction": friction, "seed": seed}) as scene:
         scene.run_to(scene.end)
         x, z = scene.position[:, 0], scene.position[:, 2] + scene.diameter / 2
-    edges = np.arange(0, np.quantile(x, 0.97), 6e-3)
+    reach = np.quantile(x, 0.97)
+    edges = np.arange(0, reach, 6e-3)
     tops = [z[(x >= a) & (x < a + 6e-3)].max() for a in edges if ((x >= a) & (x < a + 6e-3)).any()]
     slope = np.polyfit(np.arange(len(tops)) * 6e-3, tops, 1)[0]
-    return float(np.degrees(np.arctan(-slope)))
+    return float(np.degrees(np.arctan(-slope))), 1e3 * float(reach)
+
+
+def heaps(friction, seeds):
+    """The same of each of so many seeds, two at a time."""
+    with ThreadPoolExecutor(2) as pool:
+        return np.array(list(pool.map(lambda seed: heap(friction, seed), range(1, seeds + 1))))
 
 
 def mean_angle(friction, seeds):
-    with ThreadPoolExecutor(2) as pool:
-        angles = list(pool.map(lambda seed: angle_of_repose(friction, seed), range(1, seeds + 1)))
+    angles = heaps(friction, seeds)[:, 0]
     return float(np.mean(angles)), float(np.std(angles) / np.sqrt(len(angles)))
 
 
-def main(measured=20.0, steps=6, seeds=4):
+def main(measured=8.0, steps=6, seeds=4):
     low, high = 0.02, 1.0
     for _ in range(int(steps)):
         friction = (low + high) / 2
