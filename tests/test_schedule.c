@@ -35,7 +35,7 @@ static Tally run_through(const OzScene *scene)
     return tally;
 }
 
-enum { ROW, SAMPLE, MOVIE };
+enum { ROW, SAMPLE, MOVIE, SNAPSHOT, KEPT = 5 }; /* bits of what is due */
 
 /* Four samples a period, the start's among them; a row every 30 ms and one at the end. */
 static void test_rows_and_samples(void **state)
@@ -152,6 +152,33 @@ static void test_seconds_across_a_change(void **state)
     assert_string_equal(text, "0 30 45 ");
 }
 
+/* A moment at the very step of a change is due once, whether it has been looked at or not. */
+static void test_moments_at_a_change(void **state)
+{
+    (void)state;
+    double times[] = {0, 0.03, 0.06};
+    OzScene scene = {.step = 1e-3, .duration = 0.1}, next;
+    scene.observe.interval = 0.1;
+    scene.snapshots.times = scene.checkpoint.times = times;
+    scene.snapshots.count = scene.checkpoint.count = 3;
+    next = scene;
+    for (int kind = SNAPSHOT; kind <= KEPT; kind += KEPT - SNAPSHOT) {
+        for (int64_t before = 29; before <= 30; before++) {
+            char text[128] = "";
+            OzSchedule schedule = oz_schedule_create(&scene, -1), given;
+            for (int64_t step = 0; step < before;) {
+                int due = 0;
+                given = schedule;
+                assert_true(oz_schedule_next(&schedule, &step, &due));
+                schedule = step > before ? given : schedule;
+            }
+            oz_schedule_take_over(&schedule, &next, 30);
+            list_steps(&schedule, kind, 1000, text, sizeof text);
+            assert_string_equal(text, before < 30 ? "30 60 " : "60 ");
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +187,7 @@ int main(void)
         cmocka_unit_test(test_frames_stand_with_the_floor),
         cmocka_unit_test(test_taps_across_a_change),
         cmocka_unit_test(test_seconds_across_a_change),
+        cmocka_unit_test(test_moments_at_a_change),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,9 @@
 #include "command/inspect_verdict.h"
 #include "report/report_bed.h"
 #include "run/members.h"
+#include "run/protocol.h"
 #include "scene/keys.h"
+#include "scene/phases.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -33,6 +35,14 @@ static void print_grains(FILE *file, const OzGrains *grains)
     oz_inspect_range_print_places(file, grains->position, grains->count, false);
 }
 
+static OzStatus judge_phases(const OzScene *scene, const OzGrains *grains, bool forced)
+{
+    OzReplay phases = {0};
+    OzStatus status = oz_protocol_make(&phases, scene, grains, forced, 0);
+    oz_replay_free(&phases);
+    return status;
+}
+
 /* Whether a run would refuse member i of a sweep; said by name. */
 static OzStatus judge_member(const OzMembers *plan, int64_t i)
 {
@@ -40,6 +50,7 @@ static OzStatus judge_member(const OzMembers *plan, int64_t i)
     OzGrains grains = {0};
     char *name = NULL;
     OzStatus status = oz_members_load(plan, i, &scene, &grains);
+    status = status == OZ_OK ? judge_phases(&scene, &grains, plan->options->force) : status;
     if (status != OZ_OK && oz_members_name(plan, i, &name) == OZ_OK) {
         oz_log_line("%s: %s", name, oz_status_text());
     }
@@ -56,7 +67,8 @@ static OzStatus judge(const OzOptions *options, const OzScene *scene, const OzGr
     OzStatus status = OZ_OK, loss = OZ_OK;
     int64_t lost = 0;
     if (scene->sweep.count == 0) {
-        return oz_members_judge(scene, grains, options->force);
+        OZ_PASS(oz_members_judge(scene, grains, options->force));
+        return judge_phases(scene, grains, options->force);
     }
     OZ_TRY(oz_members_create(&plan, options));
     for (int64_t i = 0; i < plan.count; i++) {
@@ -93,10 +105,22 @@ static void print_steps(FILE *file, const OzScene *scene)
     }
 }
 
+static void print_phases(FILE *file, const OzScene *scene)
+{
+    for (int i = 0; i < scene->phase_count; i++) {
+        const OzPhase *phase = &scene->phases[i];
+        double begin = oz_phases_begin(scene, i);
+        fprintf(file, "phase %-12d %s%s%.6g ... %.6g s%s%s\n", i + 1,
+                phase->name ? phase->name : "", phase->name ? ", " : "", begin,
+                begin + phase->length, phase->set ? ": " : "", phase->set ? phase->set : "");
+    }
+}
+
 /* What the verdict rests on. */
 static OzStatus print_details(FILE *file, const OzVerdict *v)
 {
     print_steps(file, v->scene);
+    print_phases(file, v->scene);
     if (v->scene->model == OZ_MODEL_TRIGRAINS) {
         return oz_inspect_elements_print(file, v->scene, v->grains);
     }

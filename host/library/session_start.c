@@ -13,12 +13,20 @@ static OzStatus load(OzScene *scene, const OzSession *session, int setting_count
     OZ_PASS(session->text ? oz_scene_parse(scene, session->path, session->text, session->settings,
                                            setting_count)
                           : oz_scene_load(scene, session->path, session->settings, setting_count));
-    if (scene->sweep.count == 0) {
+    OzStatus status = OZ_OK;
+    if (scene->sweep.count > 0) {
+        status =
+            oz_status_fail(OZ_ERR_INPUT, "%s: sweeps %s; expected one value of each (sweep: false)",
+                           scene->path, scene->sweep.key);
+    } else if (scene->phase_count > 0) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "%s: has phases; expected none (phases: false), their changes set "
+                                "at their times",
+                                scene->path);
+    }
+    if (status == OZ_OK) {
         return OZ_OK;
     }
-    OzStatus status =
-        oz_status_fail(OZ_ERR_INPUT, "%s: sweeps %s; expected one value of each (sweep: false)",
-                       scene->path, scene->sweep.key);
     oz_scene_free(scene);
     return status;
 }

@@ -2,33 +2,14 @@
  * Knows nothing of files and of tap means, which it is handed. */
 #include "observe/observables.h"
 
-#include "model/motion.h"
 #include "observe/element_energy.h"
 #include "observe/flat.h"
+#include "observe/moment.h"
 #include "observe/rod_energy.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static bool step(const OzObservation *o, double *value)
-{
-    *value = (double)o->snapshot->step;
-    return true;
-}
-
-static bool time_now(const OzObservation *o, double *value)
-{
-    *value = o->snapshot->time;
-    return true;
-}
-
-static bool tap(const OzObservation *o, double *value)
-{
-    const OzScene *scene = o->snapshot->scene;
-    *value = oz_motion_tap(scene, o->snapshot->time);
-    return scene->period > 0;
-}
 
 static bool density(const OzObservation *o, double *value)
 {
@@ -279,6 +260,7 @@ static bool residual(const OzObservation *o, double *value)
 #define ALWAYS     OZ_COLUMN_ALWAYS
 #define LEDGER     OZ_COLUMN_LEDGER
 #define ORDER      OZ_COLUMN_ORDER
+#define PHASES     OZ_COLUMN_PHASES
 #define LAYERS     OZ_COLUMN_LAYERS
 #define WALLS      OZ_COLUMN_WALLS
 #define WALL_TURNS OZ_COLUMN_WALL_TURNS
@@ -288,9 +270,10 @@ static bool residual(const OzObservation *o, double *value)
 
 /* clang-format off */
 static const OzColumn list[] = {
-    {"step", "1", "steps since the settled bed", ALL, ALWAYS, true, step, 0},
-    {"time", "s", "time since the settled bed", ALL, ALWAYS, false, time_now, 0},
-    {"tap", "1", "time / period of the first moving wall; empty without one", ALL, ALWAYS, false, tap, 0},
+    {"step", "1", "steps since the settled bed", ALL, ALWAYS, true, oz_moment_step, 0},
+    {"time", "s", "time since the settled bed", ALL, ALWAYS, false, oz_moment_time, 0},
+    {"tap", "1", "time / period of the first moving wall; empty without one", ALL, ALWAYS, false, oz_moment_tap, 0},
+    {"phase", "1", "number of the phase that has begun, from 1; only with phases", ALL, PHASES, true, oz_moment_phase, 0},
     {"density", "1", "0.95 V/(area H): H above the moving floor, without the top 5 % of the volume; "
      "this and every density is empty without upright cylinder or box, or floor", RODS, ALWAYS, false, density, 0},
     {"density_all", "1", "V/(area H), the same H", RODS, ALWAYS, false, density_all, 0},
@@ -417,6 +400,7 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
     const int cells[] = {[ALWAYS] = 1,
                          [LEDGER] = 1,
                          [ORDER] = 1,
+                         [PHASES] = 1,
                          [LAYERS] = OZ_MEASURE_LAYERS,
                          [WALLS] = scene->wall_count * (int)strlen(axes_of(WALLS, scene)),
                          [WALL_TURNS] =
@@ -429,6 +413,7 @@ int oz_observables_cells(const OzColumn *column, const OzScene *scene)
     bool of_walls = column->need == WALLS || column->need == WALL_TURNS;
     bool is_there = (column->need != LEDGER || scene->observe.ledger) &&
                     (column->need != ORDER || scene->observe.order) &&
+                    (column->need != PHASES || scene->phase_count > 0) &&
                     (!of_walls || scene->observe.walls);
     return is_there ? oz_observables_width(column, scene) : 0;
 }

@@ -275,9 +275,28 @@ void oz_schedule_find_end(OzSchedule *s)
     s->last_step = last_step_of(s->scene, &s->clock, s->until);
 }
 
+/* How many of these moments have been due: those before a step, and with_it the one at it. */
+static int count_due(const OzSchedule *s, const double *times, int count, int64_t step,
+                     bool with_it)
+{
+    int due = 0;
+    while (due < count && oz_step_clock_nearest(&s->clock, times[due]) < step + with_it) {
+        due++;
+    }
+    return due;
+}
+
+/* Whether the last of the moments that have been due lies at a step. */
+static bool had(const OzSchedule *s, const double *times, int due, int64_t step)
+{
+    return due > 0 && oz_step_clock_nearest(&s->clock, times[due - 1]) == step;
+}
+
 void oz_schedule_take_over(OzSchedule *s, const OzScene *next, int64_t step)
 {
     const OzSnapshotSettings *shots = &next->snapshots;
+    bool had_shot = had(s, s->scene->snapshots.times, s->snapshots, step);
+    bool had_kept = had(s, s->scene->checkpoint.times, s->kept, step);
     double now = oz_step_clock_time(&s->clock, step), intervals[OZ_TRACKS];
     settle_tracks(s, now);
     oz_step_clock_change(&s->clock, step, next->step);
@@ -286,15 +305,8 @@ void oz_schedule_take_over(OzSchedule *s, const OzScene *next, int64_t step)
         take_track(s, next, k, intervals[k], now);
     }
     s->scene = next;
-    s->snapshots = 0;
-    while (s->snapshots < shots->count &&
-           oz_step_clock_nearest(&s->clock, shots->times[s->snapshots]) <= step) {
-        s->snapshots++;
-    }
-    s->kept = 0;
-    while (s->kept < next->checkpoint.count && kept_step(s) <= step) {
-        s->kept++;
-    }
+    s->snapshots = count_due(s, shots->times, shots->count, step, had_shot);
+    s->kept = count_due(s, next->checkpoint.times, next->checkpoint.count, step, had_kept);
     oz_schedule_find_end(s);
     s->last_step = s->last_step > step ? s->last_step : step;
 }

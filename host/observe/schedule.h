@@ -64,10 +64,10 @@ typedef struct OzSchedule {
  * are due with every row, an export without one with every frame of the movie, or else row. */
 OzSchedule oz_schedule_create(const OzScene *scene, double until);
 
-/* Lets another scene's events follow after this step, up to which all have been due: what keeps its
- * distance goes on, what changes it is due at whole multiples of the new one, of taps where it is
- * written in taps. These change when the first moving wall does (oz_motion_since). A scene that
- * ends earlier than this step ends here. */
+/* Lets another scene's events follow from this step, before which all have been due; what has not
+ * been due at it stays so: what keeps its distance goes on, what changes it is due at whole
+ * multiples of the new one, of taps where it is written in taps. These change when the first moving
+ * wall does (oz_motion_since). A scene that ends earlier than this step ends here. */
 void oz_schedule_take_over(OzSchedule *schedule, const OzScene *next, int64_t step);
 
 /* Finds the end again, after what the scene's end depends on has been loaded. */

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "run/capacity.h"
 #include "run/ensemble_tables.h"
+#include "run/protocol.h"
 #include "sim/batch_fit.h"
 
 #include <stdlib.h>
@@ -50,7 +51,8 @@ static OzStatus load_member(OzGroups *groups, OzOutputs *member)
     return groups->options->replay
                ? oz_replay_read(&groups->loaded_replay, groups->options->replay_folder,
                                 member->name, groups->options->resumes)
-               : OZ_OK;
+               : oz_protocol_make(&groups->loaded_replay, &member->scene, &member->grains,
+                                  groups->options->force, 0);
 }
 
 /* Whether there is nothing to do of a member: a state has it, or the run that is repeated never
@@ -187,14 +189,19 @@ static OzStatus take_name(OzScene *scene, const char *name)
     return oz_memory_text(&scene->name, name);
 }
 
-/* What is left to make again of the members of state k, which have it in common. */
-static OzStatus load_begun(OzGroups *groups, int k)
+/* What is left to make of the changes of the members of state k, which have them in common, as
+ * the first one has them. */
+static OzStatus load_begun(OzGroups *groups, int k, const OzOutputs *first)
 {
     OzStatus status = OZ_OK;
     const OzCheckpointHead *head = &groups->resume->heads[k];
     char *name = NULL;
     if (!groups->begun) {
         OZ_TRY(OZ_NEW(&groups->begun, groups->resume->count));
+    }
+    if (!groups->options->replay) {
+        return oz_protocol_make(&groups->begun[k], &first->scene, &first->grains,
+                                groups->options->force, head->taken);
     }
     OZ_TRY(oz_members_name(&groups->plan, head->first, &name));
     OZ_TRY(oz_replay_read(&groups->begun[k], groups->options->replay_folder, name, true));
@@ -212,9 +219,7 @@ static OzStatus gather_begun(OzGroups *groups)
     for (int k = resume->next;
          k < resume->count && k - resume->next < oz_groups_most_workers(groups); k++) {
         const OzCheckpointHead *head = &resume->heads[k];
-        if (groups->options->replay) {
-            OZ_PASS(load_begun(groups, k));
-        }
+        int64_t first = groups->member_count;
         for (int64_t i = 0; i < head->count; i++) {
             OzOutputs **member = &groups->members[groups->member_count];
             OZ_PASS(OZ_NEW(member, 1));
@@ -226,6 +231,7 @@ static OzStatus gather_begun(OzGroups *groups)
             OZ_PASS(oz_members_name(&groups->plan, head->first + i, &(*member)->name));
             OZ_PASS(take_name(&(*member)->scene, head->name));
         }
+        OZ_PASS(load_begun(groups, k, groups->members[first]));
     }
     groups->schedule = oz_schedule_create(&groups->members[0]->scene, groups->options->until);
     warn_of_end(groups);
@@ -242,6 +248,11 @@ OzStatus oz_groups_open(OzGroups *groups, const OzOptions *options, OzResume *re
 {
     *groups = (OzGroups){.options = options, .resume = resume};
     OZ_PASS(oz_members_create(&groups->plan, options));
+    if (options->watch && !options->replay && groups->plan.scene.phase_count > 0) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "--watch of a scene with phases, which change it at their times; "
+                              "expected --set phases=false with it");
+    }
     OZ_PASS(OZ_NEW(&groups->outcomes, groups->plan.count));
     OZ_PASS(OZ_NEW(&groups->members, groups->plan.count));
     return resume ? OZ_OK : load_next(groups, &groups->loaded);
@@ -267,9 +278,14 @@ bool oz_groups_is_begun(const OzGroups *groups)
     return groups->member_count > 0 && groups->members[0]->goes_on;
 }
 
+bool oz_groups_has_changes(const OzGroups *groups)
+{
+    return groups->options->replay || groups->plan.scene.phase_count > 0;
+}
+
 const OzReplay *oz_groups_replay(const OzGroups *groups, int worker)
 {
-    if (!groups->options->replay) {
+    if (!oz_groups_has_changes(groups)) {
         return NULL;
     }
     return oz_groups_is_begun(groups) ? &groups->begun[groups->resume->next + worker]
@@ -278,7 +294,7 @@ const OzReplay *oz_groups_replay(const OzGroups *groups, int worker)
 
 int64_t oz_groups_taken(const OzGroups *groups, int worker)
 {
-    return groups->options->replay && oz_groups_is_begun(groups)
+    return oz_groups_has_changes(groups) && oz_groups_is_begun(groups)
                ? groups->resume->heads[groups->resume->next + worker].taken
                : 0;
 }
@@ -310,9 +326,12 @@ OzStatus oz_groups_write_tables(const OzGroups *groups, const char *folder)
     for (int64_t i = 0; i < groups->plan.count; i++) {
         free(name);
         OZ_TRY(oz_members_name(&groups->plan, i, &name));
-        OzEnsembleRow row = {name, oz_members_seed(&groups->plan, i),
-                             oz_members_value(&groups->plan, i), outcome_names[groups->outcomes[i]],
-                             groups->outcomes[i] != OZ_OUTCOME_NOT_STARTED, NULL};
+        OzEnsembleRow row = {name,
+                             oz_members_seed(&groups->plan, i),
+                             oz_members_value(&groups->plan, i),
+                             outcome_names[groups->outcomes[i]],
+                             groups->outcomes[i] != OZ_OUTCOME_NOT_STARTED,
+                             NULL};
         OZ_TRY(oz_ensemble_tables_add(ensemble, &row));
     }
 done:

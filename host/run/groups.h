@@ -20,7 +20,7 @@ typedef struct OzGroups {
     OzSchedule schedule; /* of the group                                        */
     OzOutputs *loaded;   /* the next group's first, NULL at the end             */
     OzReplay replay,
-        loaded_replay;    /* of a run that is repeated: the group's changes, the next one's */
+        loaded_replay;    /* changes known from the start: the group's, the next one's */
     OzReplay *begun;      /* what each of the states has of them left; NULL: no such run */
     int64_t loaded_count; /* members of the plan that were loaded or could not be */
     int64_t most;         /* that there is room for at a time; 0: not known yet  */
@@ -42,7 +42,10 @@ OzStatus oz_groups_gather(OzGroups *groups);
 /* Whether the group in hand goes on from states, one a worker. */
 bool oz_groups_is_begun(const OzGroups *groups);
 
-/* What its worker of that number has to make again; NULL: its run repeats none. */
+/* Whether all that changes is known from the start: the run repeats another one, or has phases. */
+bool oz_groups_has_changes(const OzGroups *groups);
+
+/* What changes its worker of that number has to make; NULL: none are known. */
 const OzReplay *oz_groups_replay(const OzGroups *groups, int worker);
 
 /* Changes that the worker's state has taken of these. */

@@ -77,7 +77,7 @@ static OzStatus add_row(OzReplay *replay, int64_t step, char *const cells[CELLS]
         OZ_PASS(oz_memory_grow((void **)&replay->changes, count, count + 1, sizeof *replay->changes,
                                "changes"));
         last = &replay->changes[replay->count++];
-        last->step = step;
+        *last = (OzReplayChange){.step = step};
     }
     return add_setting(last, cells[KEY], cells[NOW]);
 }
@@ -257,6 +257,7 @@ void oz_replay_free(OzReplay *replay)
             free(replay->changes[i].settings[k]);
         }
         free(replay->changes[i].settings);
+        free(replay->changes[i].what);
     }
     free(replay->changes);
     *replay = (OzReplay){0};

@@ -13,6 +13,7 @@ typedef struct OzReplayChange {
     int64_t step;
     char **settings;
     int count;
+    char *what; /* "phase 2, rest", owned; NULL of an earlier run's */
 } OzReplayChange;
 
 /* Zeroed is none. */

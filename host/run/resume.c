@@ -225,6 +225,12 @@ static OzStatus check_changes(const OzResume *resume)
     const OzOptions *options = &resume->options;
     OZ_TRY(oz_scene_load(&scene, options->paths[0], options->settings, options->setting_count));
     OZ_TRY(oz_scene_change(&next, &scene, resume->changes, resume->change_count));
+    if (scene.phase_count > 0 && resume->change_count > 0) {
+        status = oz_status_fail(OZ_ERR_INPUT,
+                                "%s has phases, which change it at their times; "
+                                "expected no --set but of the end and of states",
+                                scene.path);
+    }
 done:
     oz_scene_free(&scene);
     oz_scene_free(&next);

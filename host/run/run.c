@@ -127,12 +127,12 @@ static OzStatus open_live(Run *run)
     return options->stream ? oz_movie_stream_create(&live->stream, options->stream) : OZ_OK;
 }
 
-/* What takes changes. A run that repeats another one takes
- * that one's alone. */
+/* What takes changes. A run that repeats another one takes that one's alone, and one that has
+ * phases theirs. */
 static OzStatus open_reload(Run *run)
 {
     const OzScene *scene = &run->groups.plan.scene;
-    if (run->options->replay) {
+    if (oz_groups_has_changes(&run->groups)) {
         return OZ_OK;
     }
     return oz_reload_create(&run->reload, run->options, scene);

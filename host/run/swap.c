@@ -273,13 +273,16 @@ static OzStatus prepare(const OzWorker *worker, int64_t m, const OzReplayChange 
     return oz_take_over_compare(how, worker->device, &member->grains, &member->scene, next);
 }
 
-/* As the run that is repeated did it, built while it waits. */
+/* As the run that is repeated did it, or as a phase begins; built while it waits. */
 static OzStatus repeat(OzWorker *worker, const OzReplayChange *change)
 {
     OzStatus status = OZ_OK;
     OzScene *next = NULL;
     OzSwap *swap = NULL;
     bool rebuilds = false;
+    if (worker->leads && change->what) {
+        oz_log_line("%s, begins at step %lld", change->what, (long long)change->step);
+    }
     OZ_TRY(OZ_NEW(&next, worker->member_count));
     for (int64_t m = 0; m < worker->member_count; m++) {
         OzTakeOver how = OZ_TAKE_OVER_APPLY;

@@ -7,6 +7,7 @@
 #include "scene/check_motion.h"
 #include "scene/check_solid.h"
 #include "scene/keys.h"
+#include "scene/phases.h"
 #include "scene/value.h"
 
 #include <math.h>
@@ -417,6 +418,7 @@ OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
     OzStatus status = derive_snapshots(&checker);
     check_grain_count(&checker);
     check_run_length(&checker);
+    oz_phases_check(scene, root, faults);
     check_export(&checker);
     check_phase(&checker);
     check_movie(&checker);

@@ -6,6 +6,7 @@
 
 #include "scene/choices.h"
 #include "scene/fixed.h"
+#include "scene/phases.h"
 #include "scene/scene_types.h"
 
 enum {
@@ -56,6 +57,7 @@ enum { OZ_LAWS(LAW_BIT) };
 #define AT(field)     .offset = offsetof(OzScene, field)
 #define GRAIN(field)  .offset = offsetof(OzPopulation, field), GRAINS_MADE
 #define WALL(field)   .offset = offsetof(OzWall, field)
+#define PHASE(field)  .offset = offsetof(OzPhase, field), FIXED("the run has begun with them")
 
 /* A contact key twice: of the scene, and of a wall that may have its own. */
 #define CONTACT(name, spec, fallback_, help_)                                                      \
@@ -352,6 +354,18 @@ static const OzKey KEYS[] = {
     {"export_interval", NUMBER(1e-12, 1e9, "s"), AT(export_interval), .write = OZ_WRITE_NONZERO,
      .fallback_help = "the movie's frames, without a movie the rows of series.csv",
      .help = "between exported frames"},
+    {"phases", OF(ITEMS), AT(phases), .count_offset = offsetof(OzScene, phase_count),
+     .item_size = sizeof(OzPhase), .line_offset = offsetof(OzPhase, line), .fallback_help = "none",
+     FIXED("the run has begun with them"),
+     .help = "parts of the run, one after the other; each may change keys as it begins"},
+    {"phases[].name", OF(TEXT), PHASE(name), .write = OZ_WRITE_NONZERO, .help = "for messages"},
+    {"phases[].time", NUMBER(1e-12, 1e9, "s"), PHASE(time), .rival = "taps",
+     .write = OZ_WRITE_NONZERO, .fallback_help = "of the last one: to the end",
+     .help = "how long it lasts"},
+    {"phases[].taps", NUMBER(1e-9, 1e9, "periods"), PHASE(taps), .rival = "time",
+     .write = OZ_WRITE_NONZERO, .help = "the same in periods of the first moving wall"},
+    {"phases[].set", OF(TEXT), PHASE(set), .write = OZ_WRITE_NONZERO,
+     .help = "keys that change as it begins, as in contact.friction=0.2; gravity=[0, 0, -1]"},
     {"sweep", OF(SWEEP), AT(sweep), FIXED("members have been made of it"),
      .write = OZ_WRITE_NONZERO,
      .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}; of several keys "

@@ -433,6 +433,8 @@ typedef struct OzScene {
     int wall_count;
     OzBoundary boundary;
     OzSettle settle;
+    struct OzPhase *phases; /* scene/phases.h */
+    int phase_count;
     OzGuards guards;
     OzObserve observe;
     OzContactTable contacts;

@@ -1,0 +1,30 @@
+/* The phases of a scene's protocol: they follow each other from time 0, and each may change keys as
+ * it begins. */
+#pragma once
+
+#include "scene/scene_types.h"
+#include "scene/tree.h"
+
+/* A part of a run. */
+typedef struct OzPhase {
+    char *name;        /* for messages, or NULL                                   */
+    double time, taps; /* s, periods: as written; 0: not                          */
+    char *set;         /* "key=value; key=value", what changes as it begins; NULL */
+    double length;     /* s                                                       */
+    int line;          /* where it was written                                    */
+} OzPhase;
+
+/* s: when a phase begins. */
+double oz_phases_begin(const OzScene *scene, int phase);
+
+/* The phase at a time, from 0; after the last one's end the last. -1 without any. */
+int oz_phases_at(const OzScene *scene, double time);
+
+/* What a phase sets, as settings of oz_scene_change ("contact.friction=0.2"); the caller frees
+ * every text and the array. */
+OzStatus oz_phases_settings(char ***settings, int *count, const OzPhase *phase);
+
+/* Finds how long each phase is, and adds faults for those that have no length or that the run is
+ * too short for. Whether a phase may set what it sets shows when the run is prepared
+ * (run/protocol.h). */
+void oz_phases_check(OzScene *scene, OzNode *root, OzFaults *faults);
