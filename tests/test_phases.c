@@ -105,6 +105,32 @@ static void a_stop_leaves_no_trace(void **state)
     expect(2, "has phases, which change it at their times", "resume left --set gravity.2=0");
 }
 
+/* Cycles are the same list, written out; of later ones the log says nothing. */
+static void cycles_repeat_the_phases(void **state)
+{
+    (void)state;
+    double time, phase;
+    const char *fall = "{time: 0.02, set: gravity.2=-9}", *rest = "{time: 0.01, set: gravity.2=0}";
+    write_file("cycles.yaml", "%scycles: 3\nphases: [%s, %s]\n", ball, fall, rest);
+    write_file("list.yaml", "%sphases: [%s, %s, %s, %s, %s, %s]\n", ball, fall, rest, fall, rest,
+               fall, rest);
+    expect(0, "phase 2, begins at step 2000",
+           "run cycles.yaml -o cycles --set observe.interval=0.01");
+    assert_false(contains("said", "begins at step 3000"));
+    expect(0, "begins at step 3000", "run list.yaml -o list --set observe.interval=0.01");
+    assert_true(same_files("cycles/final.csv", "list/final.csv"));
+    for (int row = 1; row <= 10; row++) {
+        read_row("cycles", row, &time, &phase);
+        assert_int_equal((int)phase, row == 10 || row % 3 == 0 ? 2 : 1);
+    }
+    expect(0, "", "run cycles.yaml -o left --overwrite --set checkpoint.every=60 --until 0.05");
+    expect(0, "", "resume left --until 0.09");
+    assert_true(same_files("cycles/final.csv", "left/final.csv"));
+    assert_true(same_files("cycles/reloads.csv", "left/reloads.csv"));
+    expect(2, "cycles without phases", "check plain.yaml --set cycles=2");
+    expect(2, "phases.1 has no length", "check cycles.yaml --set 'phases.1={set: gravity.2=0}'");
+}
+
 static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
@@ -134,9 +160,8 @@ static void what_cannot_be_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(falls_floats_and_rises),
-        cmocka_unit_test(is_a_run_changed_by_hand),
-        cmocka_unit_test(a_stop_leaves_no_trace),
+        cmocka_unit_test(falls_floats_and_rises),    cmocka_unit_test(is_a_run_changed_by_hand),
+        cmocka_unit_test(a_stop_leaves_no_trace),    cmocka_unit_test(cycles_repeat_the_phases),
         cmocka_unit_test(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, begin, leave_work);

@@ -26,6 +26,10 @@ bool oz_moment_tap(const OzObservation *o, double *value)
 bool oz_moment_phase(const OzObservation *o, double *value)
 {
     const OzScene *scene = o->snapshot->scene;
-    *value = oz_phases_at(scene, o->snapshot->time + scene->step / 2) + 1;
-    return scene->phase_count > 0;
+    int64_t phase = oz_phases_at(scene, o->snapshot->time + scene->step / 2);
+    bool any = phase >= 0;
+    *value =
+        !any ? 0
+             : (double)(1 + (o->index ? phase / scene->phase_count : phase % scene->phase_count));
+    return any;
 }

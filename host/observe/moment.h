@@ -9,5 +9,5 @@ bool oz_moment_time(const OzObservation *observation, double *value);
 /* None without a wall that is shaken. */
 bool oz_moment_tap(const OzObservation *observation, double *value);
 
-/* From 1; at a phase's first step it has begun. */
+/* index: 0 the phase in its cycle, 1 the cycle, from 1; at a phase's first step it has begun. */
 bool oz_moment_phase(const OzObservation *observation, double *value);

@@ -274,6 +274,7 @@ static const OzColumn list[] = {
     {"time", "s", "time since the settled bed", ALL, ALWAYS, false, oz_moment_time, 0},
     {"tap", "1", "time / period of the first moving wall; empty without one", ALL, ALWAYS, false, oz_moment_tap, 0},
     {"phase", "1", "number of the phase that has begun, from 1; only with phases", ALL, PHASES, true, oz_moment_phase, 0},
+    {"cycle", "1", "number of the cycle of phases that has begun, from 1", ALL, PHASES, true, oz_moment_phase, 1},
     {"density", "1", "0.95 V/(area H): H above the moving floor, without the top 5 % of the volume; "
      "this and every density is empty without upright cylinder or box, or floor", RODS, ALWAYS, false, density, 0},
     {"density_all", "1", "V/(area H), the same H", RODS, ALWAYS, false, density_all, 0},

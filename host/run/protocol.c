@@ -39,10 +39,14 @@ static OzStatus change(OzScene *next, const OzScene *before, const OzGrains *gra
     return oz_members_judge_step(next, grains, forced);
 }
 
-static OzStatus name_phase(char **what, const OzScene *scene, int phase)
+/* Later cycles go without a word. */
+static OzStatus name_phase(char **what, const OzScene *scene, int64_t phase)
 {
+    if (phase >= scene->phase_count) {
+        return OZ_OK;
+    }
     const char *name = scene->phases[phase].name;
-    if (asprintf(what, "phase %d%s%s", phase + 1, name ? ", " : "", name ? name : "") < 0) {
+    if (asprintf(what, "phase %d%s%s", (int)phase + 1, name ? ", " : "", name ? name : "") < 0) {
         *what = NULL;
         return oz_status_fail(OZ_ERR_MEMORY, "out of memory for a phase's name");
     }
@@ -50,13 +54,15 @@ static OzStatus name_phase(char **what, const OzScene *scene, int phase)
 }
 
 /* The change with which a phase begins; without settings there is none. */
-static OzStatus add(OzReplay *protocol, const OzScene *scene, int phase)
+static OzStatus add(OzReplay *protocol, const OzScene *scene, int64_t phase)
 {
     OzReplayChange *change = &protocol->changes[protocol->count];
     const OzStepClock clock = oz_step_clock_begin(scene->step);
+    change->is_quiet = phase >= scene->phase_count;
     change->step = oz_step_clock_nearest(&clock, oz_phases_begin(scene, phase));
     protocol->count++;
-    OZ_PASS(oz_phases_settings(&change->settings, &change->count, &scene->phases[phase]));
+    OZ_PASS(oz_phases_settings(&change->settings, &change->count,
+                               &scene->phases[phase % scene->phase_count]));
     protocol->count -= change->count == 0;
     return change->count > 0 ? name_phase(&change->what, scene, phase) : OZ_OK;
 }
@@ -66,21 +72,25 @@ OzStatus oz_protocol_make(OzReplay *protocol, const OzScene *scene, const OzGrai
 {
     OzStatus status = OZ_OK;
     OzScene now = {0}, next = {0};
+    int judged = 0; /* the last phase's changes are followed by the first one's */
     *protocol = (OzReplay){0};
     if (scene->phase_count == 0) {
         return OZ_OK;
     }
-    OZ_TRY(OZ_NEW(&protocol->changes, scene->phase_count));
+    OZ_TRY(OZ_NEW(&protocol->changes, oz_phases_count(scene)));
     OZ_TRY(oz_scene_copy(&now, scene));
-    for (int i = 0; i < scene->phase_count; i++) {
+    for (int64_t i = 0; i < oz_phases_count(scene); i++) {
         int before = protocol->count;
         OZ_TRY(add(protocol, scene, i));
-        if (protocol->count == before || before < taken) {
+        bool is_known = before < taken || judged > scene->phase_count;
+        if (protocol->count == before || is_known) {
             continue;
         }
+        judged++;
         status = change(&next, &now, grains, forced, &protocol->changes[before]);
         if (status != OZ_OK) {
-            status = status == OZ_ERR_MEMORY ? status : refuse(scene, i);
+            status =
+                status == OZ_ERR_MEMORY ? status : refuse(scene, (int)(i % scene->phase_count));
             goto done;
         }
         oz_scene_free(&now);

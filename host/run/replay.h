@@ -13,7 +13,8 @@ typedef struct OzReplayChange {
     int64_t step;
     char **settings;
     int count;
-    char *what; /* "phase 2, rest", owned; NULL of an earlier run's */
+    char *what;    /* "phase 2, rest", owned; NULL of an earlier run's */
+    bool is_quiet; /* nothing is said of it, in the log or in pictures */
 } OzReplayChange;
 
 /* Zeroed is none. */

@@ -98,12 +98,14 @@ static OzStatus change_member(OzWorker *worker, int64_t m, OzScene *next, double
     OzStatus status = OZ_OK;
     OzOutputs *member = worker->members[m];
     OzChanges changes = {0};
-    char caption[200];
+    char caption[200] = "";
     OZ_TRY(oz_changes_find(&changes, &member->scene, next));
-    if (m == 0) {
+    if (m == 0 && !worker->is_quiet) {
         say(worker, &changes, next);
     }
-    caption_of(&changes, caption, sizeof caption);
+    if (!worker->is_quiet) {
+        caption_of(&changes, caption, sizeof caption);
+    }
     if (m == 0 && worker->checkpoint) {
         OZ_TRY(oz_checkpoint_change(worker->checkpoint, next, &changes));
     }
@@ -294,8 +296,10 @@ static OzStatus repeat(OzWorker *worker, const OzReplayChange *change)
         build(swap);
         OZ_TRY(swap->status);
     }
+    worker->is_quiet = change->is_quiet;
     OZ_TRY(carry_out(worker, next, swap));
 done:
+    worker->is_quiet = false;
     free_swap(swap);
     for (int64_t m = 0; next && m < worker->member_count; m++) {
         oz_scene_free(&next[m]);

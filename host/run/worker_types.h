@@ -30,13 +30,14 @@ typedef struct OzWorker {
     double started;           /* wall clock, of the program                            */
     atomic_bool *ended;       /* shared: a worker that failed ends the others          */
     OzReload *reload;         /* borrowed: changes that are asked for; NULL: none can be       */
-    const OzReplay *replay;   /* borrowed: changes of the run that is repeated; NULL: none     */
+    const OzReplay *replay;   /* borrowed: changes known from the start; NULL: none            */
     int64_t first;            /* of its members in the group                                   */
     double pace;              /* simulated seconds a wall second at most; 0: any               */
     const OzDevice *root;     /* borrowed                                                      */
     const char *source_dir;   /* borrowed                                                      */
     OzDevice *device;         /* a branch, owned                                               */
     int64_t taken;            /* changes of the group that it has taken                        */
+    bool is_quiet;            /* of the change in hand nothing is said                         */
     OzSwap *swap;             /* NULL: nothing is being built                                  */
     double glance_after;      /* wall clock before which nobody who looks on is shown a picture */
     double pace_clock, pace_time; /* wall clock, simulated time: where the pace is counted from */

@@ -7,23 +7,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-double oz_phases_begin(const OzScene *scene, int phase)
+int64_t oz_phases_count(const OzScene *scene)
 {
-    double begin = 0;
-    for (int i = 0; i < phase; i++) {
-        begin += scene->phases[i].length;
-    }
-    return begin;
+    return scene->cycles * scene->phase_count;
 }
 
-int oz_phases_at(const OzScene *scene, double time)
+/* s, of the first so many rows. */
+static double sum(const OzScene *scene, int64_t rows)
 {
-    int phase = 0;
-    double end = scene->phase_count > 0 ? scene->phases[0].length : 0;
-    while (phase + 1 < scene->phase_count && time >= end) {
-        end += scene->phases[++phase].length;
+    double length = 0;
+    for (int64_t i = 0; i < rows; i++) {
+        length += scene->phases[i].length;
     }
-    return scene->phase_count > 0 ? phase : -1;
+    return length;
+}
+
+double oz_phases_begin(const OzScene *scene, int64_t phase)
+{
+    int64_t cycle = phase / scene->phase_count;
+    return (double)cycle * sum(scene, scene->phase_count) + sum(scene, phase % scene->phase_count);
+}
+
+int64_t oz_phases_at(const OzScene *scene, double time)
+{
+    int64_t phase = 0, count = oz_phases_count(scene);
+    if (count == 0) {
+        return -1;
+    }
+    double cycle = floor(time / sum(scene, scene->phase_count));
+    phase = (int64_t)fmin(fmax(cycle, 0), (double)(scene->cycles - 1)) * scene->phase_count;
+    while (phase + 1 < count && time >= oz_phases_begin(scene, phase + 1)) {
+        phase++;
+    }
+    return phase;
 }
 
 OzStatus oz_phases_settings(char ***settings, int *count, const OzPhase *phase)
@@ -58,12 +74,12 @@ static void find_length(OzScene *scene, int i, OzNode *root, OzFaults *faults)
     if (phase->taps > 0 && !(scene->period > 0)) {
         snprintf(path, sizeof path, "phases.%d.taps", i);
         oz_tree_fault(root, faults, path, "%s without a wall that is shaken; expected time", path);
-    } else if (!(phase->length > 0) && i + 1 < scene->phase_count) {
+    } else if (!(phase->length > 0) && (i + 1 < scene->phase_count || scene->cycles > 1)) {
         snprintf(path, sizeof path, "phases.%d", i);
         oz_tree_fault(root, faults, path,
                       "%s has no length, and another phase follows; expected time or taps", path);
     } else if (!(phase->length > 0)) {
-        phase->length = fmax(scene->duration - oz_phases_begin(scene, i), 0);
+        phase->length = fmax(scene->duration - sum(scene, i), 0);
     }
 }
 
@@ -73,7 +89,10 @@ void oz_phases_check(OzScene *scene, OzNode *root, OzFaults *faults)
     for (int i = 0; i < scene->phase_count; i++) {
         find_length(scene, i, root, faults);
     }
-    double all = oz_phases_begin(scene, scene->phase_count);
+    double all = (double)scene->cycles * sum(scene, scene->phase_count);
+    if (scene->cycles > 1 && scene->phase_count == 0) {
+        oz_tree_fault(root, faults, "cycles", "cycles without phases; expected phases with them");
+    }
     if (all > scene->duration * slack) {
         oz_tree_fault(root, faults, "phases",
                       "the phases last %.9g s together, the run %.9g s; expected no longer ones, "

@@ -14,11 +14,15 @@ typedef struct OzPhase {
     int line;          /* where it was written                                    */
 } OzPhase;
 
+/* How many there are in all cycles. Below, phases of the second cycle follow those of the first:
+ * phase n is of row n % phase_count. */
+int64_t oz_phases_count(const OzScene *scene);
+
 /* s: when a phase begins. */
-double oz_phases_begin(const OzScene *scene, int phase);
+double oz_phases_begin(const OzScene *scene, int64_t phase);
 
 /* The phase at a time, from 0; after the last one's end the last. -1 without any. */
-int oz_phases_at(const OzScene *scene, double time);
+int64_t oz_phases_at(const OzScene *scene, double time);
 
 /* What a phase sets, as settings of oz_scene_change ("contact.friction=0.2"); the caller frees
  * every text and the array. */

@@ -366,6 +366,8 @@ static const OzKey KEYS[] = {
      .write = OZ_WRITE_NONZERO, .help = "the same in periods of the first moving wall"},
     {"phases[].set", OF(TEXT), PHASE(set), .write = OZ_WRITE_NONZERO,
      .help = "keys that change as it begins, as in contact.friction=0.2; gravity=[0, 0, -1]"},
+    {"cycles", INTEGER(1, 1e5), AT(cycles), DEFAULT("1"), FIXED("the run has begun with them"),
+     .help = "how often the phases are gone through"},
     {"sweep", OF(SWEEP), AT(sweep), FIXED("members have been made of it"),
      .write = OZ_WRITE_NONZERO,
      .help = "a run for each value of a key, as in {contact.friction: [0.1, 0.2]}; of several keys "

@@ -435,6 +435,7 @@ typedef struct OzScene {
     OzSettle settle;
     struct OzPhase *phases; /* scene/phases.h */
     int phase_count;
+    int64_t cycles; /* of all phases */
     OzGuards guards;
     OzObserve observe;
     OzContactTable contacts;
