@@ -131,6 +131,42 @@ static void cycles_repeat_the_phases(void **state)
     expect(2, "phases.1 has no length", "check cycles.yaml --set 'phases.1={set: gravity.2=0}'");
 }
 
+/* The floor is shaken for one period, which ends between two steps, and stands for two: a ball that
+ * lies on it moves with it, and has come to rest 2.5 ms after. */
+static void a_tap_is_one_period(void **state)
+{
+    (void)state;
+    write_file("tap.yaml",
+               "model: rods\nprecision: double\ntime: {step: 7.5e-6, duration: 0.18}\n"
+               "contact: {contact_time: 1e-3, restitution: 0.3}\n"
+               "grains: [{kind: single, diameter: 1e-3, position: [0, 0, 0.5e-3]}]\n"
+               "walls: [{kind: plane, motion: {frequency: 50, acceleration_ratio: 0.2}}]\n"
+               "observe: {interval: 2.5e-3}\ncheckpoint: {every: 0}\ncycles: 3\n"
+               "phases: [{taps: 1, set: walls.0.motion.acceleration_ratio=0.2},\n"
+               "         {taps: 2, set: walls.0.motion.acceleration_ratio=0}]\n");
+    expect(0, "", "run tap.yaml -o tap");
+    char name[] = "speed_max", *all = read_file("tap/series.csv", NULL), *rest = all;
+    char *head = strsep(&rest, "\n"), *column = strstr(head, name);
+    int before = 0;
+    assert_non_null(column);
+    for (char *at = head; at < column; at++) {
+        before += *at == ',';
+    }
+    double fastest = 0.2 * 9.81 / (2 * 3.14159265358979 * 50);
+    for (int row = 0; row <= 72; row++) {
+        char *line = strsep(&rest, "\n"), *cell = NULL;
+        for (int k = 0; k <= before; k++) {
+            cell = strsep(&line, ",");
+        }
+        double speed = strtod(cell, NULL);
+        int in_cycle = row % 24; /* 8 rows a period */
+        bool is_fast = in_cycle == 1 || in_cycle == 3 || in_cycle == 4 || in_cycle == 5;
+        assert_true(!is_fast || speed > 0.5 * fastest);
+        assert_true(in_cycle < 9 || speed < 0.02 * fastest);
+    }
+    free(all);
+}
+
 static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
@@ -160,9 +196,9 @@ static void what_cannot_be_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(falls_floats_and_rises),    cmocka_unit_test(is_a_run_changed_by_hand),
-        cmocka_unit_test(a_stop_leaves_no_trace),    cmocka_unit_test(cycles_repeat_the_phases),
-        cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(falls_floats_and_rises), cmocka_unit_test(is_a_run_changed_by_hand),
+        cmocka_unit_test(a_stop_leaves_no_trace), cmocka_unit_test(cycles_repeat_the_phases),
+        cmocka_unit_test(a_tap_is_one_period),    cmocka_unit_test(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, begin, leave_work);
 }

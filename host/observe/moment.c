@@ -26,7 +26,7 @@ bool oz_moment_tap(const OzObservation *o, double *value)
 bool oz_moment_phase(const OzObservation *o, double *value)
 {
     const OzScene *scene = o->snapshot->scene;
-    int64_t phase = oz_phases_at(scene, o->snapshot->time + scene->step / 2);
+    int64_t phase = oz_phases_at(scene, o->snapshot->time + (1 - OZ_PHASES_SLACK) * scene->step);
     bool any = phase >= 0;
     *value =
         !any ? 0

@@ -59,7 +59,10 @@ static OzStatus add(OzReplay *protocol, const OzScene *scene, int64_t phase)
     OzReplayChange *change = &protocol->changes[protocol->count];
     const OzStepClock clock = oz_step_clock_begin(scene->step);
     change->is_quiet = phase >= scene->phase_count;
-    change->step = oz_step_clock_nearest(&clock, oz_phases_begin(scene, phase));
+    double begin = oz_phases_begin(scene, phase);
+    change->step = oz_step_clock_nearest(&clock, begin);
+    change->step -=
+        oz_step_clock_time(&clock, change->step) > begin + OZ_PHASES_SLACK * scene->step;
     protocol->count++;
     OZ_PASS(oz_phases_settings(&change->settings, &change->count,
                                &scene->phases[phase % scene->phase_count]));

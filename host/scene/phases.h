@@ -14,6 +14,10 @@ typedef struct OzPhase {
     int line;          /* where it was written                                    */
 } OzPhase;
 
+/* A phase begins at the last step before its time, or at it but for so much of a step: a wall that
+ * is shaken stops at the end of a period then, and not half a period later. */
+#define OZ_PHASES_SLACK 1e-6
+
 /* How many there are in all cycles. Below, phases of the second cycle follow those of the first:
  * phase n is of row n % phase_count. */
 int64_t oz_phases_count(const OzScene *scene);
