@@ -43,6 +43,14 @@ static void print_limits(const OzKey *key, FILE *file)
     fprintf(file, "%s%s", key->unit[0] ? " " : "", key->unit);
 }
 
+/* Whether a list's items have a kind. */
+static bool has_kind(const OzKey *list)
+{
+    char path[96];
+    snprintf(path, sizeof path, "%s[].kind", list->path);
+    return oz_keys_find(path) != NULL;
+}
+
 static const char *noun(const OzKey *key)
 {
     switch (key->type) {
@@ -68,7 +76,7 @@ static const char *noun(const OzKey *key)
     case OZ_KEY_SECTION:
         return "a group of keys, or false to leave it out";
     case OZ_KEY_ITEMS:
-        return "a list of groups, each with its kind";
+        return has_kind(key) ? "a list of groups, each with its kind" : "a list of groups";
     default:
         return "";
     }
