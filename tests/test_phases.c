@@ -127,6 +127,12 @@ static void cycles_repeat_the_phases(void **state)
     expect(0, "", "resume left --until 0.09");
     assert_true(same_files("cycles/final.csv", "left/final.csv"));
     assert_true(same_files("cycles/reloads.csv", "left/reloads.csv"));
+    expect(0, "cycles             3 of 0.03 s", "check cycles.yaml");
+    expect(0, "phase 2, float, begins at step 3000",
+           "run ball.yaml -o endless --set time.duration=endless --until 0.09");
+    assert_true(same_files("endless/final.csv", "ball/final.csv"));
+    read_row("endless", 4, &time, &phase);
+    assert_int_equal((int)phase, 3);
     expect(2, "cycles without phases", "check plain.yaml --set cycles=2");
     expect(2, "phases.1 has no length", "check cycles.yaml --set 'phases.1={set: gravity.2=0}'");
 }

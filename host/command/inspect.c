@@ -114,6 +114,10 @@ static void print_phases(FILE *file, const OzScene *scene)
                 phase->name ? phase->name : "", phase->name ? ", " : "", begin,
                 begin + phase->length, phase->set ? ": " : "", phase->set ? phase->set : "");
     }
+    if (scene->cycles > 1) {
+        fprintf(file, "cycles             %lld of %.6g s\n", (long long)scene->cycles,
+                oz_phases_begin(scene, scene->phase_count));
+    }
 }
 
 /* What the verdict rests on. */

@@ -25,7 +25,9 @@ static double sum(const OzScene *scene, int64_t rows)
 double oz_phases_begin(const OzScene *scene, int64_t phase)
 {
     int64_t cycle = phase / scene->phase_count;
-    return (double)cycle * sum(scene, scene->phase_count) + sum(scene, phase % scene->phase_count);
+    double before =
+        cycle > 0 ? (double)cycle * sum(scene, scene->phase_count) : 0; /* 0 of endless */
+    return before + sum(scene, phase % scene->phase_count);
 }
 
 int64_t oz_phases_at(const OzScene *scene, double time)

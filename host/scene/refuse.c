@@ -24,7 +24,7 @@ static void refuse_item_key(OzFaults *faults, const OzNode *node, const OzKey *k
 static const struct {
     const char *was, *is;
 } moved[] = {
-    {"grains[].length", "aspect: a grain's whole length over its diameter"},
+    {"grains[].length", "aspect: the shaft's length over the diameter"},
     {"observe.contacts", "the group contacts, as in contacts: {}"},
     {"observe.contacts_interval", "contacts.interval"},
 };
