@@ -5,6 +5,7 @@
 #include "hand_series.h"
 
 #include "observe/series.h"
+#include "scene/boundary.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -104,17 +105,21 @@ static void other_packings_are_not(void **state)
     bed_free(&bed);
 }
 
-/* As the header says it, without cells. */
+/* As the header says it, without cells; of a periodic cell to the nearest image. */
 static double walk_over_all(const Bed *bed, int64_t i)
 {
     const OzSnapshot *s = &bed->snapshot;
     double cosine = 0, sine = 0, n = 0;
     for (int64_t k = 0; k < s->count; k++) {
-        const double *from = &s->position[3 * i], *to = &s->position[3 * k];
+        double way[3];
+        for (int c = 0; c < 3; c++) {
+            way[c] = s->position[3 * k + c] - s->position[3 * i + c];
+            double period = oz_boundary_period(&bed->scene.boundary, c);
+            way[c] = period > 0 ? remainder(way[c], period) : way[c];
+        }
         double height = 0.5e-3 + 2e-3 * (fabs(s->axis[3 * i + 2]) + fabs(s->axis[3 * k + 2])) / 2;
-        double theta = atan2(to[1] - from[1], to[0] - from[0]);
-        bool beside = fabs(to[2] - from[2]) <= height / 2 &&
-                      hypot(to[0] - from[0], to[1] - from[1]) <= 1.4 * 0.5e-3;
+        double theta = atan2(way[1], way[0]);
+        bool beside = fabs(way[2]) <= height / 2 && hypot(way[0], way[1]) <= 1.4 * 0.5e-3;
         if (k != i && beside) {
             cosine += cos(6 * theta);
             sine += sin(6 * theta);
@@ -159,6 +164,52 @@ static void random_axes_have_no_order(void **state)
     bed_free(&bed);
 }
 
+/* Cells of five, two and one cells of the search, and an open direction beside them; rods that have
+ * gone on through many. */
+static void neighbours_across_a_periodic_border_count(void **state)
+{
+    (void)state;
+    enum { COUNT = 300, BOUNDARIES = 4 };
+    const OzBoundaryKind P = OZ_BOUNDARY_PERIODIC, O = OZ_BOUNDARY_OPEN;
+    const OzBoundary boundaries[BOUNDARIES] = {
+        {.present = true, .along = {P, P, P}, .size = {4e-3, 4e-3, 6e-3}},
+        {.present = true, .along = {P, P, O}, .size = {1.5e-3, 4e-3, 0}},
+        {.present = true, .along = {P, P, O}, .size = {1.2e-3, 5e-3, 0}},
+        {.present = true, .along = {O, O, P}, .size = {0, 0, 6e-3}}};
+    Bed bed;
+    OzLocalOrder order = {0};
+    bed_create(&bed, COUNT, 0.5e-3, 2e-3);
+    fill_randomly(&bed);
+    bed.scene.wall_count = 0;
+    for (int64_t i = 0; i < 3 * COUNT; i++) { /* within 4 mm, of height 6 mm */
+        bed.snapshot.position[i] *= i % 3 == 2 ? 0.3 : 0.2;
+    }
+    for (int b = 0; b < BOUNDARIES; b++) {
+        int across = 0;
+        bed.scene.boundary = (OzBoundary){0};
+        assert_int_equal(oz_local_order_find(&order, &bed.snapshot), OZ_OK);
+        double open[COUNT];
+        memcpy(open, order.psi6, sizeof open);
+        bed.scene.boundary = boundaries[b];
+        for (int64_t i = 0; i < COUNT; i += 3) {
+            int c = boundaries[b].along[0] == P ? 0 : 2;
+            bed.snapshot.position[3 * i + c] += 7 * boundaries[b].size[c];
+        }
+        assert_int_equal(oz_local_order_find(&order, &bed.snapshot), OZ_OK);
+        for (int64_t i = 0; i < COUNT; i++) { /* 7 cells on, a place keeps 12 digits */
+            assert_near(order.psi6[i], walk_over_all(&bed, i), 1e-9);
+            across += fabs(order.psi6[i] - open[i]) > 1e-6;
+        }
+        assert_true(across > COUNT / 20);
+        for (int64_t i = 0; i < COUNT; i += 3) {
+            int c = boundaries[b].along[0] == P ? 0 : 2;
+            bed.snapshot.position[3 * i + c] -= 7 * boundaries[b].size[c];
+        }
+    }
+    oz_local_order_free(&order);
+    bed_free(&bed);
+}
+
 static void contacts_are_counted_by_grain(void **state)
 {
     (void)state;
@@ -189,6 +240,7 @@ int main(void)
         cmocka_unit_test(a_hexagonal_packing_of_upright_rods_is_perfect),
         cmocka_unit_test(other_packings_are_not),
         cmocka_unit_test(random_axes_have_no_order),
+        cmocka_unit_test(neighbours_across_a_periodic_border_count),
         cmocka_unit_test(contacts_are_counted_by_grain),
     };
     return cmocka_run_group_tests(tests, make_folder, clean_up);

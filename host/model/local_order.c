@@ -3,6 +3,7 @@
 #include "model/local_order.h"
 
 #include "base/memory.h"
+#include "scene/boundary.h"
 #include "scene/wall_shape.h"
 
 #include <math.h>
@@ -13,6 +14,7 @@
 typedef struct Cells {
     double low[3], size[3];
     int64_t count[3];
+    double period[3]; /* m, after which places repeat themselves along the direction; 0: never */
 } Cells;
 
 /* What a rod's neighbours add up to. */
@@ -74,30 +76,56 @@ static double height_of(const OzSnapshot *snapshot, const double axis[3], int64_
            snapshot->grains->diameter[i];
 }
 
+/* Along a direction of the container, which in a periodic cell is one of the cell's own. */
+static double period_along(const OzBoundary *boundary, const double direction[3])
+{
+    double period = 0;
+    for (int k = 0; k < 3; k++) {
+        period = fabs(direction[k]) > 0.5 ? oz_boundary_period(boundary, k) : period;
+    }
+    return period;
+}
+
+/* Cells between low and high along direction k, as many as grains at most have room beside each
+ * other, and whole ones in a period. */
+static void cut_into_cells(Cells *cells, int k, double high, double reach, double most)
+{
+    double length = high - cells->low[k];
+    cells->size[k] = fmax(reach * (1 + 1e-9), length / most);
+    double count = floor(length / cells->size[k]) + (cells->period[k] == 0);
+    cells->count[k] = count >= 1 && count <= most + 1 ? (int64_t)count : 1; /* of NaN too */
+    if (cells->period[k] > 0) {
+        cells->size[k] = length / (double)cells->count[k];
+    }
+}
+
 /* The places of all grains in the container's own directions, and cells for them: no smaller than
  * neighbours can be apart, and about as many as grains at most. */
 static Cells find_cells(OzLocalOrder *order, const OzSnapshot *snapshot, const double axis[3])
 {
     double across[2][3], high[3] = {-INFINITY, -INFINITY, -INFINITY}, reach[3] = {0};
-    double most = 2 + cbrt((double)snapshot->count);
+    const double *direction[3] = {across[0], across[1], axis};
     Cells cells = {.low = {INFINITY, INFINITY, INFINITY}};
     oz_wall_shape_across(axis, across[0], across[1]);
     for (int64_t i = 0; i < snapshot->count; i++) {
-        const double *direction[3] = {across[0], across[1], axis};
-        double *place = &order->place[3 * i];
+        double *place = &order->place[3 * i], within[3];
+        oz_snapshot_place(snapshot, i, within);
         reach[0] = fmax(reach[0], OZ_LOCAL_ORDER_REACH * snapshot->grains->diameter[i]);
         reach[2] = fmax(reach[2], height_of(snapshot, axis, i) / 2);
         for (int k = 0; k < 3; k++) {
-            place[k] = dot(&snapshot->position[3 * i], direction[k]);
+            place[k] = dot(within, direction[k]);
             cells.low[k] = fmin(cells.low[k], place[k]);
             high[k] = fmax(high[k], place[k]);
         }
     }
     reach[1] = reach[0];
     for (int k = 0; k < 3; k++) {
-        cells.size[k] = fmax(reach[k] * (1 + 1e-9), (high[k] - cells.low[k]) / most);
-        double count = floor((high[k] - cells.low[k]) / cells.size[k]) + 1;
-        cells.count[k] = count >= 1 && count <= most + 1 ? (int64_t)count : 1; /* of NaN too */
+        cells.period[k] = period_along(&snapshot->scene->boundary, direction[k]);
+        if (cells.period[k] > 0) {
+            cells.low[k] = -cells.period[k] / 2;
+            high[k] = cells.period[k] / 2;
+        }
+        cut_into_cells(&cells, k, high[k], reach[k], 2 + cbrt((double)snapshot->count));
     }
     return cells;
 }
@@ -140,15 +168,24 @@ static OzStatus sort_into_cells(OzLocalOrder *order, const OzSnapshot *snapshot,
     return OZ_OK;
 }
 
-static void add_neighbour(Sums *sums, const OzLocalOrder *order, const OzSnapshot *snapshot,
-                          const double axis[3], int64_t i, int64_t k)
+/* To the nearest image. */
+static double way_along(const OzLocalOrder *order, const Cells *cells, int k, int64_t from,
+                        int64_t to)
 {
-    const double *d = snapshot->grains->diameter, *from = &order->place[3 * i],
-                 *to = &order->place[3 * k];
-    double x = to[0] - from[0], y = to[1] - from[1];
+    double way = order->place[3 * to + k] - order->place[3 * from + k];
+    double period = cells->period[k];
+    return period > 0 ? way - period * round(way / period) : way;
+}
+
+static void add_neighbour(Sums *sums, const OzLocalOrder *order, const OzSnapshot *snapshot,
+                          const Cells *cells, const double axis[3], int64_t i, int64_t k)
+{
+    const double *d = snapshot->grains->diameter;
+    double x = way_along(order, cells, 0, i, k), y = way_along(order, cells, 1, i, k);
+    double up = way_along(order, cells, 2, i, k);
     double height = (height_of(snapshot, axis, i) + height_of(snapshot, axis, k)) / 2;
     double reach = OZ_LOCAL_ORDER_REACH * (d[i] + d[k]) / 2;
-    if (i == k || fabs(to[2] - from[2]) > height / 2 || !(x * x + y * y <= reach * reach)) {
+    if (i == k || fabs(up) > height / 2 || !(x * x + y * y <= reach * reach)) {
         return;
     }
     double theta = atan2(y, x);
@@ -159,24 +196,37 @@ static void add_neighbour(Sums *sums, const OzLocalOrder *order, const OzSnapsho
     sums->count++;
 }
 
+/* The cells around one along direction k, each of them once. */
+static int cells_around(const Cells *cells, int k, int64_t own, int64_t around[3])
+{
+    int found = 0;
+    for (int64_t cell = own - 1; cell <= own + 1; cell++) {
+        int64_t count = cells->count[k], inside = (cell + count) % count;
+        bool is_there = cells->period[k] > 0 || inside == cell;
+        for (int f = 0; f < found; f++) {
+            is_there &= around[f] != inside;
+        }
+        if (is_there) {
+            around[found++] = inside;
+        }
+    }
+    return found;
+}
+
 static Sums add_neighbours(const OzLocalOrder *order, const OzSnapshot *snapshot,
                            const Cells *cells, const double axis[3], int64_t i)
 {
     Sums sums = {0};
-    int64_t low[3], high[3], cell[3];
+    int64_t around[3][3];
+    int found[3];
     for (int k = 0; k < 3; k++) {
-        int64_t own = cell_of(cells, &order->place[3 * i], k);
-        low[k] = own > 0 ? own - 1 : 0;
-        high[k] = own + 1 < cells->count[k] ? own + 1 : own;
+        found[k] = cells_around(cells, k, cell_of(cells, &order->place[3 * i], k), around[k]);
     }
-    for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++) {
-        for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++) {
-            for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
-                int64_t k = order->heads[index_of(cells, cell)];
-                for (; k >= 0; k = order->next[k]) {
-                    add_neighbour(&sums, order, snapshot, axis, i, k);
-                }
-            }
+    for (int n = 0; n < found[0] * found[1] * found[2]; n++) {
+        int64_t cell[3] = {around[0][n % found[0]], around[1][n / found[0] % found[1]],
+                           around[2][n / found[0] / found[1]]};
+        for (int64_t k = order->heads[index_of(cells, cell)]; k >= 0; k = order->next[k]) {
+            add_neighbour(&sums, order, snapshot, cells, axis, i, k);
         }
     }
     return sums;

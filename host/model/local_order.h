@@ -8,7 +8,8 @@
  * to neighbour k across the axis, psi6 = |sum of exp(6 i theta_k)| / n over n neighbours (Halperin
  * and Nelson 1978, eq. 3; Nelson, Rubinstein and Spaepen 1982): 1 where all directions are whole
  * multiples of 60 degrees apart. Of a rod with less than OZ_LOCAL_ORDER_LEAST neighbours it is 0:
- * any one or two would give a number, and rods that lie have few. */
+ * any one or two would give a number, and rods that lie have few. Neighbours across the border of a
+ * periodic cell count. */
 #pragma once
 
 #include "model/snapshot.h"

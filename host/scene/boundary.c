@@ -91,22 +91,9 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
     }
 }
 
-/* What looks for neighbours by itself and knows no images. */
-static void check_order(const OzScene *scene, OzNode *root, OzFaults *faults)
-{
-    bool is_shown =
-        scene->movie.colour == OZ_COLOUR_ORDER || scene->snapshots.colour == OZ_COLOUR_ORDER;
-    if (scene->observe.order || is_shown) {
-        oz_tree_fault(root, faults, scene->observe.order ? "observe.order" : "movie.colour",
-                      "order in a periodic cell, whose neighbours across the border are not looked "
-                      "at; expected neither observe.order nor colours by it");
-    }
-}
-
 void oz_boundary_check(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
     if (scene->boundary.present) {
-        check_order(scene, root, faults);
         check_sizes(scene, root, faults);
         check_grains(scene, root, faults);
         check_walls(scene, root, faults);
