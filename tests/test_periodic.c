@@ -2,6 +2,7 @@
  * the same bits wherever the origin lies. ORZO_NEEDS_DEVICE. */
 #include "device_rig.h"
 
+#include "observe/basin.h"
 #include "scene/boundary.h"
 
 static OzDevice large_device;
@@ -229,6 +230,21 @@ static void long_grains_of_a_file_are_refused(void **state)
     rig_close(&rig);
 }
 
+/* What densities are measured over: a column of the cell, where it has one. */
+static void a_cell_has_an_area(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, crowd, "float", "euler", 1);
+    assert_true(fabs(oz_basin_area(&rig.scene) - 4e-3 * 3.3e-3) < 1e-15);
+    assert_int_equal(oz_basin_floor(&rig.scene), 0);
+    rig_close(&rig);
+    rig_open(&rig, hit, "boundary: {x: periodic, z: periodic, size: [8e-3, 1, 6e-3]}\n", 0.0,
+             3.4e-3, -3.6e-3);
+    assert_true(oz_basin_area(&rig.scene) == 0);
+    rig_close(&rig);
+}
+
 static int open_devices(void **state)
 {
     int status = open_rig_device(state);
@@ -247,6 +263,7 @@ int main(void)
         cmocka_unit_test(random_velocities_are_normal),
         cmocka_unit_test(long_grains_of_a_file_are_refused),
         cmocka_unit_test(what_has_no_sense_is_refused),
+        cmocka_unit_test(a_cell_has_an_area),
     };
     return cmocka_run_group_tests(tests, open_devices, close_rig_device);
 }

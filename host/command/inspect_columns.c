@@ -73,7 +73,7 @@ static const struct {
     bool (*lacks)(const OzScene *scene, const OzGrains *grains);
     const char *why;
 } reasons[] = {
-    {"density", "", lacks_area, "no upright cylinder or box, whose area they need"},
+    {"density", "", lacks_area, "no upright cylinder, box or periodic cell, whose area they need"},
     {"density", "", lacks_floor, NO_FLOOR},
     {"count_layer", "", lacks_floor, NO_FLOOR},
     {"angle_layer", "", lacks_floor, NO_FLOOR},

@@ -1,6 +1,7 @@
 /* What of the walls a bed lies in. */
 #include "observe/basin.h"
 
+#include "scene/boundary.h"
 #include "scene/wall_shape.h"
 #include "scene/wall_swing.h"
 
@@ -76,5 +77,6 @@ double oz_basin_area(const OzScene *scene)
         return PI / 4 * scene->walls[w].diameter * scene->walls[w].diameter;
     }
     w = first(scene, is_box);
-    return w < 0 ? 0 : scene->walls[w].size[0] * scene->walls[w].size[1];
+    return w < 0 ? oz_boundary_period(&scene->boundary, 0) * oz_boundary_period(&scene->boundary, 1)
+                 : scene->walls[w].size[0] * scene->walls[w].size[1];
 }

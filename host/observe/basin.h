@@ -11,6 +11,6 @@ int oz_basin_floor(const OzScene *scene);
 /* The floor's height at rest, in m. */
 double oz_basin_bottom(const OzWall *floor);
 
-/* The cross-section in m2 of the first upright cylinder, else of the first box that does not tilt;
- * 0 without any. */
+/* The cross-section in m2 of the first upright cylinder, else of the first box that does not tilt,
+ * else of a cell that is periodic in x and y; 0 without any. */
 double oz_basin_area(const OzScene *scene);
