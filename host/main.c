@@ -9,6 +9,7 @@
 #include "command/inspect.h"
 #include "command/manual.h"
 #include "command/plot_folder.h"
+#include "command/ranks.h"
 #include "command/redraw.h"
 #include "compute/device.h"
 #include "draw/movie.h"
@@ -17,7 +18,6 @@
 #include "observe/series.h"
 #include "report/report.h"
 #include "run/run.h"
-#include "run/seed_part.h"
 #include "scene/describe.h"
 
 #include <stdio.h>
@@ -25,13 +25,8 @@
 
 static OzStatus run_command(const OzOptions *options)
 {
-    OzOptions part = *options;
     oz_interrupt_watch();
-    OzStatus status = oz_seed_part_take(&part);
-    if (status != OZ_OK) {
-        oz_log_line("%s", oz_status_text());
-    }
-    return status == OZ_OK ? oz_run_scene(&part) : status;
+    return oz_ranks_run(options);
 }
 
 static OzStatus resume_command(const OzOptions *options)
@@ -126,11 +121,10 @@ static const struct {
     const char *name;
     OzStatus (*run)(const OzOptions *options);
 } commands[] = {
-    {"run", run_command},         {"resume", resume_command},   {"check", check_command},
-    {"gather", gather_command},
-    {"draw", draw_command},       {"export", export_command},   {"keys", keys_command},
-    {"plot", plot_command},       {"bench", bench_command},     {"report", report_command},
-    {"figures", figures_command}, {"devices", devices_command},
+    {"run", run_command},       {"resume", resume_command},   {"check", check_command},
+    {"gather", gather_command}, {"draw", draw_command},       {"export", export_command},
+    {"keys", keys_command},     {"plot", plot_command},       {"bench", bench_command},
+    {"report", report_command}, {"figures", figures_command}, {"devices", devices_command},
 };
 
 static OzStatus help_or_run(const OzOptions *options)

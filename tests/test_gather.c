@@ -33,6 +33,38 @@ static void test_parts_are_the_whole(void **state)
     assert_false(contains("said", "annot find"));
 }
 
+static void expect_process(int rank, int count, int status, const char *text, const char *arguments)
+{
+    char number[16];
+    snprintf(number, sizeof number, "%d", rank);
+    setenv("OMPI_COMM_WORLD_RANK", number, 1);
+    snprintf(number, sizeof number, "%d", count);
+    setenv("OMPI_COMM_WORLD_SIZE", number, 1);
+    expect(status, text, arguments);
+    unsetenv("OMPI_COMM_WORLD_RANK");
+    unsetenv("OMPI_COMM_WORLD_SIZE");
+}
+
+/* As mpirun -n 3 starts them, whichever ends last; one has no seed, the tables are those of all. */
+static void test_processes_share_the_seeds(void **state)
+{
+    (void)state;
+    expect(0, "2 members of about", "run bed.yaml -o one --no-video --seeds 1..2");
+    expect_process(1, 3, 0, "1 of 2 parts have ended",
+                   "run bed.yaml -o ranks --no-video --seeds 1..2");
+    expect_process(2, 3, 0, "process 3 of 3 has no seed",
+                   "run bed.yaml -o ranks --no-video --seeds 1..2");
+    assert_false(is_there("ranks/members.csv"));
+    expect_process(0, 3, 0, "2 members of 2 parts in ranks",
+                   "run bed.yaml -o ranks --no-video --seeds 1..2");
+    assert_true(is_there("ranks/part_00002/seed_00002/final.csv"));
+    assert_true(same_files("one/ensemble.csv", "ranks/ensemble.csv"));
+    expect_process(0, 3, 2, "process 1 of 3 without --seeds", "run bed.yaml -o single --no-video");
+    assert_false(is_there("single"));
+    expect_process(0, 1, 0, "2 members of about", "run bed.yaml -o alone --no-video --seeds 1..2");
+    assert_true(is_there("alone/seed_00001/final.csv"));
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -56,6 +88,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parts_are_the_whole),
+        cmocka_unit_test(test_processes_share_the_seeds),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, enter_work, leave_work);

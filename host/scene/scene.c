@@ -47,8 +47,7 @@ static OzStatus folder_of(char **folder, const char *path)
     return status;
 }
 
-/* "runs/an6.yaml" is named an6. */
-static OzStatus name_of(char **name, const char *path)
+OzStatus oz_scene_name(char **name, const char *path)
 {
     const char *slash = strrchr(path, '/');
     OzStatus status = oz_memory_text(name, slash ? slash + 1 : path);
@@ -254,7 +253,7 @@ static OzStatus load_text(OzScene *scene, const OzScene *running, const char *pa
     *scene = (OzScene){0};
     OZ_TRY(loader_create(&loader, path, setting_count));
     OZ_TRY(oz_memory_text(&scene->path, path));
-    OZ_TRY(name_of(&scene->name, path));
+    OZ_TRY(oz_scene_name(&scene->name, path));
     OZ_TRY(read_all(&loader, scene, text, length, settings, setting_count));
     OZ_TRY(oz_memory_text(&scene->base, loader.labels[1]));
     OZ_TRY(oz_faults_report(&loader.faults));

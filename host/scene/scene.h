@@ -7,6 +7,9 @@
 
 #include <stdio.h>
 
+/* What a scene of this file is called: "runs/an6.yaml" is named an6. The caller frees. */
+OzStatus oz_scene_name(char **name, const char *path);
+
 /* Loads path, then applies the settings ("key.path=value", in order), then checks everything.
  * On success the caller frees with oz_scene_free; on failure *scene is zeroed. */
 OzStatus oz_scene_load(OzScene *scene, const char *path, char *const *settings, int setting_count);
