@@ -77,6 +77,30 @@ static void a_crystal_has_its_density_and_twelve_contacts(void **state)
     bed_free(&bed);
 }
 
+/* Spheres with their centres on a cone, and some that lie beside the tray; the surface over them is
+ * a cone again, with ripples of (spacing / diameter)^2 / 8 of a diameter. */
+static void a_heap_has_the_slope_of_its_cone(void **state)
+{
+    (void)state;
+    enum { SIDE = 81, COUNT = SIDE * SIDE };
+    const double radius = 10e-3, spacing = 2 * radius / (SIDE - 1), rise = tan(25 * PI / 180);
+    Bed bed;
+    OzTrialNumbers numbers = {0};
+    bed_create(&bed, COUNT, 1e-3, 0);
+    bed.walls[0] = (OzWall){.kind = OZ_WALL_DISC, .diameter = 2 * radius, .normal = {0, 0, 1}};
+    for (int64_t i = 0; i < COUNT; i++) {
+        double x = spacing * (double)(i % SIDE) - radius, y = spacing * (double)(i / SIDE) - radius;
+        double far = hypot(x, y), place[3] = {x, y, 6e-3 - rise * far};
+        memcpy(&bed.snapshot.position[3 * i], place, sizeof place);
+        if (far > radius) {
+            bed.snapshot.position[3 * i + 2] = -8e-3;
+        }
+    }
+    oz_report_validate_looks_heap(numbers, &bed.snapshot, 1);
+    assert_near(numbers[OZ_LOOK_HEAP_SLOPE], 25, 0.2);
+    bed_free(&bed);
+}
+
 /* A head-on hit seen at three moments: the last overlap and gap are 1:3, a quarter of the way. */
 static void a_hit_ends_between_looks(void **state)
 {
@@ -218,6 +242,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(verdicts_come_from_intervals),
         cmocka_unit_test(a_crystal_has_its_density_and_twelve_contacts),
+        cmocka_unit_test(a_heap_has_the_slope_of_its_cone),
         cmocka_unit_test(a_hit_ends_between_looks),
         cmocka_unit_test(a_gas_by_theory_cools_at_its_rate),
         cmocka_unit_test(a_drum_shows_its_slope),

@@ -18,8 +18,7 @@ enum { OZ_VALIDATION_KNOWN = 4 };
 
 /* One experiment and what is known of it. */
 typedef struct OzValidation {
-    const char *name;  /* as on the command line; ends the list: NULL */
-    const char *lacks; /* why it cannot be made yet; NULL: it can */
+    const char *name; /* as on the command line; ends the list: NULL */
     OzTrial trial;
     OzKnown known[OZ_VALIDATION_KNOWN]; /* until one without a quantity */
 } OzValidation;

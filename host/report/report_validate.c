@@ -118,10 +118,6 @@ static OzStatus make(Table *table, const OzValidation *row, const char *path,
     OzStatus status = OZ_OK;
     OzTrialOutcome *outcome = NULL;
     double start = oz_clock_now();
-    if (row->lacks) {
-        printf("%-50s %-17s %s\n", row->known[0].quantity, "", row->lacks);
-        return OZ_OK;
-    }
     OZ_TRY(OZ_NEW(&outcome, 1));
     OZ_TRY(oz_report_trial_run(outcome, &row->trial, path, options, device));
     for (int k = 0; k < OZ_VALIDATION_KNOWN && row->known[k].quantity; k++) {

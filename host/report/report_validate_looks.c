@@ -8,7 +8,8 @@ static const double BEVERLOO_K = 1.4; /* diameters, of spheres */
 
 enum {
     HALF_OF_LOOKS = 20, /* of silo and drum, which look 40 times */
-    GAS_FROM = 30       /* of 100                              */
+    GAS_FROM = 30,      /* of 100                              */
+    HEAP_POINTS = 100   /* along the tray's diameter: a tenth of a sphere of the heap's apart */
 };
 
 void oz_report_validate_looks_ball(OzTrialNumbers numbers, const OzSnapshot *now, int look)
@@ -172,4 +173,39 @@ void oz_report_validate_looks_hopper(OzTrialNumbers numbers, const OzSnapshot *n
     }
     numbers[OZ_LOOK_HOPPER_TO] = now->time;
     numbers[OZ_LOOK_HOPPER_AFTER] = mass;
+}
+
+/* m: of the spheres over a point of the plane; NAN: there are none. */
+static double surface_over(const OzSnapshot *now, double x, double y)
+{
+    double highest = NAN;
+    for (int64_t i = 0; i < now->count; i++) {
+        const double *centre = &now->position[3 * i];
+        double radius = now->grains->diameter[i] / 2;
+        double square = radius * radius - pow(centre[0] - x, 2) - pow(centre[1] - y, 2);
+        if (square >= 0) {
+            highest = fmax(highest, centre[2] + sqrt(square));
+        }
+    }
+    return highest;
+}
+
+void oz_report_validate_looks_heap(OzTrialNumbers numbers, const OzSnapshot *now, int look)
+{
+    const OzWall *tray = &now->scene->walls[0];
+    double radius = tray->diameter / 2, n = 0, r1 = 0, r2 = 0, h1 = 0, rh = 0;
+    for (int i = 0; i < HEAP_POINTS * HEAP_POINTS && look > 0; i++) {
+        double x = radius * (2.0 * (i % HEAP_POINTS) / (HEAP_POINTS - 1) - 1);
+        double y = radius * (2.0 * (i / HEAP_POINTS) / (HEAP_POINTS - 1) - 1);
+        double far = hypot(x, y);
+        double height = far > 0.4 * radius && far < 0.9 * radius ? surface_over(now, x, y) : NAN;
+        if (height > tray->point[2]) {
+            n++;
+            r1 += far;
+            r2 += far * far;
+            h1 += height;
+            rh += far * height;
+        }
+    }
+    numbers[OZ_LOOK_HEAP_SLOPE] = 180 / PI * atan((r1 * h1 - n * rh) / (n * r2 - r1 * r1));
 }

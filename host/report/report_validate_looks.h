@@ -62,3 +62,8 @@ enum {
     OZ_LOOK_HOPPER_FREE     /* m, D - 1.4 d of the hole                                     */
 };
 void oz_report_validate_looks_hopper(OzTrialNumbers numbers, const OzSnapshot *now, int look);
+
+/* What is left of a bed on a level tray, the disc walls.0: how its surface falls off, of the highest
+ * spheres over points that lie evenly between 0.4 and 0.9 of the tray's radius. */
+enum { OZ_LOOK_HEAP_SLOPE /* degrees, at the last look */ };
+void oz_report_validate_looks_heap(OzTrialNumbers numbers, const OzSnapshot *now, int look);

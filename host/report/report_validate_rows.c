@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { INCLINES = 4 };
+enum { INCLINES = 4, ASPECTS = 5 };
 /* A ball that rolls keeps a slip of 1e-4 of its speed; one 1.4 % beyond the limit slides by 2 %. */
 static const double SLIDES = 0.005;
 
@@ -80,6 +80,27 @@ static double backbone(const OzTrialNumbers *n)
     return n[0][OZ_LOOK_PACKING_BACKBONE];
 }
 
+/* Where a parabola in the logarithm of the aspect, by least squares through all of them, is
+ * highest. */
+static double closest_aspect(const OzTrialNumbers *n)
+{
+    double m[5] = {0}, r[3] = {0}; /* sums of powers, and of them times the density */
+    for (int v = 0; v < ASPECTS; v++) {
+        double x = log(n[v][OZ_LOOK_PACKING_ASPECT]), power = 1;
+        for (int k = 0; k < 5; k++, power *= x) {
+            m[k] += power;
+            if (k < 3) {
+                r[k] += power * n[v][OZ_LOOK_PACKING_DENSITY];
+            }
+        }
+    }
+    double slope = m[0] * (r[1] * m[4] - r[2] * m[3]) - m[1] * (r[0] * m[4] - r[2] * m[2]) +
+                   m[2] * (r[0] * m[3] - r[1] * m[2]);
+    double bend = m[0] * (m[2] * r[2] - m[3] * r[1]) - m[1] * (m[1] * r[2] - m[3] * r[0]) +
+                  m[2] * (m[1] * r[1] - m[2] * r[0]);
+    return bend < 0 ? exp(-slope / (2 * bend)) : NAN;
+}
+
 static double floor_share(const OzTrialNumbers n)
 {
     return n[OZ_LOOK_SILO_FLOOR] / n[OZ_LOOK_SILO_LOOKS];
@@ -120,6 +141,16 @@ static double drum_slope(const OzTrialNumbers *n)
 static double drum_rise(const OzTrialNumbers *n)
 {
     return slope_of(n[1]) - slope_of(n[0]);
+}
+
+static double heap_slope(const OzTrialNumbers *n)
+{
+    return n[1][OZ_LOOK_HEAP_SLOPE];
+}
+
+static double heap_rise(const OzTrialNumbers *n)
+{
+    return n[1][OZ_LOOK_HEAP_SLOPE] - n[0][OZ_LOOK_HEAP_SLOPE];
 }
 
 /* kg/s */
@@ -202,11 +233,19 @@ const OzValidation oz_report_validate_rows_all[] = {
      .trial = {"validation/packing",
                4,
                1,
-               {{"grains.0.aspect=0.45", "grains.0.count=2000", "walls.1.diameter=14e-3"}},
+               {{"grains.0.aspect=0.45", "grains.0.count=2000", "walls.1.diameter=14e-3"},
+                {"grains.0.aspect=0.15", "grains.0.count=2000", "walls.1.diameter=14e-3"},
+                {"grains.0.aspect=0.3", "grains.0.count=2000", "walls.1.diameter=14e-3"},
+                {"grains.0.aspect=0.7", "grains.0.count=2000", "walls.1.diameter=15e-3"},
+                {"grains.0.aspect=1", "grains.0.count=2500", "walls.1.diameter=17e-3"}},
                oz_report_validate_packing_look},
-     .known = {{"spherocylinders of aspect 0.45: density", "", 0.695, 0.731,
-                "Imaz Gonzalez et al. 2023: 0.721",
-                "0.695 by Williams & Philipse 2003, 0.731 by Baule et al. 2013", density}}},
+     .known =
+         {{"spherocylinders of aspect 0.45: density", "", 0.695, 0.731,
+           "Imaz Gonzalez et al. 2023: 0.721",
+           "0.695 by Williams & Philipse 2003, 0.731 by Baule et al. 2013", density},
+          {"aspect at which they are densest", "", 0.35, 0.55, "Imaz Gonzalez et al. 2023: 0.45",
+           "0.4 by Williams & Philipse 2003; 0.45 +- 0.05; of a parabola in log(aspect), 0.15 to 1",
+           closest_aspect}}},
     {"packing_rough",
      .trial = {"validation/packing",
                4,
@@ -259,7 +298,18 @@ const OzValidation oz_report_validate_rows_all[] = {
                 beverloo_factor},
                {"power of D - 1.4 d", "", 2.35, 2.7, "Beverloo et al. 1961: 2.5",
                 "2.35 to 2.7 for k from 1.2 to 1.7 in place of 1.4", beverloo_power}}},
-    {"repose", .lacks = "needs a rough floor: spheres roll off a smooth one",
-     .known = {{.quantity = "angle of repose of a poured heap"}}},
+    {"heap",
+     .trial = {"validation/heap",
+               3,
+               1,
+               {{"contact.friction=0.1"}, {"contact.friction=0.5"}},
+               oz_report_validate_looks_heap},
+     .known = {{"slope of a heap on a rough floor, friction 0.5", "degrees", 19.3, 28,
+                "Silbert et al. 2001; Weinhart et al. 2012",
+                "where flows of such spheres stop: deep ones at 19.3, of two to four diameters at "
+                "28 to 25",
+                heap_slope},
+               {"what it is more than with friction 0.1", "degrees", 1, 15, "Zhou et al. 2001",
+                "grows with friction; by how much hangs on the set-up", heap_rise}}},
     {NULL},
 };
