@@ -1,7 +1,7 @@
 /* Beams, a block of lanes at a time. OpenCL C only. */
 #pragma once
 
-#include "kernels/beam.h"
+#include "kernels/beam_strength.h"
 #include "kernels/element_sums.h"
 
 OZ_INLINE OzBeamEnd oz_element_beams_end(const OzWork *w, const int *slots)
@@ -14,8 +14,7 @@ OZ_INLINE OzBeamEnd oz_element_beams_end(const OzWork *w, const int *slots)
     return end;
 }
 
-OZ_INLINE void oz_element_beams_check(OzWork *w, const OzBeamForce *f, const int *slots,
-                                      int step)
+OZ_INLINE void oz_element_beams_check(OzWork *w, const OzBeamForce *f, const int *slots, int step)
 {
     mask stretched =
         !((f->stretch > REAL(OZ_BEAM_STRETCH_LEAST)) & (f->stretch < REAL(OZ_BEAM_STRETCH_MOST)));
@@ -27,8 +26,30 @@ OZ_INLINE void oz_element_beams_check(OzWork *w, const OzBeamForce *f, const int
     }
 }
 
-/* Forces of all beams. Lanes beyond the last repeat the first beam. */
-OZ_INLINE void oz_element_beams_pull(OzWork *w, int step, OzElementSums *sums)
+#if OZ_STRENGTH
+/* Takes away what broken beams would do, and breaks those that bear no more. before: how long ago,
+ * s, those were there last. */
+OZ_INLINE void oz_element_beams_bear(OzWork *w, int block, OzBeamForce *f, const int *a,
+                                     const int *b, scalar before, int step)
+{
+    global const real *rest = w->beam_rest + (size_t)block * OZ_BEAM_REST;
+    global real *wear = w->beam_wear + (size_t)block * OZ_BEAM_WEAR;
+    real load = oz_beam_strength_load(w->parameters->beam, w->parameters->strength, f, rest[0]);
+    mask whole = wear[OZ_BW_WHOLE] > REAL(0.5), breaks = whole & (load >= REAL(1.0));
+    if (OZ_ANY(breaks)) {
+        real stored = oz_beam_strength_stored(f, oz_element_beams_end(w, a),
+                                              oz_element_beams_end(w, b), REAL(before));
+        wear[OZ_BW_LOST] = breaks ? stored : wear[OZ_BW_LOST];
+        wear[OZ_BW_WHOLE] = breaks ? REAL(0.0) : wear[OZ_BW_WHOLE];
+        oz_work_stop_lanes(w, breaks, OZ_ELEMENT_STOP_BROKE, step, a);
+    }
+    oz_beam_strength_drop(f, !(wear[OZ_BW_WHOLE] > REAL(0.5)));
+}
+#endif
+
+/* Forces of all beams, which are to be counted for a share of the step. Lanes beyond the last
+ * repeat the first beam. */
+OZ_INLINE void oz_element_beams_pull(OzWork *w, int step, scalar share, OzElementSums *sums)
 {
     int count = w->control->beam_count;
     OZ_EACH(w, block, (count + OZ_LANES - 1) / OZ_LANES)
@@ -41,6 +62,9 @@ OZ_INLINE void oz_element_beams_pull(OzWork *w, int step, OzElementSums *sums)
         global const real *rest = w->beam_rest + (size_t)block * OZ_BEAM_REST;
         OzBeamForce f = oz_beam_force(w->parameters->beam, oz_element_beams_end(w, a),
                                       oz_element_beams_end(w, b), rest[0], rest[1], rest[2]);
+#if OZ_STRENGTH
+        oz_element_beams_bear(w, block, &f, a, b, (scalar)0.5 * share * w->parameters->dt, step);
+#endif
         oz_element_beams_check(w, &f, a, step);
         if (OZ_LEDGER) {
             mask present = oz_lanes_mask_of(OZ_LANES_IOTA + first < count);

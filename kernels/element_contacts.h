@@ -2,6 +2,7 @@
  * computed for these alone, a block of lanes at a time. OpenCL C only. */
 #pragma once
 
+#include "kernels/beam_strength.h"
 #include "kernels/disc.h"
 #include "kernels/element_near.h"
 #include "kernels/element_sums.h"
@@ -13,6 +14,9 @@ typedef struct OzElementPush {
     mask deep, swallowed;
     real share; /* of a triangle inside the other, or of a disc's diameter */
     real power_normal, power_tangential; /* W, dissipated by discs */
+#if OZ_STRENGTH
+    real depth; /* root of m^3, of two triangles' overlap (kernels/beam_strength.h) */
+#endif
 } OzElementPush;
 
 /* Closes up the region's pairs that may touch. */
@@ -99,6 +103,9 @@ OZ_INLINE OzElementPush oz_element_contacts_triangles(const OzWork *w, const OzE
     push.share = o.share;
     push.swallowed = o.swallowed;
     push.power_normal = push.power_tangential = REAL(0.0);
+#if OZ_STRENGTH
+    push.depth = sqrt(oz_larger(o.energy, REAL(0.0)));
+#endif
     return push;
 }
 
@@ -230,6 +237,37 @@ OZ_INLINE void oz_element_contacts_account(const OzWork *w, const OzElementPush 
     sums->word[OZ_PL_DISC_FRICTION] += present ? push->power_tangential : REAL(0.0);
 }
 
+#if OZ_STRENGTH
+/* Weakens the push of triangles that were of one grain and overlapped when it broke between them.
+ * count: lanes with pairs. */
+OZ_INLINE void oz_element_contacts_heal(OzWork *w, const int *a, const int *b, int count,
+                                        OzElementPush *push)
+{
+    scalar lane[OZ_LANES];
+    int kin = 0;
+    for (int l = 0; l < OZ_LANES; l++) {
+        lane[l] = 0;
+        if (b[l] < w->scar_end[a[l]]) {
+            lane[l] = w->scar[w->scar_first[a[l]] + b[l]];
+            kin = 1;
+        }
+    }
+    if (!kin) {
+        return;
+    }
+    real least = OZ_LANES_LOAD(lane), share = oz_beam_strength_share(push->depth, least);
+    OZ_LANES_STORE(oz_beam_strength_least(push->depth, least), lane);
+    for (int l = 0; l < count; l++) {
+        if (b[l] < w->scar_end[a[l]]) {
+            w->scar[w->scar_first[a[l]] + b[l]] = lane[l];
+        }
+    }
+    push->force = oz_scale2(push->force, share);
+    push->torque_a *= share;
+    push->torque_b *= share;
+}
+#endif
+
 /* Forces of the region's touching pairs. Lanes beyond the last repeat the first pair. */
 OZ_INLINE void oz_element_contacts_push(OzWork *w, int region, int step, OzElementSums *sums)
 {
@@ -247,6 +285,9 @@ OZ_INLINE void oz_element_contacts_push(OzWork *w, int region, int step, OzEleme
         OzElementPush push = oz_element_contacts_triangles(w, &element_a, &element_b, a, b);
 #if OZ_DISCS
         oz_element_contacts_discs(w, &element_a, &element_b, a, b, &push);
+#endif
+#if OZ_STRENGTH
+        oz_element_contacts_heal(w, a, b, min(OZ_LANES, end - first), &push);
 #endif
         oz_element_contacts_check(w, &push, present, a, step);
         if (OZ_LEDGER) {

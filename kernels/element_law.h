@@ -17,6 +17,14 @@ typedef struct OzBeamConstants {
     scalar damping_bending; /* kg m^3/s: gamma I             */
 } OzBeamConstants;
 
+/* What a beam bears, as one over it: 0 bears anything (kernels/beam_strength.h). */
+typedef struct OzBeamStrength {
+    scalar pulled, pressed; /* 1/N                                                  */
+    scalar bent;            /* 1/(N m)                                              */
+    scalar together;        /* 1: force and moment add up, 0: each for itself        */
+    scalar quadratic;       /* 1: the force counts by its square                    */
+} OzBeamStrength;
+
 typedef struct OzDiscLaw {
     scalar hertz;              /* 0: linear, 1: power 3/2                              */
     scalar clamp;              /* 1: the normal force never pulls                      */

@@ -19,6 +19,7 @@ typedef struct OzElementParameters {
     scalar stiffness; /* N/m^2, force of two triangles over their overlap area            */
     scalar deep_warn, deep_stop; /* shares of a triangle inside another, or of a disc's diameter */
     OzBeamConstants beam;
+    OzBeamStrength strength; /* with OZ_STRENGTH only                                          */
     OzDiscLaw law[OZ_ELEMENT_WALLS_MAX + 1]; /* of discs: with other grains, then with each wall  */
     OZ_PARAMETERS_LISTS /* elements that reach farther are not in the grid, all look at them */
 } OzElementParameters;
@@ -27,12 +28,14 @@ typedef struct OzElementParameters {
 typedef struct OzElementSizes {
     OZ_SIZES_HEAD /* slots: of all elements; regions: of the free ones             */
         int free_slots,
-        free_blocks;             /* of the free elements, padding included                        */
-    int beam_blocks;             /* of the longest list of beams                                */
+        free_blocks; /* of the free elements, padding included                        */
+    int beam_blocks; /* of the longest list of beams                                */
     int walls;
+    int scars; /* pairs of triangles of one grain; with OZ_STRENGTH only               */
 } OzElementSizes;
 
-/* Reasons to stop, as bits, in the order in which they are told. */
+/* Reasons to stop, as bits, in the order in which they are told. After the last, a beam that broke,
+ * the host looks at what grains there are now, and goes on. */
 enum {
     OZ_ELEMENT_STOP_NAN = 1,
     OZ_ELEMENT_STOP_ESCAPED = 2,
@@ -40,7 +43,8 @@ enum {
     OZ_ELEMENT_STOP_DEEP = 8,
     OZ_ELEMENT_STOP_STRETCHED = 16,
     OZ_ELEMENT_STOP_BENT = 32,
-    OZ_ELEMENT_STOP_FAST = 64
+    OZ_ELEMENT_STOP_FAST = 64,
+    OZ_ELEMENT_STOP_BROKE = 128
 };
 
 /* The device's own words, one set a member. */

@@ -102,7 +102,7 @@ OZ_INLINE void oz_element_substeps_hold(OzWork *w, int step, scalar share)
     OzElementSums sums;
     oz_element_sums_clear(&sums);
     OZ_WORK_BARRIER();
-    oz_element_beams_pull(w, step, &sums);
+    oz_element_beams_pull(w, step, share, &sums);
 #if OZ_LEDGER
     oz_element_sums_add_part(w, &sums, share);
 #endif

@@ -38,7 +38,7 @@ OZ_INLINE void oz_step_forces(OzWork *w, int step)
     }
 #if OZ_SUBSTEPS == 1
     if (OZ_BEAMS) {
-        oz_element_beams_pull(w, step, &sums);
+        oz_element_beams_pull(w, step, 1, &sums);
     }
 #endif
 #if OZ_LEDGER

@@ -63,6 +63,21 @@ static const char drum[] =
     "motion: {angular_velocity: 200}}\n"
     "observe: {ledger: true, interval: 5e-5}\n";
 
+/* Grains that break against a floor which has just come up, and go on breaking. */
+static const char breaking[] =
+    "model: trigrains\n"
+    "time: {step: 2e-6, duration: 8e-3}\n"
+    "gravity: [20, -200]\n"
+    "beams: {strength: {tension: 8e-3, compression: 0.02, moment: 4e-7, criterion: quadratic}}\n"
+    "grains: [{kind: random, count: 12, shape: polygon, corners: [3, 5], radius: [1e-3, 2e-3]}]\n"
+    "walls:\n"
+    "  - {kind: vessel, width: 15e-3, height: 3e-2, motion: {frequency: 500, "
+    "acceleration_ratio: 1}}\n"
+    "  - {kind: segment, from: [-7e-3, 3e-4], to: [7e-3, 3e-4]}\n"
+    "movie: {fps: 10, length: 2}\n"
+    "observe: {ledger: true, interval: 2e-4, walls: mean}\n"
+    "contacts: {}\n";
+
 typedef struct Case {
     const char *text;
     const char *integrator, *precision, *broadphase, *ledger;
@@ -80,6 +95,7 @@ static const Case cases[] = {
     {flat, "gear4", "double", "", "", 2, false},
     {flat, "velocity-verlet", "float", "", "", 1, false},
     {drum, "", "", "", "", 1, false},
+    {breaking, "", "", "", "", 2, false},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
@@ -245,6 +261,7 @@ static void test_nothing_is_superfluous(void **state)
     check_nothing_is_superfluous(&cases[0], NULL);
     check_nothing_is_superfluous(&cases[4], "record"); /* written by the moves before the forces */
     check_nothing_is_superfluous(&cases[8], "0/wall"); /* of the drum, which nothing touches yet */
+    check_nothing_is_superfluous(&cases[9], "record");
 }
 
 /* Settling that is left at one of its looks. */

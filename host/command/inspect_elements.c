@@ -42,6 +42,28 @@ static void print_symmetry(FILE *file, const OzScene *scene)
     }
 }
 
+/* From what speed on a hit breaks the grain that was thrown. */
+static OzStatus print_strength(FILE *file, const OzScene *scene, const OzGrains *grains,
+                               const OzTrial *trial)
+{
+    double slowest = 0;
+    if (!scene->beams.strength.present || trial->grain < 0) {
+        return OZ_OK;
+    }
+    OZ_PASS(oz_trial_break(&slowest, scene, grains, trial->grain, trial->speed));
+    if (slowest > 0) {
+        double gravity = hypot(scene->gravity[0], scene->gravity[1]);
+        fprintf(file, "  strength         grain %lld breaks in a hit at %.2g m/s and faster",
+                (long long)trial->grain, slowest);
+        fprintf(file, gravity > 0 ? ", a fall of %.2g m\n" : "\n",
+                0.5 * slowest * slowest / fmax(gravity, 1e-300));
+    } else if (trial->speed > 0) {
+        fprintf(file, "  strength         no hit that contacts bear breaks grain %lld\n",
+                (long long)trial->grain);
+    }
+    return OZ_OK;
+}
+
 /* What hits and the pile's weight do to beams; the weight at rest by the force of the hit. */
 static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains *grains)
 {
@@ -59,7 +81,7 @@ static OzStatus print_softness(FILE *file, const OzScene *scene, const OzGrains 
         }
         fprintf(file, "\n");
     }
-    return OZ_OK;
+    return print_strength(file, scene, grains, &trial);
 }
 
 OzStatus oz_inspect_elements_warn(FILE *file, const OzScene *scene, const OzGrains *grains)
@@ -68,7 +90,12 @@ OzStatus oz_inspect_elements_warn(FILE *file, const OzScene *scene, const OzGrai
     char advice[256];
     OZ_PASS(oz_trial_worst(&trial, scene, grains));
     if (trial.grain >= 0 && trial.speed > 0) {
+        double breaks = 0;
+        OZ_PASS(oz_trial_break(&breaks, scene, grains, trial.grain, trial.speed));
         oz_trial_advise(advice, sizeof advice, &trial, scene);
+        if (breaks > 0 && breaks <= trial.speed) {
+            advice[0] = 0; /* beams break before they go so far */
+        }
         fprintf(file, advice[0] ? "  warning          %s\n" : "%s", advice);
     }
     return OZ_OK;

@@ -33,7 +33,8 @@ double oz_long_axis_find(const OzSnapshot *snapshot, int64_t grain, double *stre
 {
     const OzElements *elements = snapshot->grains->elements;
     double sums[3] = {0, 0, 0};
-    for (int64_t i = elements->first[grain]; i < elements->first[grain + 1]; i++) {
+    for (int64_t k = elements->first[grain]; k < elements->first[grain + 1]; k++) {
+        int64_t i = oz_elements_at(elements, k);
         double corners[6];
         if (elements->radius[i] > 0) {
             continue;

@@ -408,7 +408,7 @@ OzStatus oz_pictures_state(OzPictures *pictures, const OzSnapshot *now, OzStateV
     OZ_PASS(oz_state_bool(visit, "has_frame", &pictures->has_frame));
     OZ_PASS(oz_framing_state(&pictures->frame, visit));
     OZ_PASS(caption_state(pictures, visit));
-    OZ_PASS(strobe_state(pictures, now->grains, visit));
+    OZ_PASS(strobe_state(pictures, oz_snapshot_whole(now), visit));
     OZ_PASS(movie_state(pictures, visit));
     oz_state_leave(visit);
     return OZ_OK;

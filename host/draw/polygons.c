@@ -262,9 +262,11 @@ static void add_beams(OzPolygons *polygons, const OzSnapshot *snapshot, const Oz
     const OzElements *elements = snapshot->grains->elements;
     const float rgba[4] = {BEAM[0], BEAM[1], BEAM[2], (float)presence};
     for (int64_t k = 0; k < elements->beam_count; k++) {
-        add_line(polygons, camera, snapshot->element_position + 2 * elements->beam_a[k],
-                 snapshot->element_position + 2 * elements->beam_b[k], 1.4 * line_width(camera),
-                 rgba);
+        if (!snapshot->wear.whole || snapshot->wear.whole[k] > 0) {
+            add_line(polygons, camera, snapshot->element_position + 2 * elements->beam_a[k],
+                     snapshot->element_position + 2 * elements->beam_b[k], 1.4 * line_width(camera),
+                     rgba);
+        }
     }
 }
 
@@ -272,7 +274,8 @@ static void add_beams(OzPolygons *polygons, const OzSnapshot *snapshot, const Oz
 static bool is_mark(const OzElements *elements, int64_t grain, int64_t i)
 {
     int64_t count = elements->first[grain + 1] - elements->first[grain];
-    return i == elements->first[grain] && count > 1 && count <= MARKED_ELEMENTS_MOST;
+    return i == oz_elements_at(elements, elements->first[grain]) && count > 1 &&
+           count <= MARKED_ELEMENTS_MOST;
 }
 
 void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, const OzLook *look,
@@ -280,20 +283,20 @@ void oz_polygons_add_grains(OzPolygons *polygons, const OzSnapshot *snapshot, co
 {
     const OzElements *elements = snapshot->grains->elements;
     Element element = {.snapshot = snapshot, .camera = camera, .rgba = {0, 0, 0, (float)presence}};
-    int64_t next = 0;
     OzStatus status = oz_pressed_find(&polygons->pressed, snapshot, look);
     polygons->status = polygons->status == OZ_OK ? status : polygons->status;
     for (int64_t g = 0; polygons->status == OZ_OK && g < elements->grain_count; g++) {
         float rgb[3];
         oz_palette_grain(snapshot, look, polygons->pressed.share, g, rgb);
         choose_ink(rgb, element.ink);
-        for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
+        for (int64_t n = elements->first[g]; n < elements->first[g + 1]; n++) {
+            int64_t i = oz_elements_at(elements, n);
             float shade = is_mark(elements, g, i) ? 0.6f : 1.0f;
             for (int k = 0; k < 3; k++) {
                 element.rgba[k] = shade * rgb[k];
             }
             element.index = i;
-            element.edges = edges_of(elements, i, &next);
+            element.edges = oz_elements_outer_edges(elements, i);
             add_element(polygons, &element);
         }
     }

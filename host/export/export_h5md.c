@@ -226,6 +226,12 @@ static OzStatus open_h5md(void **data, const OzExport *target)
     OzStatus status = OZ_OK;
     Writer *writer = NULL;
     char *path = NULL;
+    if (target->scene->beams.strength.present) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: h5md is for as many grains as at the start; expected vtk, xyz "
+                              "or csv with beams.strength",
+                              target->scene->path);
+    }
     OZ_TRY(OZ_NEW(&writer, 1));
     *data = writer;
     writer->target = target;

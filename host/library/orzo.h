@@ -100,7 +100,7 @@ ORZO_API double orzo_step_length(const OrzoSim *sim);
 ORZO_API double orzo_end(const OrzoSim *sim);
 ORZO_API double orzo_period(const OrzoSim *sim);
 
-/* Grains; 0 before orzo_start. */
+/* Grains; 0 before orzo_start. With beams.strength it grows when grains break. */
 ORZO_API int64_t orzo_count(const OrzoSim *sim);
 
 /* THE list of what can be read of each grain: X(NAME, name, values a grain, unit). Axes are unit

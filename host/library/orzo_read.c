@@ -5,7 +5,7 @@
 
 int64_t orzo_count(const OrzoSim *sim)
 {
-    return sim->session.is_started ? sim->session.grains.count : 0;
+    return sim->session.is_started ? sim->session.now.count : 0;
 }
 
 #define WIDTH(NAME, name, width, unit) [ORZO_##NAME] = width,
@@ -21,9 +21,9 @@ static const double *values_of(const OzSession *session, OrzoField field)
                                     [ORZO_QUATERNION] = now->quaternion,
                                     [ORZO_VELOCITY] = now->velocity,
                                     [ORZO_ANGULAR_VELOCITY] = now->angular_velocity,
-                                    [ORZO_DIAMETER] = session->grains.diameter,
-                                    [ORZO_LENGTH] = session->grains.length,
-                                    [ORZO_MASS] = session->grains.mass};
+                                    [ORZO_DIAMETER] = now->grains->diameter,
+                                    [ORZO_LENGTH] = now->grains->length,
+                                    [ORZO_MASS] = now->grains->mass};
     _Static_assert(sizeof values / sizeof *values == ORZO_FIELD_COUNT, "a row a field");
     return values[field];
 }
@@ -34,13 +34,13 @@ static OzStatus read_field(OzSession *session, OrzoField field, double *values, 
         return oz_status_fail(OZ_ERR_INPUT, "%s: there is no field %d; expected 0 to %d",
                               session->path, (int)field, ORZO_FIELD_COUNT - 1);
     }
-    int64_t count = widths[field] * session->grains.count;
+    OZ_PASS(oz_session_see(session, false));
+    int64_t count = widths[field] * session->now.count;
     if (room != count) {
         return oz_status_fail(
             OZ_ERR_INPUT, "%s: room for %lld numbers; expected %d for each of %lld grains",
-            session->path, (long long)room, widths[field], (long long)session->grains.count);
+            session->path, (long long)room, widths[field], (long long)session->now.count);
     }
-    OZ_PASS(oz_session_see(session, false));
     if (count > 0) {
         memcpy(values, values_of(session, field), (size_t)count * sizeof *values);
     }

@@ -120,7 +120,8 @@ OzStatus oz_session_look(OzSession *session)
             OZ_PASS(oz_session_observe(session));
         }
     }
-    return OZ_OK;
+    /* Whose number may have changed. */
+    return session->scene.beams.strength.present ? oz_session_see(session, false) : OZ_OK;
 }
 
 OzStatus oz_session_advance(OzSession *session, int64_t step)

@@ -56,6 +56,7 @@ void oz_elements_free(OzElements *elements)
     }
     free(elements->first);
     free(elements->body);
+    free(elements->member);
     free(elements->radius);
     free(elements->corner);
     free(elements->reach);
@@ -176,7 +177,8 @@ void oz_elements_corners(const OzElements *elements, int64_t i, const double pos
 double oz_elements_turned(const OzElements *elements, int64_t body, const double *angle)
 {
     double turn = 0, mass = 0;
-    for (int64_t i = elements->first[body]; i < elements->first[body + 1]; i++) {
+    for (int64_t k = elements->first[body]; k < elements->first[body + 1]; k++) {
+        int64_t i = oz_elements_at(elements, k);
         mass += elements->mass[i];
         turn += elements->mass[i] * (angle[i] - elements->angle[i]);
     }
@@ -186,8 +188,8 @@ double oz_elements_turned(const OzElements *elements, int64_t body, const double
 double oz_elements_body_area(const OzElements *elements, int64_t body)
 {
     double area = 0;
-    for (int64_t i = elements->first[body]; i < elements->first[body + 1]; i++) {
-        area += elements->area[i];
+    for (int64_t k = elements->first[body]; k < elements->first[body + 1]; k++) {
+        area += elements->area[oz_elements_at(elements, k)];
     }
     return area;
 }

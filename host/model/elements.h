@@ -17,16 +17,18 @@ typedef struct OzElements {
     int64_t count;      /* all elements                                                           */
     int64_t *first;     /* grain_count + wall_count + 1: the first element of each body           */
     int *body;          /* count: the grain, or grain_count + the wall                          */
-    double *radius;     /* count: m, of a disc; 0 for a triangle                                */
-    double *corner;     /* 6 x count: m, x y of three corners about the centre of mass,
-                           counter-clockwise, at angle 0; zero for a disc                       */
-    double *reach;      /* count: m, from the centre of mass to the farthest point              */
-    double *area;       /* count: m^2                                                           */
-    double *mass;       /* count: kg; 0 for walls                                               */
-    double *inertia;    /* count: kg m^2 about the centre of mass; 0 for walls                  */
-    double *position;   /* 2 x count: m, centre of mass                                         */
-    double *angle;      /* count: rad, not wrapped                                              */
-    double *velocity;   /* 2 x count: m/s                                                       */
+    int *member;      /* free_count: elements by body, where they are not in order (model/pieces.h);
+                         NULL:      they are                                                               */
+    double *radius;   /* count: m, of a disc; 0 for a triangle                                */
+    double *corner;   /* 6 x count: m, x y of three corners about the centre of mass,
+                         counter-clockwise, at angle 0; zero for a disc                       */
+    double *reach;    /* count: m, from the centre of mass to the farthest point              */
+    double *area;     /* count: m^2                                                           */
+    double *mass;     /* count: kg; 0 for walls                                               */
+    double *inertia;  /* count: kg m^2 about the centre of mass; 0 for walls                  */
+    double *position; /* 2 x count: m, centre of mass                                         */
+    double *angle;    /* count: rad, not wrapped                                              */
+    double *velocity; /* 2 x count: m/s                                                       */
     double *angular_velocity; /* count: rad/s */
     int64_t beam_count;
     int *beam_a, *beam_b; /* beam_count: elements, a < b, of one grain; ordered by a, then b */
@@ -60,6 +62,13 @@ void oz_elements_set_disc(OzElements *elements, int64_t i, const double centre[2
 
 /* Rest length and angles of beam k from its elements' positions and angles now. */
 void oz_elements_rest_beam(OzElements *elements, int64_t k);
+
+/* The k-th element in the order of bodies: those of body b are k = first[b] ... first[b + 1] - 1.
+ */
+static inline int64_t oz_elements_at(const OzElements *elements, int64_t k)
+{
+    return elements->member && k < elements->free_count ? elements->member[k] : k;
+}
 
 /* Its edges on the outside of its body, as bits 0..2; a disc has none. */
 int oz_elements_outer_edges(const OzElements *elements, int64_t i);

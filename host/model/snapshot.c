@@ -22,11 +22,12 @@ static OzStatus create_elements(OzSnapshot *snapshot, int64_t count)
 OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
-    int64_t count = grains->count;
+    bool breaks = grains->elements && scene->beams.strength.present;
+    int64_t count = breaks ? grains->elements->free_count : grains->count; /* there may be */
     memset(snapshot, 0, sizeof *snapshot);
     snapshot->scene = scene;
-    snapshot->grains = grains;
-    snapshot->count = count;
+    snapshot->grains = snapshot->whole = grains;
+    snapshot->count = grains->count;
     OZ_TRY(OZ_NEW(&snapshot->position, 3 * count));
     OZ_TRY(OZ_NEW(&snapshot->quaternion, 4 * count));
     OZ_TRY(OZ_NEW(&snapshot->axis, 3 * count));
@@ -37,6 +38,9 @@ OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const Oz
     OZ_TRY(OZ_NEW(&snapshot->wall_impulse, scene->wall_count));
     if (grains->elements) {
         OZ_TRY(create_elements(snapshot, grains->elements->count));
+    }
+    if (breaks) {
+        OZ_TRY(oz_wear_create(&snapshot->wear, grains->elements));
     }
 done:
     if (status != OZ_OK) {
@@ -60,6 +64,8 @@ void oz_snapshot_free(OzSnapshot *snapshot)
     free(snapshot->element_velocity);
     free(snapshot->element_angular_velocity);
     oz_contact_list_free(&snapshot->contacts);
+    oz_pieces_free(snapshot->pieces);
+    oz_wear_free(&snapshot->wear);
     memset(snapshot, 0, sizeof *snapshot);
 }
 
@@ -89,10 +95,27 @@ static OzStatus copy_contacts(OzSnapshot *copy, const OzSnapshot *snapshot)
     return OZ_OK;
 }
 
+const OzGrains *oz_snapshot_whole(const OzSnapshot *snapshot)
+{
+    return snapshot->whole ? snapshot->whole : snapshot->grains;
+}
+
+OzStatus oz_snapshot_split(OzSnapshot *s)
+{
+    oz_pieces_free(s->pieces);
+    s->pieces = NULL;
+    if (s->wear.whole && oz_wear_broken(&s->wear) > 0) {
+        OZ_PASS(oz_pieces_make(&s->pieces, s->whole, s->wear.whole, s->element_position));
+    }
+    s->grains = s->pieces ? s->pieces : oz_snapshot_whole(s);
+    s->count = s->grains->count;
+    return OZ_OK;
+}
+
 OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
 {
     int64_t count = snapshot->count, walls = snapshot->scene->wall_count;
-    OZ_PASS(oz_snapshot_create(copy, snapshot->scene, snapshot->grains));
+    OZ_PASS(oz_snapshot_create(copy, snapshot->scene, oz_snapshot_whole(snapshot)));
     copy_words(copy->position, snapshot->position, 3 * count);
     copy_words(copy->quaternion, snapshot->quaternion, 4 * count);
     copy_words(copy->axis, snapshot->axis, 3 * count);
@@ -107,6 +130,10 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy->has_ledger = snapshot->has_ledger;
     copy->ledger = snapshot->ledger;
     copy_elements(copy, snapshot);
+    if (copy->wear.whole) {
+        oz_wear_copy(&copy->wear, &snapshot->wear);
+        OZ_PASS(oz_snapshot_split(copy));
+    }
     return oz_scene_shows_contacts(snapshot->scene) ? copy_contacts(copy, snapshot) : OZ_OK;
 }
 
@@ -149,13 +176,14 @@ static Join join_linear(const OzSnapshot *snapshot, int64_t first, int64_t end)
 {
     const OzElements *elements = snapshot->grains->elements;
     Join join = {0};
-    for (int64_t i = first; i < end; i++) {
+    for (int64_t k = first; k < end; k++) {
+        int64_t i = oz_elements_at(elements, k);
         double mass = elements->mass[i];
         join.mass += mass;
         join.turn += mass * (snapshot->element_angle[i] - elements->angle[i]);
-        for (int k = 0; k < 2; k++) {
-            join.position[k] += mass * snapshot->element_position[2 * i + k];
-            join.velocity[k] += mass * snapshot->element_velocity[2 * i + k];
+        for (int c = 0; c < 2; c++) {
+            join.position[c] += mass * snapshot->element_position[2 * i + c];
+            join.velocity[c] += mass * snapshot->element_velocity[2 * i + c];
         }
     }
     for (int k = 0; k < 2; k++) {
@@ -170,7 +198,8 @@ static Join join_linear(const OzSnapshot *snapshot, int64_t first, int64_t end)
 static void join_angular(const OzSnapshot *snapshot, int64_t first, int64_t end, Join *join)
 {
     const OzElements *elements = snapshot->grains->elements;
-    for (int64_t i = first; i < end; i++) {
+    for (int64_t k = first; k < end; k++) {
+        int64_t i = oz_elements_at(elements, k);
         const double *r = snapshot->element_position + 2 * i,
                      *v = snapshot->element_velocity + 2 * i;
         double x = r[0] - join->position[0], y = r[1] - join->position[1];
@@ -212,8 +241,10 @@ static OzStatus elements_state(OzSnapshot *s, OzStateVisit *visit)
     OZ_PASS(oz_state_double(visit, "element_position", "m", s->element_position, 2 * count));
     OZ_PASS(oz_state_double(visit, "element_angle", "rad", s->element_angle, count));
     OZ_PASS(oz_state_double(visit, "element_velocity", "m/s", s->element_velocity, 2 * count));
-    return oz_state_double(visit, "element_angular_velocity", "rad/s", s->element_angular_velocity,
-                           count);
+    OZ_PASS(oz_state_double(visit, "element_angular_velocity", "rad/s", s->element_angular_velocity,
+                            count));
+    OZ_PASS(oz_wear_state(&s->wear, visit));
+    return visit->is_loading && s->wear.whole ? oz_snapshot_split(s) : OZ_OK;
 }
 
 OzStatus oz_snapshot_state(OzSnapshot *s, OzStateVisit *visit)
@@ -221,6 +252,9 @@ OzStatus oz_snapshot_state(OzSnapshot *s, OzStateVisit *visit)
     int64_t walls = s->scene->wall_count;
     OZ_PASS(oz_state_int64(visit, "step", "step", &s->step));
     OZ_PASS(oz_state_double(visit, "time", "s", &s->time, 1));
+    if (s->element_count > 0) {
+        OZ_PASS(elements_state(s, visit));
+    }
     OZ_PASS(oz_state_double(visit, "position", "m", s->position, 3 * s->count));
     OZ_PASS(oz_state_double(visit, "quaternion", "none", s->quaternion, 4 * s->count));
     OZ_PASS(oz_state_double(visit, "axis", "none", s->axis, 3 * s->count));
@@ -228,9 +262,5 @@ OzStatus oz_snapshot_state(OzSnapshot *s, OzStateVisit *visit)
     OZ_PASS(oz_state_double(visit, "angular_velocity", "rad/s", s->angular_velocity, 3 * s->count));
     OZ_PASS(oz_state_double(visit, "wall_offset", "m", s->wall_offset, walls));
     OZ_PASS(oz_state_double(visit, "wall_velocity", "m/s", s->wall_velocity, walls));
-    OZ_PASS(oz_state_int64(visit, "deep_count", "none", &s->deep_count));
-    if (s->element_count > 0) {
-        OZ_PASS(elements_state(s, visit));
-    }
-    return OZ_OK;
+    return oz_state_int64(visit, "deep_count", "none", &s->deep_count);
 }

@@ -5,7 +5,7 @@
 #include "base/state.h"
 #include "kernels/ledger_entries.h"
 #include "model/contact_list.h"
-#include "model/grains.h"
+#include "model/pieces.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -33,6 +33,7 @@ typedef struct OzBeamSums {
 typedef struct OzElementLedger {
     OZ_ELEMENT_LEDGER_LOSSES(OZ_LEDGER_MEMBER)
     OZ_LEDGER_WORK(OZ_LEDGER_MEMBER)
+    double beam_broken; /* stored in beams that broke, which kernels keep by beam */
 } OzElementLedger;
 
 typedef struct OzSnapshot {
@@ -42,6 +43,10 @@ typedef struct OzSnapshot {
     double time;              /* s                                                            */
     bool settling;            /* walls are as at time 0: none has been taken away             */
     int64_t count;            /* grains->count                                                */
+    const OzGrains *whole;    /* borrowed: grains as they were made. Where some have broken, grains
+                                 are what is left of them (model/pieces.h), made and owned here     */
+    OzGrains *pieces;         /* or NULL                                                      */
+    OzWear wear;              /* zeroed where beams hold                                      */
     double *position;         /* 3 x count                                                    */
     double *quaternion;       /* 4 x count, w x y z                                           */
     double *axis;             /* 3 x count, unit                                              */
@@ -87,6 +92,13 @@ void oz_snapshot_move_walls(OzSnapshot *snapshot);
 
 /* Whether a wall is there at the snapshot's time. */
 bool oz_snapshot_has_wall(const OzSnapshot *snapshot, int64_t wall);
+
+/* The grains as they were made, also of a snapshot written by hand. */
+const OzGrains *oz_snapshot_whole(const OzSnapshot *snapshot);
+
+/* Makes grains those that wear and the elements' positions now say; count follows. What is by grain
+ * is to be filled again. */
+OzStatus oz_snapshot_split(OzSnapshot *snapshot);
 
 /* Fills position, velocity, spin, quaternion and axis of grains from their elements: centre of
  * mass, its velocity, angular momentum about it over moment of inertia, and the mean turn of the

@@ -40,14 +40,16 @@ typedef struct OzObservation {
 } OzObservation;
 
 /* How often a column stands in a row, and what must be asked for: once; once with observe.ledger,
- * or with observe.order, or with phases; for each layer, "<i>" in its name being 1 to 4; with
- * observe.walls for each wall, "<i>" being its number from 0, and of each for every axis of the
- * model, "<x>". */
+ * or with observe.order, or with phases, or with beams.strength, or with that and the ledger; for
+ * each layer, "<i>" in its name being 1 to 4; with observe.walls for each wall, "<i>" being its
+ * number from 0, and of each for every axis of the model, "<x>". */
 typedef enum OzColumnNeed {
     OZ_COLUMN_ALWAYS,
     OZ_COLUMN_LEDGER,
     OZ_COLUMN_ORDER,
     OZ_COLUMN_PHASES,
+    OZ_COLUMN_STRENGTH,
+    OZ_COLUMN_STRENGTH_LEDGER,
     OZ_COLUMN_LAYERS,
     OZ_COLUMN_WALLS,
     OZ_COLUMN_WALL_TURNS

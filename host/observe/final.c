@@ -41,7 +41,8 @@ static bool is_flat_sound(const OzSnapshot *s, int64_t g)
 {
     const OzElements *elements = s->grains->elements;
     bool sound = true;
-    for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
+    for (int64_t n = elements->first[g]; n < elements->first[g + 1]; n++) {
+        int64_t i = oz_elements_at(elements, n);
         for (int64_t k = 2 * i; k < 2 * i + 2; k++) {
             sound &= isfinite(s->element_position[k]) && isfinite(s->element_velocity[k]);
         }
@@ -80,8 +81,8 @@ static void write_flat_rows(const OzSnapshot *snapshot, FILE *file)
     for (int64_t g = 0; g < snapshot->count; g++) {
         const double *x = &snapshot->position[3 * g], *v = &snapshot->velocity[3 * g];
         double turned = oz_elements_turned(elements, g, snapshot->element_angle), mass = 0;
-        for (int64_t i = elements->first[g]; i < elements->first[g + 1]; i++) {
-            mass += elements->mass[i];
+        for (int64_t k = elements->first[g]; k < elements->first[g + 1]; k++) {
+            mass += elements->mass[oz_elements_at(elements, k)];
         }
         fprintf(file, "%lld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%.17g,%.17g\n", (long long)g,
                 x[0], x[1], turned, v[0], v[1],
@@ -105,7 +106,8 @@ OzStatus oz_final_reserve(const OzGrains *grains, const char *path)
 {
     /* -1.2345678901234567e-308 and a comma: 25 bytes; a grain has at most OZ_BED_COLUMNS of them.
      */
-    const int64_t number = 25, bytes = 1024 + number * OZ_BED_COLUMNS * grains->count;
+    int64_t rows = grains->elements ? grains->elements->free_count : grains->count; /* in pieces */
+    const int64_t number = 25, bytes = 1024 + number * OZ_BED_COLUMNS * rows;
     OzStatus status = OZ_OK;
     char *part = NULL;
     OZ_TRY(part_of(&part, path));

@@ -85,6 +85,15 @@ bool oz_flat_beams(const OzObservation *observation, double *value)
     return s->has_contacts && s->grains->elements->beam_count > 0;
 }
 
+bool oz_flat_breakage(const OzObservation *observation, double *value)
+{
+    const OzSnapshot *s = observation->snapshot;
+    const double values[] = {(double)s->count, (double)oz_wear_broken(&s->wear),
+                             s->element_ledger.beam_broken};
+    *value = values[observation->index];
+    return observation->index < 2 || s->has_ledger;
+}
+
 bool oz_flat_stored(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;

@@ -137,6 +137,19 @@ static void find_reach(OzElements *elements, int64_t i)
     elements->reach[i] = reach;
 }
 
+/* Beams join elements of one grain. */
+static bool beams_are_sound(const OzElements *elements)
+{
+    for (int64_t k = 0; k < elements->beam_count; k++) {
+        int a = elements->beam_a[k], b = elements->beam_b[k];
+        if (a < 0 || b < 0 || a >= elements->free_count || b >= elements->free_count ||
+            elements->body[a] != elements->body[b]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool oz_frame_elements_unpack_static(OzBytes *at, OzElements *elements)
 {
     size_t column = (size_t)elements->count * sizeof(double);
@@ -159,8 +172,7 @@ bool oz_frame_elements_unpack_static(OzBytes *at, OzElements *elements)
             return false;
         }
     }
-    return all_are_within(elements->beam_a, elements->beam_count, elements->free_count) &&
-           all_are_within(elements->beam_b, elements->beam_count, elements->free_count) &&
+    return beams_are_sound(elements) &&
            all_are_within(elements->outline_element, elements->outline_count, elements->count) &&
            all_are_within(elements->outline_edge, elements->outline_count, 3);
 }
@@ -182,8 +194,31 @@ void oz_frame_elements_unpack(OzBytes *at, OzSnapshot *snapshot, bool has_spin)
     if (has_spin) {
         oz_bytes_unpack_floats(at, snapshot->element_angular_velocity, snapshot->element_count);
     }
+}
+
+void oz_frame_elements_join(OzSnapshot *snapshot, bool has_spin)
+{
     oz_snapshot_join_elements(snapshot);
     if (!has_spin) {
         memset(snapshot->angular_velocity, 0, (size_t)(3 * snapshot->count) * sizeof(double));
     }
+}
+
+void oz_frame_elements_pack_wear(OzBytes *at, const OzWear *wear, bool breaks)
+{
+    for (int64_t k = 0; breaks && k < wear->beam_count; k++) {
+        unsigned char whole = wear->whole[k] > 0;
+        oz_bytes_pack(at, &whole, 1);
+    }
+}
+
+OzStatus oz_frame_elements_unpack_wear(OzBytes *at, OzSnapshot *snapshot, bool breaks)
+{
+    OzWear *wear = &snapshot->wear;
+    for (int64_t k = 0; breaks && k < wear->beam_count; k++) {
+        unsigned char whole;
+        oz_bytes_unpack(at, &whole, 1);
+        wear->whole[k] = whole != 0;
+    }
+    return oz_snapshot_split(snapshot);
 }

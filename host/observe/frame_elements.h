@@ -26,7 +26,14 @@ void oz_frame_elements_pack_static(OzBytes *at, const OzElements *elements);
  * zero. False for values that no scene can have; nothing out of range is kept in use then. */
 bool oz_frame_elements_unpack_static(OzBytes *at, OzElements *elements);
 
-/* A frame's part: position, angle, velocity and angular velocity. Reading joins the grains, whose
- * spin is zero where it was not kept. */
+/* Which beams are whole, where any can break. Reading makes the snapshot's grains what is left of
+ * them.
+ */
+void oz_frame_elements_pack_wear(OzBytes *at, const OzWear *wear, bool breaks);
+OzStatus oz_frame_elements_unpack_wear(OzBytes *at, OzSnapshot *snapshot, bool breaks);
+
+/* A frame's part: position, angle, velocity and angular velocity, zero where it was not kept.
+ * Grains are joined afterwards, which have no spin then. */
 void oz_frame_elements_pack(OzBytes *at, const OzSnapshot *snapshot);
 void oz_frame_elements_unpack(OzBytes *at, OzSnapshot *snapshot, bool has_spin);
+void oz_frame_elements_join(OzSnapshot *snapshot, bool has_spin);

@@ -73,10 +73,11 @@ static OzStatus read_common_head(OzFrames *frames, unsigned char *block)
         status = refuse(frames, "not a file of frames");
     } else if (marks[0] != OZ_FRAMES_ORDER_MARK) {
         status = refuse(frames, "written on a machine with another byte order");
-    } else if (marks[1] < OLD_RODS || marks[1] > OZ_FRAMES_FLAT) {
+    } else if (marks[1] < OLD_RODS || marks[1] > OZ_FRAMES_BREAKABLE) {
         status = refuse(frames, "another version of the format");
     }
-    frames->is_flat = marks[1] == OLD_FLAT || marks[1] == OZ_FRAMES_FLAT;
+    frames->breaks = marks[1] == OZ_FRAMES_BREAKABLE;
+    frames->is_flat = marks[1] == OLD_FLAT || marks[1] == OZ_FRAMES_FLAT || frames->breaks;
     frames->is_old = marks[1] <= OLD_FLAT;
     frames->elements.grains = frames->count;
     frames->elements.walls = walls[0];
@@ -202,7 +203,7 @@ static void unpack_standing(const OzFrames *frames, OzBytes *at, OzSnapshot *sna
 }
 
 /* False for a contact of a grain or wall that there is not. */
-static bool unpack_contact(const OzFrames *frames, OzBytes *at, OzContactEntry *e)
+static bool unpack_contact(const OzSnapshot *snapshot, OzBytes *at, OzContactEntry *e)
 {
     int32_t whole[6];
     oz_bytes_unpack(at, whole, sizeof whole);
@@ -217,7 +218,8 @@ static bool unpack_contact(const OzFrames *frames, OzBytes *at, OzContactEntry *
         return false;
     }
     e->kind = (OzContactKind)whole[4];
-    return e->a >= 0 && e->a < frames->count && e->b < frames->count && e->b >= -frames->wall_count;
+    return e->a >= 0 && e->a < snapshot->count && e->b < snapshot->count &&
+           e->b >= -snapshot->scene->wall_count;
 }
 
 /* bytes: of the frame. */
@@ -230,7 +232,7 @@ static OzStatus unpack_contacts(const OzFrames *frames, OzBytes *at, size_t byte
     snapshot->contacts.count = 0;
     for (int64_t i = 0; i < kept && sound; i++) {
         OzContactEntry entry;
-        sound = unpack_contact(frames, at, &entry);
+        sound = unpack_contact(snapshot, at, &entry);
         OZ_PASS(oz_contact_list_add(&snapshot->contacts, &entry));
     }
     snapshot->has_contacts = count >= 0;
@@ -249,6 +251,8 @@ static OzStatus unpack_frame(const OzFrames *frames, size_t bytes, OzSnapshot *s
     oz_bytes_unpack_floats(&at, snapshot->wall_velocity, frames->wall_count);
     if (frames->is_flat) {
         oz_frame_elements_unpack(&at, snapshot, !frames->is_old);
+        OZ_PASS(oz_frame_elements_unpack_wear(&at, snapshot, frames->breaks));
+        oz_frame_elements_join(snapshot, !frames->is_old);
     } else {
         unpack_standing(frames, &at, snapshot);
     }
@@ -262,16 +266,21 @@ static OzStatus unpack_frame(const OzFrames *frames, size_t bytes, OzSnapshot *s
 static OzStatus check_counts(const OzFrames *frames, const OzSnapshot *snapshot)
 {
     int64_t elements = frames->elements.free_elements + frames->elements.wall_elements;
-    if (snapshot->count == frames->count && snapshot->scene->wall_count == frames->wall_count &&
-        snapshot->element_count == elements) {
+    int64_t grains = oz_snapshot_whole(snapshot)->count;
+    if (grains == frames->count && snapshot->scene->wall_count == frames->wall_count &&
+        snapshot->element_count == elements && (snapshot->wear.whole || !frames->breaks)) {
         return OZ_OK;
+    }
+    if (!snapshot->wear.whole && frames->breaks) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s holds grains that break; expected beams.strength",
+                              frames->path);
     }
     return oz_status_fail(OZ_ERR_INPUT,
                           "%s holds %lld grains, %d walls and %lld elements, the scene %lld, %d "
                           "and %lld",
                           frames->path, (long long)frames->count, frames->wall_count,
-                          (long long)elements, (long long)snapshot->count,
-                          snapshot->scene->wall_count, (long long)snapshot->element_count);
+                          (long long)elements, (long long)grains, snapshot->scene->wall_count,
+                          (long long)snapshot->element_count);
 }
 
 static OzStatus refuse_frame(const OzFrames *frames)

@@ -33,6 +33,7 @@ size_t oz_frames_frame_bytes(const OzFrames *frames)
     size_t state = frames->is_flat ? oz_frame_elements_bytes(&frames->elements, !frames->is_old)
                                    : (size_t)frames->count * grain;
     size_t contacts = frames->is_old ? 0 : sizeof(int64_t);
+    state += frames->breaks ? (size_t)frames->elements.beams : 0;
     return FRAME_HEAD_BYTES + state + (size_t)frames->wall_count * FRAME_WALL_BYTES + contacts +
            OZ_BYTES_CHECKSUM;
 }
@@ -48,7 +49,8 @@ static OzStatus write_static(OzFrames *frames, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
     unsigned char *block = NULL;
-    uint32_t marks[2] = {OZ_FRAMES_ORDER_MARK, frames->is_flat ? OZ_FRAMES_FLAT : OZ_FRAMES_RODS};
+    uint32_t flat = frames->breaks ? OZ_FRAMES_BREAKABLE : OZ_FRAMES_FLAT;
+    uint32_t marks[2] = {OZ_FRAMES_ORDER_MARK, frames->is_flat ? flat : OZ_FRAMES_RODS};
     uint32_t walls[2] = {(uint32_t)frames->wall_count, 0};
     size_t bytes = oz_frames_static_bytes(frames), column = (size_t)frames->count * sizeof(double);
     OZ_TRY(OZ_NEW(&block, bytes));
@@ -108,6 +110,7 @@ static OzStatus open_to_write(OzFrames **frames, const char *path, const OzScene
     (*frames)->is_flat = grains->elements != NULL;
     if (grains->elements) {
         (*frames)->elements = oz_frame_elements_count(grains->elements);
+        (*frames)->breaks = scene->beams.strength.present;
     }
     (*frames)->frame_bytes = oz_frames_frame_bytes(*frames);
     OZ_TRY(oz_frames_make_room(*frames, (*frames)->frame_bytes));
@@ -180,6 +183,7 @@ OzStatus oz_frames_add(OzFrames *frames, const OzSnapshot *snapshot, int purpose
     oz_bytes_pack_floats(&at, snapshot->wall_velocity, frames->wall_count);
     if (frames->is_flat) {
         oz_frame_elements_pack(&at, snapshot);
+        oz_frame_elements_pack_wear(&at, &snapshot->wear, frames->breaks);
     } else {
         oz_bytes_pack_floats(&at, snapshot->position, 3 * frames->count);
         oz_bytes_pack_floats(&at, snapshot->quaternion, 4 * frames->count);

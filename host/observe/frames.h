@@ -22,10 +22,12 @@
  *           outline_edge (array after array)
  *   frame   f32 element_position[2 elements]; f32 element_angle[elements]; f32 element_velocity[2
  *           elements] in the place of position to angular_velocity
- * Versions 1 and 2 are 3 and 4 without angular_velocity and without contacts; they are read still.
- * purpose is a sum of OZ_FRAME_ bits. Frames with OZ_FRAME_SETTLING come before all others: of them
- * step and time count from where settling began, for when it will end is not known before.
- * SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
+ * Version 5 is 4 of a scene with beams.strength; a frame's elements are followed by u8
+ * whole[beam_count], 0 of a beam that has broken; the contacts' bodies are pieces (model/pieces.h)
+ * as it has them. Versions 1 and 2 are 3 and 4 without angular_velocity and without contacts; they
+ * are read still. purpose is a sum of OZ_FRAME_ bits. Frames with OZ_FRAME_SETTLING come before all
+ * others: of them step and time count from where settling began, for when it will end is not known
+ * before. SI units; quaternions w x y z; a checksum is FNV-1a, 64 bits, of all bytes before it. */
 #pragma once
 
 #include "base/state.h"

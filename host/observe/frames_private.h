@@ -12,6 +12,7 @@ enum {
     OZ_FRAMES_RODS =
         3, /* versions: of rods, of trigrains; both less two before contacts were kept */
     OZ_FRAMES_FLAT = 4,
+    OZ_FRAMES_BREAKABLE = 5, /* of trigrains whose beams break */
     OZ_FRAMES_HEAD = 32,
     OZ_FRAMES_CONTACT = 6 * 4 + 11 * 4 /* bytes of one contact */
 };
@@ -24,6 +25,7 @@ struct OzFrames {
     int wall_count;
     bool is_flat;
     bool is_old;              /* without angular velocities and contacts       */
+    bool breaks;              /* with what beams are whole                     */
     OzElementCounts elements; /* zero for rods                                 */
     size_t frame_bytes;       /* of a frame without contacts                   */
     unsigned char *frame;     /* room for one frame                            */

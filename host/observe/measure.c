@@ -24,9 +24,10 @@ OzStatus oz_measure_create(OzMeasure *measure, const OzScene *scene, const OzGra
     memset(measure, 0, sizeof *measure);
     measure->floor = oz_basin_floor(scene);
     measure->area = oz_basin_area(scene);
-    OZ_TRY(OZ_NEW(&measure->volume, grains->count));
-    OZ_TRY(OZ_NEW(&measure->heap, grains->count));
-    OZ_TRY(OZ_NEW(&measure->top, grains->count));
+    int64_t most = grains->elements ? grains->elements->free_count : grains->count; /* in pieces */
+    OZ_TRY(OZ_NEW(&measure->volume, most));
+    OZ_TRY(OZ_NEW(&measure->heap, most));
+    OZ_TRY(OZ_NEW(&measure->top, most));
     for (int64_t i = 0; i < grains->count; i++) {
         measure->volume[i] = oz_grains_volume(grains->diameter[i], grains->length[i]);
         measure->total += measure->volume[i];

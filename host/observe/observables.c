@@ -261,6 +261,8 @@ static bool residual(const OzObservation *o, double *value)
 #define LEDGER     OZ_COLUMN_LEDGER
 #define ORDER      OZ_COLUMN_ORDER
 #define PHASES     OZ_COLUMN_PHASES
+#define STRENGTH   OZ_COLUMN_STRENGTH
+#define BROKEN     OZ_COLUMN_STRENGTH_LEDGER
 #define LAYERS     OZ_COLUMN_LAYERS
 #define WALLS      OZ_COLUMN_WALLS
 #define WALL_TURNS OZ_COLUMN_WALL_TURNS
@@ -348,6 +350,9 @@ static const OzColumn list[] = {
     {"stretch_max", "1", "longest beam over its length at rest", FLAT, ALWAYS, false, oz_flat_beams, 1},
     {"bend_max", "degrees", "largest bending angle of a beam's end", FLAT, ALWAYS, false,
      oz_flat_beams, 2},
+    {"grain_count", "1", "grains now: what beams still join is one; this and the next with beams.strength",
+     FLAT, STRENGTH, true, oz_flat_breakage, 0},
+    {"broken_beams", "1", "beams that broke so far", FLAT, STRENGTH, true, oz_flat_breakage, 1},
     {"outflow_count", "1", "grains whose centre is below observe.outlet; this and the next two are "
      "empty without it", FLAT, ALWAYS, true, oz_flat_outflow, 0},
     {"outflow_mass", "kg", "their mass, a metre deep", FLAT, ALWAYS, false, oz_flat_outflow, 1},
@@ -383,6 +388,8 @@ static const OzColumn list[] = {
     {#column, "J", meaning, ALL, LEDGER, false, walls_work, 0},
     OZ_LEDGER_LOSSES(RODS_ROW)
     OZ_ELEMENT_LEDGER_LOSSES(FLAT_ROW)
+    {"energy_beam_broken", "J", "lost in beams that broke so far, with beams.strength", FLAT, BROKEN, false,
+     oz_flat_breakage, 2},
     OZ_LEDGER_WORK(WORK_ROW)
     {"energy_residual", "J", "change of (kinetic + rotational + potential + stored) + all that is lost "
      "- work_walls since the first row; 0 but for the integrator's error", ALL, LEDGER, false,
@@ -402,6 +409,8 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
                          [LEDGER] = 1,
                          [ORDER] = 1,
                          [PHASES] = 1,
+                         [STRENGTH] = 1,
+                         [BROKEN] = 1,
                          [LAYERS] = OZ_MEASURE_LAYERS,
                          [WALLS] = scene->wall_count * (int)strlen(axes_of(WALLS, scene)),
                          [WALL_TURNS] =
@@ -412,10 +421,13 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
 int oz_observables_cells(const OzColumn *column, const OzScene *scene)
 {
     bool of_walls = column->need == WALLS || column->need == WALL_TURNS;
-    bool is_there = (column->need != LEDGER || scene->observe.ledger) &&
-                    (column->need != ORDER || scene->observe.order) &&
-                    (column->need != PHASES || scene->phase_count > 0) &&
-                    (!of_walls || scene->observe.walls);
+    bool is_there =
+        (column->need != LEDGER || scene->observe.ledger) &&
+        (column->need != ORDER || scene->observe.order) &&
+        (column->need != PHASES || scene->phase_count > 0) &&
+        (column->need != STRENGTH || scene->beams.strength.present) &&
+        (column->need != BROKEN || (scene->beams.strength.present && scene->observe.ledger)) &&
+        (!of_walls || scene->observe.walls);
     return is_there ? oz_observables_width(column, scene) : 0;
 }
 

@@ -102,6 +102,30 @@ static void check_wall(const Checker *checker, const OzWall *wall)
     }
 }
 
+static void check_strength(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    const OzBeamStrengthValues *s = &scene->beams.strength;
+    bool is_said = oz_tree_at(root, "beams.strength.tension") ||
+                   oz_tree_at(root, "beams.strength.compression") ||
+                   oz_tree_at(root, "beams.strength.moment");
+    if (!is_said && isinf(s->tension) && isinf(s->compression) && isinf(s->moment)) {
+        oz_tree_fault(root, faults, "beams.strength",
+                      "beams.strength says nothing; expected tension, compression or moment");
+    }
+    if (scene->triangles.overlap != OZ_OVERLAP_KINDS) {
+        oz_tree_fault(root, faults, "triangles.overlap",
+                      "contacts by the field of depths do not know beams that break; expected "
+                      "triangles.overlap: kinds with beams.strength");
+    }
+    for (int k = 0; k < scene->export_count; k++) {
+        if (scene->exports[k] == OZ_EXPORT_H5MD) {
+            oz_tree_fault(root, faults, "export",
+                          "h5md is for as many grains as at the start; expected vtk, xyz or csv "
+                          "with beams.strength");
+        }
+    }
+}
+
 void oz_check_flat_scene(OzScene *scene, OzNode *root, OzFaults *faults)
 {
     Checker checker = {scene, root, faults, "grains", 0};
@@ -118,6 +142,9 @@ void oz_check_flat_scene(OzScene *scene, OzNode *root, OzFaults *faults)
         oz_tree_fault(root, faults, "beams.substeps",
                       "beams.substeps is %lld; expected 1, or integrator velocity-verlet",
                       (long long)scene->beams.substeps);
+    }
+    if (scene->beams.strength.present) {
+        check_strength(scene, root, faults);
     }
     if (scene->snapshots.strobe > 0 && oz_scene_shows_contacts(scene)) {
         oz_tree_fault(root, faults, "snapshots.strobe",

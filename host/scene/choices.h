@@ -75,6 +75,10 @@ static const char *const OVERLAP_FORCES[] = {
     [OZ_OVERLAP_KINDS] = "kinds", [OZ_OVERLAP_FIELD] = "field", NULL};
 static const char *const DAMPING_SHEARS[] = {
     [OZ_SHEAR_NONE] = "none", [OZ_SHEAR_BALANCED] = "balanced", NULL};
+static const char *const STRENGTH_CRITERIA[] = {[OZ_STRENGTH_SEPARATE] = "separate",
+                                                [OZ_STRENGTH_LINEAR] = "linear",
+                                                [OZ_STRENGTH_QUADRATIC] = "quadratic",
+                                                NULL};
 static const char *const OBSERVE_AT[] = {
     [OZ_OBSERVE_MEAN] = "mean", [OZ_OBSERVE_TOP] = "top", [OZ_OBSERVE_BOTTOM] = "bottom", NULL};
 static const char *const OBSERVE_WALLS[] = {[OZ_OBSERVE_WALLS_NONE] = "false",

@@ -6,6 +6,7 @@
 #include "kernels/integrators.h"
 #include "kernels/laws.h"
 #include "kernels/walls.h"
+#include "scene/beam_types.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -28,7 +29,6 @@ typedef enum OzCalibration { OZ_CALIBRATION_NONE, OZ_CALIBRATION_DISCRETE } OzCa
 
 typedef enum OzForcePoint { OZ_FORCE_CENTROID, OZ_FORCE_MIDPOINT } OzForcePoint;
 typedef enum OzOverlapForce { OZ_OVERLAP_KINDS, OZ_OVERLAP_FIELD } OzOverlapForce;
-typedef enum OzDampingShear { OZ_SHEAR_NONE, OZ_SHEAR_BALANCED } OzDampingShear;
 
 /* trigrains: what two overlapping triangles do to each other. */
 typedef struct OzTriangleValues {
@@ -36,17 +36,6 @@ typedef struct OzTriangleValues {
     OzOverlapForce overlap;
     OzForcePoint force_point; /* of kinds                                             */
 } OzTriangleValues;
-
-/* trigrains: the beams that hold a grain's triangles together. */
-typedef struct OzBeamValues {
-    double stiffness;     /* E, N/m: force over elongation                            */
-    double second_moment; /* I, m^3: E I / L is the bending stiffness                 */
-    double damping;       /* gamma, kg/s                                              */
-    OzDampingShear damping_shear;
-    int64_t substeps;  /* steps of the beams in one of the contacts                */
-    double length_min; /* m: grains with shorter beams are not made                */
-    double area_min;   /* m^2: nor with smaller triangles                          */
-} OzBeamValues;
 
 /* What two touching bodies do to each other. */
 typedef struct OzContactValues {

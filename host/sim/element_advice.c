@@ -10,7 +10,7 @@
 
 static double fastest(const OzSnapshot *now)
 {
-    double speed = oz_trial_speed(now->scene, now->grains);
+    double speed = oz_trial_speed(now->scene, oz_snapshot_whole(now));
     for (int64_t i = 0; i < now->count; i++) {
         speed = fmax(speed, hypot(now->velocity[3 * i], now->velocity[3 * i + 1]));
     }
@@ -20,7 +20,7 @@ static double fastest(const OzSnapshot *now)
 static void advise_beams(char *text, size_t size, const OzSnapshot *now, int64_t grain, bool bent)
 {
     OzTrial trial;
-    if (oz_trial_hit(&trial, now->scene, now->grains, grain, fastest(now)) != OZ_OK) {
+    if (oz_trial_hit(&trial, now->scene, oz_snapshot_whole(now), grain, fastest(now)) != OZ_OK) {
         return;
     }
     trial.deep = false; /* the beams gave way first */
@@ -62,14 +62,14 @@ void oz_element_advice_write(char *text, size_t size, const OzSnapshot *now, int
 {
     OzBeamLimit limit;
     snprintf(text, size, "`orzo check` says what step is stable");
-    if (oz_beam_limits_find(&limit, now->scene, now->grains) == OZ_OK &&
+    if (oz_beam_limits_find(&limit, now->scene, oz_snapshot_whole(now)) == OZ_OK &&
         !(now->scene->step < limit.largest_step)) {
         snprintf(text, size, "time.step %g s is unstable; expected below %.3g s", now->scene->step,
                  limit.largest_step);
     } else if (soft == OZ_ELEMENT_SOFT_CONTACT) {
         advise_contact(text, size, now, element);
     } else {
-        advise_beams(text, size, now, now->grains->elements->body[element],
+        advise_beams(text, size, now, oz_snapshot_whole(now)->elements->body[element],
                      soft == OZ_ELEMENT_SOFT_BENDING);
     }
 }

@@ -9,6 +9,6 @@
 #define OZ_FORCE_POINT    oz_host_switches_now.midpoint
 #define OZ_DAMPING_SHEAR  oz_host_switches_now.balanced
 
-#include "kernels/beam.h"
+#include "kernels/beam_strength.h"
 #include "kernels/disc.h"
 #include "kernels/triangle_field.h"

@@ -14,6 +14,7 @@
 #define OZ_MOVING         (s->moving)
 #define OZ_DISCS          (s->discs)
 #define OZ_TRIANGLE_FIELD (s->triangle_field)
+#define OZ_STRENGTH       (s->strength)
 #define OZ_SUBSTEPS       (s->substeps)
 #define OZ_LEDGER         (s->ledger)
 #define OZ_IMPULSES       (s->impulses)

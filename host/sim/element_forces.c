@@ -87,6 +87,24 @@ static OzVec2 point_of(const OzOverlap *o, OzVec2 normal, double size)
     return oz_along2(o->centroid, off, oz_vec2(normal.y, -normal.x));
 }
 
+/* Of triangles that overlapped when a grain broke between them. */
+static void weaken(Forces *f, int a, int b, OzOverlap *o)
+{
+    int64_t scar = f->wear ? oz_wear_scar(f->wear, a, b) : -1;
+    if (scar < 0) {
+        return;
+    }
+    double depth = sqrt(fmax(o->energy, 0)), least = f->wear->scar[scar];
+    double share = oz_beam_strength_share(depth, least);
+    least = oz_beam_strength_least(depth, least);
+    if (f->wears) {
+        f->wear->scar[scar] = least;
+    }
+    o->push = oz_scale2(o->push, share);
+    o->moment *= share;
+    o->energy = (depth - least) * (depth - least);
+}
+
 static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, int b, OzVec2 apart)
 {
     OzTriangle one = triangle_at(f, a, oz_vec2(0, 0)), other = triangle_at(f, b, apart);
@@ -102,6 +120,7 @@ static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, i
     if (!(o.kind > 0 || (OZ_TRIANGLE_FIELD && o.area > 0))) { /* swallowed ones have no kind */
         return OZ_OK;
     }
+    weaken(f, a, b, &o);
     OzVec2 force = oz_scale2(o.push, stiffness);
     double size = fmax(oz_length2(o.push), OZ_TINY);
     OzVec2 normal = oz_scale2(o.push, 1 / size);
@@ -247,13 +266,30 @@ static void sum_beam(Forces *f, const OzBeamForce *beam, int a, int b)
     }
 }
 
+/* Breaks a beam that bears no more, and leaves nothing of what a broken one would do. */
+static void bear(Forces *f, int64_t k, OzBeamForce *beam, OzBeamEnd a, OzBeamEnd b)
+{
+    OzWear *wear = f->wear;
+    double length = f->elements->beam_length[k];
+    if (f->wears && wear->whole[k] > 0 &&
+        oz_beam_strength_load(f->beam, f->strength, beam, length) >= 1) {
+        wear->whole[k] = 0;
+        wear->lost[k] = oz_beam_strength_stored(beam, a, b, f->wear_share);
+        f->broke = true;
+    }
+    oz_beam_strength_drop(beam, !(wear->whole[k] > 0));
+}
+
 static void add_beams(Forces *f, const OzElementState *state)
 {
     for (int64_t k = 0; k < f->elements->beam_count; k++) {
         int a = f->elements->beam_a[k], b = f->elements->beam_b[k];
-        OzBeamForce beam = oz_beam_force(f->beam, beam_end(state, a), beam_end(state, b),
-                                         f->elements->beam_length[k], f->elements->beam_rest_a[k],
-                                         f->elements->beam_rest_b[k]);
+        OzBeamEnd one = beam_end(state, a), other = beam_end(state, b);
+        OzBeamForce beam = oz_beam_force(f->beam, one, other, f->elements->beam_length[k],
+                                         f->elements->beam_rest_a[k], f->elements->beam_rest_b[k]);
+        if (f->wear) {
+            bear(f, k, &beam, one, other);
+        }
         sum_beam(f, &beam, a, b);
         add_load(f, state, a, oz_scale2(beam.force, -1), beam.moment_a);
         add_load(f, state, b, beam.force, beam.moment_b);
@@ -361,6 +397,7 @@ OzStatus oz_element_forces_create(OzElementForces *forces, const OzScene *scene,
     const OzElements *elements = grains->elements;
     *forces = (OzElementForces){.scene = scene, .elements = elements};
     forces->beam = oz_element_laws_beam(scene);
+    forces->strength = oz_element_laws_strength(scene);
     forces->disc = oz_element_laws_disc(scene, -1);
     OZ_TRY(OZ_NEW(&forces->disc_wall, scene->wall_count));
     for (int w = 0; w < scene->wall_count; w++) {
@@ -379,6 +416,7 @@ done:
 void oz_element_forces_free(OzElementForces *forces)
 {
     free(forces->disc_wall);
+    oz_pieces_free(forces->pieces);
     oz_element_pairs_free(&forces->pairs);
     free(forces->turned);
     free(forces->force);
@@ -397,6 +435,7 @@ OzStatus oz_element_forces_contacts(OzSnapshot *snapshot)
                             .time = snapshot->time};
     OZ_TRY(oz_element_forces_create(&forces, snapshot->scene, snapshot->grains));
     forces.list = &snapshot->contacts;
+    forces.wear = snapshot->wear.whole ? &snapshot->wear : NULL;
     OZ_TRY(oz_element_forces_evaluate(&forces, &state));
     oz_contact_list_sort(&snapshot->contacts);
     snapshot->beams = forces.beams;

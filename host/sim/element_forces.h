@@ -27,8 +27,14 @@ typedef enum OzElementFault {
 
 typedef struct OzElementForces {
     const OzScene *scene;       /* borrowed */
-    const OzElements *elements; /* borrowed */
+    const OzElements *elements; /* borrowed, or those of pieces */
+    OzGrains *pieces;           /* owned, or NULL: what is left of grains (sim/element_part.h) */
     OzBeamConstants beam;
+    OzBeamStrength strength;
+    OzWear *wear;         /* borrowed: which beams hold; NULL: all do                        */
+    bool wears;           /* evaluations change it: beams break, scars heal                  */
+    double wear_share;    /* s: how long before an evaluation a beam that breaks was there last */
+    bool broke;           /* a beam has, since it was set to false                           */
     OzDiscLaw disc;       /* between grains                                   */
     OzDiscLaw *disc_wall; /* wall_count                                       */
     OzElementPairs pairs;

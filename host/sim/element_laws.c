@@ -12,6 +12,17 @@ OzBeamConstants oz_element_laws_beam(const OzScene *scene)
                              .damping_bending = beams->damping * beams->second_moment};
 }
 
+OzBeamStrength oz_element_laws_strength(const OzScene *scene)
+{
+    const OzBeamStrengthValues *s = &scene->beams.strength;
+    return s->present ? (OzBeamStrength){.pulled = 1 / s->tension,
+                                         .pressed = 1 / s->compression,
+                                         .bent = 1 / s->moment,
+                                         .together = s->criterion != OZ_STRENGTH_SEPARATE,
+                                         .quadratic = s->criterion == OZ_STRENGTH_QUADRATIC}
+                      : (OzBeamStrength){0};
+}
+
 OzDiscLaw oz_element_laws_disc(const OzScene *scene, int wall)
 {
     OzContactValues values = wall < 0 ? scene->contact : scene->walls[wall].contact;

@@ -2,6 +2,7 @@
 #include "sim/element_pack.h"
 
 #include "base/memory.h"
+#include "sim/element_wear.h"
 #include "sim/units.h"
 
 #include <math.h>
@@ -131,7 +132,13 @@ OzStatus oz_element_pack_bodies(OzArrays *arrays, int member, const OzGrains *gr
     OzStatus status = OZ_OK;
     const OzElementSizes *z = oz_element_fields_sizes(arrays);
     const OzElements *elements = grains->elements;
-    int *body = NULL, *wall = NULL;
+    bool breaks = oz_element_fields_switches(arrays)->strength != 0;
+    int64_t grain_count = elements->grain_count;
+    int64_t walls = breaks ? elements->free_count : grain_count; /* numbers no grain can have */
+    int *body = NULL, *wall = NULL, *pieces = NULL;
+    if (breaks) {
+        OZ_TRY(oz_element_wear_bodies(arrays, member, elements, &pieces));
+    }
     OZ_TRY(OZ_NEW(&body, z->slots));
     OZ_TRY(OZ_NEW(&wall, z->slots));
     for (int slot = 0; slot < z->slots; slot++) {
@@ -140,9 +147,10 @@ OzStatus oz_element_pack_bodies(OzArrays *arrays, int member, const OzGrains *gr
     }
     for (int64_t i = 0; i < elements->count; i++) {
         int slot = oz_element_fields_slot(z, elements, i);
-        int w = i < elements->free_count ? -1 : elements->body[i] - (int)elements->grain_count;
+        int w = i < elements->free_count ? -1 : elements->body[i] - (int)grain_count;
+        int own = w < 0 && pieces ? pieces[i] : elements->body[i];
         wall[slot] = w;
-        body[slot] = w < 0 || (present >> w & 1U) ? elements->body[i] : -1;
+        body[slot] = w < 0 ? own : (present >> w & 1U) ? (int)walls + w : -1;
     }
     OZ_TRY(oz_arrays_write(arrays, OZ_ELEMENT_FIELD_body, member, body,
                            (size_t)z->slots * sizeof *body));
@@ -151,6 +159,7 @@ OzStatus oz_element_pack_bodies(OzArrays *arrays, int member, const OzGrains *gr
 done:
     free(body);
     free(wall);
+    free(pieces);
     return status;
 }
 
@@ -271,6 +280,7 @@ OzStatus oz_element_pack_start(OzArrays *arrays, int member, const OzElementPara
     OZ_PASS(write_shapes(arrays, member, units, grains->elements));
     OZ_PASS(write_state(arrays, member, parameters, grains->elements, start));
     OZ_PASS(write_slow_loads(arrays, member, units, grains->elements, start->touch));
+    OZ_PASS(oz_element_wear_start(arrays, member, grains->elements));
     OZ_PASS(oz_element_pack_bodies(arrays, member, grains, ~0U));
     OZ_PASS(write_outer_edges(arrays, member, grains->elements));
     OZ_PASS(write_beams(arrays, member, units, grains->elements));

@@ -8,6 +8,7 @@
 #include "model/step_clock.h"
 #include "model/wall_motion.h"
 #include "sim/element_forces.h"
+#include "sim/element_part.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +20,7 @@ struct OzElementReference {
     const OzGrains *grains;
     const OzElements *elements;
     OzElementForces forces;
+    OzWear wear; /* zeroed where beams hold                                */
     int64_t step;
     OzStepClock clock;
     int64_t count;        /* coordinates: 3 x free_count                       */
@@ -49,6 +51,14 @@ static OzElementState show(Reference *r, const double *place, const double *rate
                          r->velocity, r->angular_velocity);
     return (OzElementState){r->position,         r->angle, r->velocity,
                             r->angular_velocity, time,     r->at_rest};
+}
+
+/* Evaluations change beams and scars from here on, and a beam that breaks was there until `before`
+ * (s) earlier; or, less than 0, they only look. */
+static void wear(Reference *r, double before)
+{
+    r->forces.wears = r->forces.wear && before >= 0;
+    r->forces.wear_share = before;
 }
 
 /* Accelerations in a state. */
@@ -122,8 +132,16 @@ static OzStatus step_rk4(Reference *r, double *place, double *rate, double time,
     return OZ_OK;
 }
 
+/* Beams break and scars heal by the state at a step's begin alone. */
 static OzStatus rk4(Reference *r, double dt)
 {
+    if (r->forces.wear) {
+        wear(r, 0);
+        OZ_PASS(
+            evaluate(r, oz_element_forces_hold, r->place, r->rate, time_of(r), r->acceleration));
+        OZ_PASS(evaluate(r, oz_element_forces_touch, r->place, r->rate, time_of(r), r->touch));
+        wear(r, -1);
+    }
     return step_rk4(r, r->place, r->rate, time_of(r), dt);
 }
 
@@ -146,6 +164,7 @@ static OzStatus verlet_with(Reference *r, Evaluate forces_of, double *accelerati
 
 static OzStatus verlet(Reference *r, double dt)
 {
+    wear(r, 0.5 * dt);
     OZ_PASS(verlet_with(r, oz_element_forces_evaluate, r->acceleration, time_of(r), dt));
     note_power(r, dt);
     return OZ_OK;
@@ -159,7 +178,9 @@ static OzStatus verlet_substeps(Reference *r, double dt)
     double *ahead = r->scratch, part = dt / (double)parts;
     OzElementLedger before = r->power, touch = {0};
     move(r->rate, r->rate, 0.5 * dt, r->touch, n);
+    wear(r, 0);
     OZ_PASS(evaluate(r, oz_element_forces_hold, r->place, r->rate, time_of(r), r->acceleration));
+    wear(r, 0.5 * part);
     for (int64_t k = 0; k < parts; k++) {
         OZ_PASS(verlet_with(r, oz_element_forces_hold, r->acceleration,
                             time_of(r) + (double)k * part, part));
@@ -183,6 +204,7 @@ static OzStatus gear(Reference *r, double dt)
         r->place[k] = r->gear[k].value[0];
         r->rate[k] = r->gear[k].value[1] / dt;
     }
+    wear(r, 0.5 * dt);
     OZ_PASS(evaluate(r, oz_element_forces_evaluate, r->place, r->rate, time_of(r) + dt,
                      r->acceleration));
     note_power(r, dt);
@@ -288,11 +310,15 @@ OzStatus oz_element_reference_advance(OzElementReference *reference, int64_t ste
     }
     while (reference->step < step) {
         OZ_PASS(method_of(reference)(reference, dt));
+        wear(reference, -1);
         reference->step++;
         reference->deep_count += reference->forces.deep_count;
         OzElementState now = show(reference, reference->place, reference->rate, time_of(reference));
         oz_element_forces_watch(&reference->forces, &now, dt);
         OZ_PASS(oz_element_forces_check(&reference->forces, reference->step, time_of(reference)));
+        if (reference->forces.broke) {
+            OZ_PASS(oz_element_part_grains(&reference->forces, reference->grains, &now));
+        }
     }
     return OZ_OK;
 }
@@ -308,6 +334,10 @@ OzStatus oz_element_reference_snapshot(const OzElementReference *reference, OzSn
     }
     snapshot->step = r->step;
     snapshot->time = time_of(r);
+    if (snapshot->wear.whole) {
+        oz_wear_copy(&snapshot->wear, &r->wear);
+        OZ_PASS(oz_snapshot_split(snapshot));
+    }
     oz_wall_motion_place(r->elements, r->scene, snapshot->time, r->at_rest,
                          snapshot->element_position, snapshot->element_angle,
                          snapshot->element_velocity, snapshot->element_angular_velocity);
@@ -316,6 +346,7 @@ OzStatus oz_element_reference_snapshot(const OzElementReference *reference, OzSn
     snapshot->deep_count = r->deep_count;
     snapshot->has_ledger = r->scene->observe.ledger;
     snapshot->element_ledger = r->ledger;
+    snapshot->element_ledger.beam_broken = oz_wear_lost(&r->wear);
     return oz_element_forces_contacts(snapshot);
 }
 
@@ -359,6 +390,10 @@ OzStatus oz_element_reference_create(OzElementReference **reference, const OzSce
     r->elements = elements;
     r->count = 3 * elements->free_count;
     OZ_TRY(oz_element_forces_create(&r->forces, scene, grains));
+    if (scene->beams.strength.present) {
+        OZ_TRY(oz_wear_create(&r->wear, elements));
+        r->forces.wear = &r->wear;
+    }
     OZ_TRY(create_arrays(r));
     load_state(r, elements->position, elements->angle, elements->velocity,
                elements->angular_velocity);
@@ -377,6 +412,7 @@ void oz_element_reference_free(OzElementReference *reference)
         return;
     }
     oz_element_forces_free(&reference->forces);
+    oz_wear_free(&reference->wear);
     free(reference->place);
     free(reference->rate);
     free(reference->acceleration);

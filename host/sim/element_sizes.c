@@ -1,10 +1,12 @@
 /* Choosing sizes. */
 #include "sim/element_sizes.h"
 
+#include "model/wear.h"
 #include "sim/element_laws.h"
 #include "sim/sizes.h"
 #include "sim/units.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -75,6 +77,7 @@ OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, con
     p->deep_warn = scene->guards.overlap_warn;
     p->deep_stop = scene->guards.overlap_stop;
     p->beam = oz_element_laws_beam(scene);
+    p->strength = oz_element_laws_strength(scene);
     for (int w = -1; w < scene->wall_count; w++) {
         p->law[w + 1] = oz_element_laws_disc(scene, w);
     }
@@ -108,6 +111,11 @@ OzStatus oz_element_sizes_choose(void *sizes, void *parameters, const OzScene *s
     z->blocks = z->slots / s->lanes;
     z->beam_blocks = oz_sizes_up((double)elements->beam_count, s->lanes) / s->lanes;
     z->walls = scene->wall_count;
+    if (s->strength && oz_wear_scars(elements) > INT_MAX / 2) {
+        return oz_status_fail(OZ_ERR_INPUT, "%s: grains of too many triangles to break",
+                              scene->path);
+    }
+    z->scars = s->strength ? (int)oz_wear_scars(elements) : 0;
     oz_sizes_regions((OzSizesHead *)(void *)z, switches, z->free_slots);
     extents(elements, middle, size);
     oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size,
@@ -131,6 +139,7 @@ void oz_element_sizes_join(void *sizes, const void *another)
     z->free_slots = larger(z->free_slots, other->free_slots);
     z->free_blocks = larger(z->free_blocks, other->free_blocks);
     z->beam_blocks = larger(z->beam_blocks, other->beam_blocks);
+    z->scars = larger(z->scars, other->scars);
     z->region_slots = larger(z->region_slots, other->region_slots);
     z->outer_capacity = larger(z->outer_capacity, other->outer_capacity);
     z->inner_capacity = larger(z->inner_capacity, other->inner_capacity);

@@ -18,6 +18,7 @@
     X(MOVING, moving, "moving walls")                                                              \
     X(DISCS, discs, "discs")                                                                       \
     X(BEAMS, beams, "beams")                                                                       \
+    X(STRENGTH, strength, "beams that break")                                                      \
     X(SUBSTEPS, substeps, NULL)                                                                    \
     X(TRIANGLE_FIELD, triangle_field, NULL)                                                        \
     X(FORCE_POINT, force_point, NULL)                                                              \

@@ -130,6 +130,9 @@ static OzStatus finish_launch(OzSim *sim, int steps)
         more = false;
         for (int m = 0; m < sim->batch.member_count; m++) {
             const OzControlHead *control = oz_sim_control(sim, m);
+            if (control->stop_bits && sim->model->mend) {
+                OZ_PASS(sim->model->mend(sim, m));
+            }
             full |= control->full != 0;
             more |= !control->stop_bits && !is_through(sim, control, steps);
         }

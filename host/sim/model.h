@@ -137,12 +137,14 @@ typedef struct OzModel {
     /* A launch. prime (may be NULL): what must come before the first. steps_alike (may be NULL):
      * how many of these steps a member can make before what is written for a launch changes.
      * prepare: writes walls' motion and what else a member's next steps need. supply (may be NULL):
-     * what members that are not through wait for. */
+     * what members that are not through wait for. mend (may be NULL): a member that has stopped
+     * for something after which it can go on is made to. */
     OzStatus (*write_parameters)(OzSim *sim, int member);
     OzStatus (*prime)(OzSim *sim);
     int64_t (*steps_alike)(const OzSim *sim, int member, int64_t steps);
     OzStatus (*prepare)(OzSim *sim, int member, int steps);
     OzStatus (*supply)(OzSim *sim);
+    OzStatus (*mend)(OzSim *sim, int member);
 
     /* What the model's own part holds of the state, saved or loaded (may be NULL). */
     OzStatus (*state)(OzSim *sim, OzStateVisit *visit);
@@ -189,8 +191,8 @@ typedef struct OzModel {
     void (*advise)(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now);
 } OzModel;
 
-/* Whether a field adds up what has happened. Such a one, and what pushes grains from outside, begins
- * empty where no state has it. */
+/* Whether a field adds up what has happened. Such a one, and what pushes grains from outside,
+ * begins empty where no state has it. */
 bool oz_model_field_sums(const OzField *field);
 bool oz_model_field_begins_empty(const OzField *field);
 

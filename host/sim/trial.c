@@ -14,6 +14,8 @@ enum {
     ORIENTATIONS = 8,
     STEPS_MOST = 6000, /* of one hit */
     LOOK = 4,       /* steps from one look to the next: thirty or more in the fastest vibration */
+    DOUBLINGS = 10, /* of the speed at which a grain may break, */
+    HALVINGS = 20,  /* and of the interval in which it does     */
     SLOWER_MOST = 4 /* times that a speed is divided by four */
 };
 
@@ -95,6 +97,7 @@ static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grain
     t->scene.walls = &t->floor;
     t->scene.wall_count = 1;
     t->scene.observe.ledger = false;
+    t->scene.beams.strength.present = false; /* it looks how far they would go */
     counts.beams = beams_of(from, grain, &first_beam);
     counts.outlines = outlines_of(from, first, first + count, &first_outline);
     OZ_PASS(oz_grains_create(&t->grains, 1));
@@ -212,6 +215,62 @@ OzStatus oz_trial_hit(OzTrial *trial, const OzScene *scene, const OzGrains *grai
 done:
     oz_grains_free(&t.grains);
     return status;
+}
+
+/* Whether a hit breaks a beam. Fails with OZ_ERR_BLOWUP where a guard stops it. */
+static OzStatus throw_to_break(bool *breaks, Throw *t, const OzGrains *grains, int64_t grain,
+                               double speed)
+{
+    OzStatus status = OZ_OK;
+    OzElementReference *reference = NULL;
+    OzSnapshot now = {0};
+    *breaks = false;
+    for (int k = 0; k < ORIENTATIONS && !*breaks; k++) {
+        aim(t, grains, grain, 2 * PI * k / ORIENTATIONS, speed);
+        OZ_TRY(oz_element_reference_create(&reference, &t->scene, &t->grains));
+        OZ_TRY(oz_snapshot_create(&now, &t->scene, &t->grains));
+        OZ_TRY(oz_element_reference_advance(reference, steps_of(t)));
+        OZ_TRY(oz_element_reference_snapshot(reference, &now));
+        *breaks = oz_wear_broken(&now.wear) > 0;
+        oz_snapshot_free(&now);
+        oz_element_reference_free(reference);
+        reference = NULL;
+    }
+done:
+    oz_snapshot_free(&now);
+    oz_element_reference_free(reference);
+    return status;
+}
+
+OzStatus oz_trial_break(double *slowest, const OzScene *scene, const OzGrains *grains,
+                        int64_t grain, double speed)
+{
+    OzStatus status = OZ_OK;
+    Throw t = {0};
+    int64_t first_beam;
+    bool breaks = false;
+    double low = 0, high = speed;
+    *slowest = 0;
+    if (!scene->beams.strength.present || !(speed > 0) ||
+        beams_of(grains->elements, grain, &first_beam) == 0) {
+        return OZ_OK;
+    }
+    OZ_TRY(make_throw(&t, scene, grains, grain));
+    t.scene.beams.strength = scene->beams.strength;
+    for (int k = 0; k < DOUBLINGS && !breaks; k++, high *= breaks ? 1 : 2) {
+        OZ_TRY(throw_to_break(&breaks, &t, grains, grain, high));
+        low = breaks ? low : high;
+    }
+    for (int k = 0; k < HALVINGS && breaks && high - low > 0.1 * high; k++) {
+        bool sooner;
+        double middle = 0.5 * (low + high);
+        OZ_TRY(throw_to_break(&sooner, &t, grains, grain, middle));
+        *(sooner ? &high : &low) = middle;
+    }
+    *slowest = breaks ? high : 0;
+done:
+    oz_grains_free(&t.grains);
+    return status == OZ_ERR_BLOWUP ? OZ_OK : status;
 }
 
 double oz_trial_speed(const OzScene *scene, const OzGrains *grains)

@@ -35,6 +35,12 @@ double oz_trial_speed(const OzScene *scene, const OzGrains *grains);
 /* The worst of the heaviest grain of each population at oz_trial_speed; grain -1 without beams. */
 OzStatus oz_trial_worst(OzTrial *trial, const OzScene *scene, const OzGrains *grains);
 
+/* The slowest hit, m/s, that breaks a beam of a grain whose scene says what its beams bear, in the
+ * worst of eight orientations, to a tenth; 0 where a guard stops it first, or a thousand times
+ * `speed` does not. Takes some tenths of a second. */
+OzStatus oz_trial_break(double *slowest, const OzScene *scene, const OzGrains *grains,
+                        int64_t grain, double speed);
+
 /* One clause, as "beams are too soft ...", with the second moment or stiffness that would do; empty
  * where the trial is within the limits. Bending falls with the root of the second moment or faster,
  * stretch with that of the stiffness. */

@@ -8,11 +8,13 @@
 #include "model/wall_motion.h"
 #include "sim/element_advice.h"
 #include "sim/element_forces.h"
+#include "sim/element_mend.h"
 #include "sim/element_motion.h"
 #include "sim/element_pack.h"
 #include "sim/element_private.h"
 #include "sim/element_sizes.h"
 #include "sim/element_upload.h"
+#include "sim/element_wear.h"
 #include "sim/launch.h"
 #include "sim/read_snapshot.h"
 #include "sim/units.h"
@@ -90,9 +92,22 @@ static OzStatus start(OzSim *sim)
     return oz_launch_enqueue(sim, oz_element_own(sim)->begin, -1);
 }
 
+/* Beams bear anything while grains settle. */
 static OzStatus write_parameters(OzSim *sim, int member)
 {
-    return oz_element_pack_parameters(&sim->arrays, member, oz_element_parameters(sim, member));
+    OzElementParameters p = *oz_element_parameters(sim, member);
+    if (sim->batch.walls_still) {
+        p.strength = (OzBeamStrength){0};
+    }
+    return oz_element_pack_parameters(&sim->arrays, member, &p);
+}
+
+static OzStatus prepare(OzSim *sim, int member, int steps)
+{
+    if (oz_element_switches(sim)->strength) {
+        OZ_PASS(write_parameters(sim, member)); /* settling may have ended */
+    }
+    return oz_element_motion_prepare(sim, member, steps);
 }
 
 static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
@@ -179,8 +194,10 @@ static void advise(char *text, size_t size, const OzControlHead *control, const 
 static OzStatus unpack(OzSim *sim, int member, OzSnapshot *snapshot)
 {
     const OzScene *scene = sim->batch.members[member].scene;
-    OZ_PASS(
-        oz_element_pack_state(&sim->arrays, member, oz_element_parameters(sim, member), snapshot));
+    const OzElementParameters *p = oz_element_parameters(sim, member);
+    OZ_PASS(oz_element_pack_state(&sim->arrays, member, p, snapshot));
+    OZ_PASS(oz_element_wear_read(&sim->arrays, member, &p->units, &snapshot->wear));
+    OZ_PASS(oz_snapshot_split(snapshot));
     oz_wall_motion_place(snapshot->grains->elements, scene, snapshot->time, sim->batch.walls_still,
                          snapshot->element_position, snapshot->element_angle,
                          snapshot->element_velocity, snapshot->element_angular_velocity);
@@ -225,6 +242,7 @@ static OzStatus find_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
         OZ_ELEMENT_LEDGER_LOSSES(TAKE)
         OZ_LEDGER_WORK(TAKE)
 #undef TAKE
+        snapshot->element_ledger.beam_broken = oz_wear_lost(&snapshot->wear);
         snapshot->has_ledger = true;
     }
     return OZ_OK;
@@ -269,7 +287,8 @@ const OzModel oz_trigrains_model = {
     .close = close,
     .write_parameters = write_parameters,
     .steps_alike = oz_element_motion_steps_alike,
-    .prepare = oz_element_motion_prepare,
+    .prepare = prepare,
+    .mend = oz_element_mend_member,
     .state = own_state,
     .adopt = adopt,
     .unpack = unpack,
@@ -283,6 +302,7 @@ const OzModel oz_trigrains_model = {
     .repeats_most = 2048, /* elements under loads that never change go too far after more */
     .ledger_field = OZ_ELEMENT_FIELD_ledger,
     .ledger_words = OZ_ELEMENT_LEDGER_WORDS,
+    .start_ledger = oz_element_mend_start_ledger,
     .stop_count = sizeof stops / sizeof stops[0],
     .stops = stops,
     .grain_of = grain_of,

@@ -189,6 +189,9 @@ OzElementParameters oz_units_elements(const OzElementParameters *si)
     }
     p.stiffness /= oz_units_force(u) / (u->length * u->length);
     count_beam(&p.beam, u);
+    p.strength.pulled *= oz_units_force(u);
+    p.strength.pressed *= oz_units_force(u);
+    p.strength.bent *= oz_units_energy(u);
     for (int w = 0; w <= OZ_ELEMENT_WALLS_MAX; w++) {
         count_disc(&p.law[w], u);
     }
