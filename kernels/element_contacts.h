@@ -49,6 +49,21 @@ OZ_INLINE void oz_element_contacts_classify(OzWork *w, int region)
     w->touch_count[region] = count;
 }
 
+#if OZ_STRENGTH
+/* Least depths of the contacts of pairs that were of one grain, 0 of others; whether any is not. */
+OZ_INLINE int oz_element_contacts_scars(const OzWork *w, const int *a, const int *b, real *least)
+{
+    scalar lane[OZ_LANES];
+    int any = 0;
+    for (int l = 0; l < OZ_LANES; l++) {
+        lane[l] = b[l] < w->scar_end[a[l]] ? w->scar[w->scar_first[a[l]] + b[l]] : (scalar)0;
+        any |= lane[l] > 0;
+    }
+    *least = OZ_LANES_LOAD(lane);
+    return any;
+}
+#endif
+
 #if OZ_TRIANGLE_FIELD
 
 /* outer[k]: edge k of an element is one of its outer ones. */
@@ -75,7 +90,15 @@ OZ_INLINE OzOverlap oz_element_contacts_overlap(const OzWork *w, const OzTriangl
     oz_element_contacts_outer(w, slots_a, pair.outer_a);
     oz_element_contacts_outer(w, slots_b, pair.outer_b);
     oz_field_weigh(&pair, oz_lanes_mask_of(OZ_LANES_LOAD(slots_b) >= w->z.free_slots));
-    return oz_field_overlap(a, b, &pair);
+    OzOverlap o = oz_field_overlap(a, b, &pair);
+#if OZ_STRENGTH
+    real least;
+    o.energy = REAL(0.0);
+    if (oz_element_contacts_scars(w, slots_a, slots_b, &least)) {
+        o.energy = oz_field_energy(a, b, &pair);
+    }
+#endif
+    return o;
 #else
     return oz_triangle_overlap(a, b);
 #endif
@@ -104,7 +127,7 @@ OZ_INLINE OzElementPush oz_element_contacts_triangles(const OzWork *w, const OzE
     push.swallowed = o.swallowed;
     push.power_normal = push.power_tangential = REAL(0.0);
 #if OZ_STRENGTH
-    push.depth = sqrt(oz_larger(o.energy, REAL(0.0)));
+    push.depth = o.swallowed ? REAL(OZ_HUGE) : sqrt(oz_larger(o.energy, REAL(0.0)));
 #endif
     return push;
 }
@@ -243,19 +266,12 @@ OZ_INLINE void oz_element_contacts_account(const OzWork *w, const OzElementPush 
 OZ_INLINE void oz_element_contacts_heal(OzWork *w, const int *a, const int *b, int count,
                                         OzElementPush *push)
 {
+    real least;
     scalar lane[OZ_LANES];
-    int kin = 0;
-    for (int l = 0; l < OZ_LANES; l++) {
-        lane[l] = 0;
-        if (b[l] < w->scar_end[a[l]]) {
-            lane[l] = w->scar[w->scar_first[a[l]] + b[l]];
-            kin = 1;
-        }
-    }
-    if (!kin) {
+    if (!oz_element_contacts_scars(w, a, b, &least)) {
         return;
     }
-    real least = OZ_LANES_LOAD(lane), share = oz_beam_strength_share(push->depth, least);
+    real share = oz_beam_strength_share(push->depth, least);
     OZ_LANES_STORE(oz_beam_strength_least(push->depth, least), lane);
     for (int l = 0; l < count; l++) {
         if (b[l] < w->scar_end[a[l]]) {
@@ -265,6 +281,10 @@ OZ_INLINE void oz_element_contacts_heal(OzWork *w, const int *a, const int *b, i
     push->force = oz_scale2(push->force, share);
     push->torque_a *= share;
     push->torque_b *= share;
+    mask fresh = oz_beam_strength_least(push->depth, least) > REAL(0.0);
+    push->share = fresh ? REAL(0.0) : push->share; /* how deep they are is nobody's fault */
+    push->deep = push->deep & !fresh;
+    push->swallowed = push->swallowed & !fresh;
 }
 #endif
 

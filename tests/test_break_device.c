@@ -15,6 +15,7 @@ static const char *const thrown =
     "gravity: [20, -200]\n"
     "integrator: %s\n"
     "precision: %s\n"
+    "triangles: {overlap: %s}\n"
     "beams: {substeps: %d, strength: {tension: 8e-3, compression: 0.02, moment: 4e-7, criterion: "
     "quadratic}}\n"
     "grains: [{kind: random, count: 12, shape: polygon, corners: [3, 5], radius: [1e-3, 2e-3]}]\n"
@@ -50,7 +51,7 @@ static void test_reference(void **state)
 {
     (void)state;
     Rig rig;
-    rig_open(&rig, thrown, "gear4", "double", 1);
+    rig_open(&rig, thrown, "gear4", "double", "field", 1);
     OzSnapshot device = state_after(&rig, NATIVE, STEPS), host = run_reference(&rig, STEPS);
     int64_t count = device.element_count, scars = 0;
     print_message("%d grains of %d, %d broken beams\n", (int)device.count, (int)rig.grains.count,
@@ -81,7 +82,7 @@ static void test_same_bits(void **state)
     } ways[] = {{GROUP, false}, {NATIVE, true}};
     (void)state;
     Rig rig;
-    rig_open(&rig, thrown, "gear4", "double", 1);
+    rig_open(&rig, thrown, "gear4", "double", "field", 1);
     OzSnapshot one = state_after(&rig, NATIVE, STEPS);
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
         OzDevice device = shaped_device(ways[k].shape);
@@ -110,8 +111,8 @@ static void test_float(void **state)
     (void)state;
     Rig coarse, fine;
     int64_t step = 1600;
-    rig_open(&coarse, thrown, "velocity-verlet", "float", 3);
-    rig_open(&fine, thrown, "velocity-verlet", "double", 3);
+    rig_open(&coarse, thrown, "velocity-verlet", "float", "kinds", 3);
+    rig_open(&fine, thrown, "velocity-verlet", "double", "kinds", 3);
     OzSnapshot now = run_reference(&fine, step);
     while (oz_wear_broken(&now.wear) == 0 && step < STEPS) {
         oz_snapshot_free(&now);
@@ -142,7 +143,7 @@ static void test_frames(void **state)
     bool more = false;
     assert_true(file >= 0);
     close(file);
-    rig_open(&rig, thrown, "gear4", "double", 1);
+    rig_open(&rig, thrown, "gear4", "double", "field", 1);
     OzSnapshot whole = state_after(&rig, NATIVE, 0), now = state_after(&rig, NATIVE, STEPS);
     must(oz_frames_create(&frames, path, &rig.scene, &rig.grains));
     must(oz_frames_add(frames, &now, OZ_FRAME_EXPORT));

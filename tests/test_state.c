@@ -68,6 +68,7 @@ static const char breaking[] =
     "model: trigrains\n"
     "time: {step: 2e-6, duration: 8e-3}\n"
     "gravity: [20, -200]\n"
+    "triangles: {overlap: field}\n"
     "beams: {strength: {tension: 8e-3, compression: 0.02, moment: 4e-7, criterion: quadratic}}\n"
     "grains: [{kind: random, count: 12, shape: polygon, corners: [3, 5], radius: [1e-3, 2e-3]}]\n"
     "walls:\n"

@@ -112,11 +112,6 @@ static void check_strength(const OzScene *scene, OzNode *root, OzFaults *faults)
         oz_tree_fault(root, faults, "beams.strength",
                       "beams.strength says nothing; expected tension, compression or moment");
     }
-    if (scene->triangles.overlap != OZ_OVERLAP_KINDS) {
-        oz_tree_fault(root, faults, "triangles.overlap",
-                      "contacts by the field of depths do not know beams that break; expected "
-                      "triangles.overlap: kinds with beams.strength");
-    }
     for (int k = 0; k < scene->export_count; k++) {
         if (scene->exports[k] == OZ_EXPORT_H5MD) {
             oz_tree_fault(root, faults, "export",

@@ -87,14 +87,15 @@ static OzVec2 point_of(const OzOverlap *o, OzVec2 normal, double size)
     return oz_along2(o->centroid, off, oz_vec2(normal.y, -normal.x));
 }
 
-/* Of triangles that overlapped when a grain broke between them. */
-static void weaken(Forces *f, int a, int b, OzOverlap *o)
+/* Of triangles that overlapped when a grain broke between them; whether they still do. */
+static bool weaken(Forces *f, int a, int b, OzOverlap *o)
 {
     int64_t scar = f->wear ? oz_wear_scar(f->wear, a, b) : -1;
-    if (scar < 0) {
-        return;
+    if (scar < 0 || !(f->wear->scar[scar] > 0)) {
+        return false;
     }
-    double depth = sqrt(fmax(o->energy, 0)), least = f->wear->scar[scar];
+    bool unfelt = !OZ_TRIANGLE_FIELD && o->swallowed;
+    double depth = unfelt ? OZ_HUGE : sqrt(fmax(o->energy, 0)), least = f->wear->scar[scar];
     double share = oz_beam_strength_share(depth, least);
     least = oz_beam_strength_least(depth, least);
     if (f->wears) {
@@ -102,7 +103,8 @@ static void weaken(Forces *f, int a, int b, OzOverlap *o)
     }
     o->push = oz_scale2(o->push, share);
     o->moment *= share;
-    o->energy = (depth - least) * (depth - least);
+    o->energy = unfelt ? 0 : (depth - least) * (depth - least);
+    return least > 0;
 }
 
 static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, int b, OzVec2 apart)
@@ -113,14 +115,16 @@ static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, i
     }
     double stiffness = f->scene->triangles.stiffness;
     OzOverlap o = oz_element_overlap_find(f->elements, a, b, &one, &other);
-    if (!OZ_TRIANGLE_FIELD && (o.swallowed || o.deep)) {
+    bool fresh = weaken(f, a, b, &o); /* how deep they are is nobody's fault */
+    if (!fresh && !OZ_TRIANGLE_FIELD && (o.swallowed || o.deep)) {
         note_fault(f, o.swallowed ? OZ_ELEMENT_SWALLOWED : OZ_ELEMENT_DEEP, a, b);
     }
-    judge_depth(f, o.share, a, b);
+    if (!fresh) {
+        judge_depth(f, o.share, a, b);
+    }
     if (!(o.kind > 0 || (OZ_TRIANGLE_FIELD && o.area > 0))) { /* swallowed ones have no kind */
         return OZ_OK;
     }
-    weaken(f, a, b, &o);
     OzVec2 force = oz_scale2(o.push, stiffness);
     double size = fmax(oz_length2(o.push), OZ_TINY);
     OzVec2 normal = oz_scale2(o.push, 1 / size);

@@ -7,5 +7,8 @@
  * nothing joins any more are of different grains from now on. */
 OzStatus oz_element_mend_member(OzSim *sim, int member);
 
+/* Before a launch: outer edges are those of what is left of grains, which no state has. */
+OzStatus oz_element_mend_outline(OzSim *sim, int member);
+
 /* What breaks from now on is what is lost. */
 OzStatus oz_element_mend_start_ledger(OzSim *sim, int member);

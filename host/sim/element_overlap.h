@@ -5,17 +5,22 @@
 #include "model/elements.h"
 #include "sim/element_dialect.h"
 
-static inline OzFieldPair oz_element_overlap_field(const OzElements *elements, int a, int b)
+/* edges: bits of the outer ones. */
+static inline OzFieldPair oz_element_overlap_pair(int edges_a, int edges_b, bool b_is_wall)
 {
     OzFieldPair pair;
-    int edges_a = oz_elements_outer_edges(elements, a);
-    int edges_b = oz_elements_outer_edges(elements, b);
     for (int k = 0; k < 3; k++) {
         pair.outer_a[k] = edges_a >> k & 1;
         pair.outer_b[k] = edges_b >> k & 1;
     }
-    oz_field_weigh(&pair, b >= elements->free_count);
+    oz_field_weigh(&pair, b_is_wall);
     return pair;
+}
+
+static inline OzFieldPair oz_element_overlap_field(const OzElements *elements, int a, int b)
+{
+    return oz_element_overlap_pair(oz_elements_outer_edges(elements, a),
+                                   oz_elements_outer_edges(elements, b), b >= elements->free_count);
 }
 
 /* Of elements a and b, which are where the triangles say. With a potential, all but push, moment,

@@ -165,7 +165,7 @@ done:
 
 /* What contacts with a potential know of elements. Discs, which have no edges, count as those of
  * one: lanes of one outer edge are the quickest. */
-static OzStatus write_outer_edges(OzArrays *arrays, int member, const OzElements *elements)
+OzStatus oz_element_pack_outer_edges(OzArrays *arrays, int member, const OzElements *elements)
 {
     OzStatus status = OZ_OK;
     const OzElementSizes *z = oz_element_fields_sizes(arrays);
@@ -282,7 +282,7 @@ OzStatus oz_element_pack_start(OzArrays *arrays, int member, const OzElementPara
     OZ_PASS(write_slow_loads(arrays, member, units, grains->elements, start->touch));
     OZ_PASS(oz_element_wear_start(arrays, member, grains->elements));
     OZ_PASS(oz_element_pack_bodies(arrays, member, grains, ~0U));
-    OZ_PASS(write_outer_edges(arrays, member, grains->elements));
+    OZ_PASS(oz_element_pack_outer_edges(arrays, member, grains->elements));
     OZ_PASS(write_beams(arrays, member, units, grains->elements));
     return write_ledger(arrays, member, units, &start->power);
 }

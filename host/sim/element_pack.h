@@ -26,6 +26,9 @@ OzStatus oz_element_pack_parameters(OzArrays *arrays, int member,
 OzStatus oz_element_pack_bodies(OzArrays *arrays, int member, const OzGrains *grains,
                                 unsigned present);
 
+/* Writes which edges are outer ones, for contacts with a potential. */
+OzStatus oz_element_pack_outer_edges(OzArrays *arrays, int member, const OzElements *elements);
+
 /* Writes the state that other arrays of the same elements hold, for steps `ratio` times as long as
  * theirs and as many derivatives as there are here; those that the others lack are zero. */
 OzStatus oz_element_pack_adopt(OzArrays *arrays, const OzArrays *from, int member, double ratio);

@@ -3,16 +3,18 @@
 
 #include "sim/element_forces.h"
 
-/* The bodies of free elements before and after a break. */
+/* Elements before and after a break. */
 typedef struct OzElementParting {
-    const int *before, *after;
+    const int *body_before;  /* free_count                                            */
+    const int *edges_before; /* count: bits of outer edges; NULL where contacts have no potential */
+    const OzElements *after; /* of the pieces                                         */
 } OzElementParting;
 
-/* The least depths of contacts (kernels/beam_strength.h) that begin between elements of one grain
- * which were of one body before and are not after; position (2 x) and angle are theirs now. */
-void oz_element_part_contacts(OzWear *wear, const OzScene *scene, const OzElements *elements,
-                              const double *position, const double *angle,
-                              OzElementParting parting);
+/* In this state, the least depths (kernels/beam_strength.h) of contacts that begin between elements
+ * of one grain which were of one body before and are not after; and what is lost by new outer
+ * edges, from which depths are now: added to the first broken beam. */
+OzStatus oz_element_part_contacts(OzWear *wear, const OzScene *scene, const OzElementState *state,
+                                  const OzElementParting *parting);
 
 /* After an evaluation in which beams broke: forces are from now on between what is left of these
  * grains, in this state. */

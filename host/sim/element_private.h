@@ -8,6 +8,7 @@
 /* Trigrains' own part of a simulation. */
 typedef struct OzTrigrains {
     unsigned *present; /* one a member: a bit for each wall that is there */
+    bool *outlined;    /* one a member: outer edges are those of its pieces */
     cl_kernel begin;
 } OzTrigrains;
 

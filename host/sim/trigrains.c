@@ -62,6 +62,7 @@ static OzStatus open(OzSim *sim)
     OZ_PASS(OZ_NEW(&own, 1));
     sim->own = own;
     OZ_PASS(OZ_NEW(&own->present, sim->batch.member_count));
+    OZ_PASS(OZ_NEW(&own->outlined, sim->batch.member_count));
     own->begin = clCreateKernel(sim->program, "oz_begin", &code);
     CL_PASS(code);
     return OZ_OK;
@@ -73,6 +74,7 @@ static void close(OzSim *sim)
     if (own) {
         CL_RELEASE(Kernel, own->begin);
         free(own->present);
+        free(own->outlined);
         free(own);
     }
 }
@@ -106,12 +108,15 @@ static OzStatus prepare(OzSim *sim, int member, int steps)
 {
     if (oz_element_switches(sim)->strength) {
         OZ_PASS(write_parameters(sim, member)); /* settling may have ended */
+        OZ_PASS(oz_element_mend_outline(sim, member));
     }
     return oz_element_motion_prepare(sim, member, steps);
 }
 
 static OzStatus own_state(OzSim *sim, OzStateVisit *visit)
 {
+    size_t members = (size_t)sim->batch.member_count;
+    memset(oz_element_own(sim)->outlined, 0, members * sizeof(bool)); /* to be made again */
     return oz_state_items(visit, "present", "bits, one a wall", OZ_STATE_INT32,
                           oz_element_own(sim)->present, sim->batch.member_count);
 }
