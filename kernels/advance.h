@@ -8,9 +8,10 @@
  * oz_step_forces(w, step): what pairs do;
  * oz_step_finish(w, step, last): motion by these; 1 when bodies are moved for the next step too,
  * which is not `last`;
- * OZ_STEP_AFTER, oz_step_after(w, step): what is left to do when all have moved;
- * with OZ_TILES, oz_step_tiles(w, step): forces and motion, tile by tile; bodies are put in the
- * order of cells (resort.h). OpenCL C only. */
+ * OZ_STEP_SUMS, in large scenes oz_step_sum(w) and one work-item's oz_step_total(w, step): sums
+ * over all bodies, when all have moved; OZ_STEP_AFTER, oz_step_after(w, step): what is left to do
+ * when all have moved; with OZ_TILES, oz_step_tiles(w, step): forces and motion, tile by tile;
+ * bodies are put in the order of cells (resort.h). OpenCL C only. */
 #pragma once
 
 #include "kernels/lists.h"
@@ -104,6 +105,12 @@ OZ_STEP_PHASE(
         oz_step_finish(&w, number, number);
         end_step(&w, number);
     })
+#endif
+#if OZ_STEP_SUMS
+/* These too ask whether that step was made; one work-item's is the second. */
+OZ_STEP_PHASE(sum, number + 1, if (w.control->step == number + 1) oz_step_sum(&w))
+OZ_STEP_PHASE(total, number + 1,
+              if (w.control->step == number + 1 && w.item == 0) oz_step_total(&w, number))
 #endif
 #if OZ_STEP_AFTER
 /* It asks whether that step was made, not whether it is still to be made. */

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/mesh_find.h"
+#include "kernels/servo.h"
 #include "kernels/wall_impulse.h"
 
 #if OZ_WALL_COUNT > 0
@@ -118,6 +119,9 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
                  oz_where(counts, oz_rods_wall_torque(found)));
 #if OZ_IMPULSES
     oz_wall_impulse_add(w, side, grain, slots, count, found);
+#endif
+#if OZ_SERVOS > 0
+    oz_servo_add(w, side, slots, count, found.parts.force);
 #endif
     OzContact whole = found.contact;
     if (oz_enclosure_shares(side)) {
@@ -401,6 +405,9 @@ OZ_INLINE void oz_enclosure_region(OzWork *w, int region, int step)
     for (int k = 0; k < OZ_WALL_ENDS; k++) {
         sides[k] = oz_enclosure_side_of(w, k, step);
     }
+#if OZ_SERVOS > 0
+    oz_servo_clear(w, region);
+#endif
     for (int block = oz_work_block_begin(w, region); block < oz_work_block_end(w, region);
          block++) {
         oz_enclosure_sieve(w, sides, block);

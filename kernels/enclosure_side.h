@@ -47,6 +47,10 @@ typedef struct OzSide {
 #if OZ_SWUNG
     OzWallSwing swing;
 #endif
+#if OZ_SERVOS > 0
+    int servo;      /* its number among servo walls; -1: it is none          */
+    scalar rest[3]; /* units: what point has not of where the piston stands  */
+#endif
 } OzSide;
 
 #if OZ_SWUNG
@@ -65,6 +69,45 @@ OZ_INLINE void oz_enclosure_side_swing(const OzWork *w, OzSide *side, int step)
     }
     oz_wall_swing_turn(side->swing.frame, side->shape.normal);
     oz_wall_swing_turn(side->swing.frame, side->shape.across);
+}
+#endif
+
+#if OZ_SERVOS > 0
+/* The number of a wall among servos; -1: it is none. */
+OZ_INLINE int oz_enclosure_servo(const OzWork *w, int wall)
+{
+    int servo = -1;
+    for (int s = 0; s < OZ_SERVOS; s++) {
+        servo = (int)w->parameters->servo[s].wall == wall ? s : servo;
+    }
+    return servo;
+}
+
+/* Puts the point of a servo wall where the piston stands, in whole units and the rest. */
+OZ_INLINE void oz_enclosure_side_serve(const OzWork *w, OzSide *side)
+{
+    side->servo = oz_enclosure_servo(w, side->wall);
+    side->rest[0] = side->rest[1] = side->rest[2] = 0;
+    if (!OZ_MOVING) {
+        side->rate = 0;
+        side->gate = 0;
+    }
+    if (side->servo < 0) {
+        return;
+    }
+    global const double *words = w->servo + side->servo * OZ_SERVO;
+    global const scalar *direction = w->parameters->wall[side->wall].direction;
+    side->speed = (scalar)words[OZ_SERVO_SEEN];
+    for (int c = 0; c < 3; c++) {
+        double way = words[OZ_SERVO_PLACE] * (double)direction[c] * (double)(1 / side->unit);
+#if defined(OZ_DOUBLE)
+        side->point[c] += way;
+#else
+        double whole = rint(way);
+        side->point[c] += convert_int(whole);
+        side->rest[c] = (scalar)(way - whole);
+#endif
+    }
 }
 #endif
 
@@ -95,6 +138,9 @@ OZ_INLINE OzSide oz_enclosure_side_of(const OzWork *w, int index, int step)
     }
 #if OZ_SWUNG
     oz_enclosure_side_swing(w, &side, step);
+#endif
+#if OZ_SERVOS > 0
+    oz_enclosure_side_serve(w, &side);
 #endif
     return side;
 }
@@ -158,6 +204,10 @@ OZ_INLINE OzVec3 oz_enclosure_side_from(const OzWork *w, OzFixedPosition positio
 #if OZ_SWUNG
     from = oz_minus(from, oz_enclosure_side_drive(w, side).away);
 #endif
+#if OZ_SERVOS > 0
+    from = oz_along(from, REAL(-unit),
+                    oz_vec3(REAL(side->rest[0]), REAL(side->rest[1]), REAL(side->rest[2])));
+#endif
     return from;
 }
 
@@ -199,8 +249,14 @@ OZ_INLINE real oz_enclosure_side_fine(const OzWork *w, OzGrain grain, const OzSi
     from.y = side->point[1];
     from.z = side->point[2];
     OzFine rise = {REAL(side->rise), REAL(side->rise_rest)};
-    return unit * oz_wall_overlap(oz_fine_end(grain.fine, side->sign, from), side->shape, rise,
-                                  grain.fine.radius, w->parameters->inverse_unit);
+    OzFineVec3 end = oz_fine_end(grain.fine, side->sign, from);
+#if OZ_SERVOS > 0
+    end.x.low -= REAL(side->rest[0]);
+    end.y.low -= REAL(side->rest[1]);
+    end.z.low -= REAL(side->rest[2]);
+#endif
+    return unit *
+           oz_wall_overlap(end, side->shape, rise, grain.fine.radius, w->parameters->inverse_unit);
 }
 #endif
 

@@ -2,11 +2,12 @@
  * arguments, the kernels' view of memory, the host's buffers and `orzo check`'s memory table are
  * all made of it. A count of 0 means that the scene does not need the array: it is not allocated. z
  * is the OzSizes. Kinds: parameters, control, scalar, real (one scalar per lane), spot (one
- * coordinate of a place), integer, ledger (double). Classes: STATE, what the next step depends on;
- * SPRING, the tangential memory of contacts; LIST, neighbour lists that are made again from these
- * two, ROWS those of each region's pairs, which outlive larger capacities; SCRATCH, written before
- * it is read by the host at each launch or by each step. Springs of pairs outlive the lists in the
- * saved_ arrays alone, where oz_save_springs puts them (springs.h); others are LIST. */
+ * coordinate of a place), integer, ledger (double, a sum of what has happened), wide (double).
+ * Classes: STATE, what the next step depends on; SPRING, the tangential memory of contacts; LIST,
+ * neighbour lists that are made again from these two, ROWS those of each region's pairs, which
+ * outlive larger capacities; SCRATCH, written before it is read by the host at each launch or by
+ * each step. Springs of pairs outlive the lists in the saved_ arrays alone, where oz_save_springs
+ * puts them (springs.h); others are LIST. */
 #pragma once
 
 #include "kernels/ledger_entries.h"
@@ -23,6 +24,9 @@
 /* The ledger has a grain's sums of energy, J, by id, of contacts in which it is the first; this is
  * a contact's words for them (see ledger.h). */
 enum { OZ_CONTACT_LEDGER = 16 };
+
+/* Grains, by id, whose pushes on a servo wall are added up in one run. */
+enum { OZ_SERVO_RUN = 64 };
 
 /* What it has beside that of couples: the dashpots', the rotation, with OZ_ROLLING the springs'. */
 #define OZ_COUPLE_LEDGER (OZ_ROLLING ? 9 : 6)
@@ -109,5 +113,9 @@ enum { OZ_CONTACT_LEDGER = 16 };
       SCRATCH)                                                                                     \
     X(real, wall_ledger, OZ_LEDGER ? z.blocks *OZ_WALL_ENDS *OZ_CONTACT_LEDGER : 0, SCRATCH)       \
     X(ledger, wall_impulse, OZ_IMPULSES ? z.slots *OZ_WALL_COUNT *OZ_IMPULSE_WORDS : 0, STATE)     \
+    X(wide, servo, OZ_SERVOS *OZ_SERVO, STATE)                                                     \
+    X(wide, servo_push, OZ_SERVOS *z.slots, SCRATCH)                                               \
+    X(wide, servo_run, OZ_SERVOS *(z.slots / OZ_SERVO_RUN + 1), SCRATCH)                           \
+    X(integer, servo_held, OZ_SERVOS > 0, SCRATCH)                                                 \
     X(scalar, push, OZ_PUSHED ? z.slots *OZ_LOAD : 0, STATE)                                       \
     X(scalar, spare, OZ_RESORT ? z.slots *OZ_SPARE : 0, SCRATCH)

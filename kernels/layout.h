@@ -24,6 +24,19 @@ typedef struct OzDragConstants {
     scalar wind[3]; /* m/s, of the fluid           */
 } OzDragConstants;
 
+enum { OZ_SERVOS_MAX = 6 }; /* the most servo walls: the sides of a box */
+
+/* A servo wall (servo_move.h). Forces count along its normal, into the bed. */
+typedef struct OzServoConstants {
+    scalar wall;          /* the kernels' number of it                               */
+    scalar mass, damping; /* kg, kg/s                                                */
+    scalar force;         /* N, its weight included                                  */
+    scalar pressure;      /* Pa, over the area that it closes:                       */
+    scalar gap[2];        /* m, its sides; of a round one any that give the area ... */
+    scalar bound[4];      /* ... as built: the servos that stand at both ends of each, and
+                             make it less; -1: none does                             */
+} OzServoConstants;
+
 /* The numbers of a scene that kernels read, and what follows from them. They can change without a
  * new kernel program. All are scalars: the host fills the struct in double, and the
  * single-precision one is made by converting it number by number. On the host the numbers are in SI
@@ -44,6 +57,7 @@ typedef struct OzParameters {
     scalar radius, half_length, mass; /* of every grain of an equal population                */
     scalar inverse_mass, inverse_inertia, inverse_inertia_axis;
     OzWallParameters wall[OZ_WALLS_MAX];
+    OzServoConstants servo[OZ_SERVOS_MAX];
 } OzParameters;
 
 /* Sizes and strides; the same for every member of one launch. */
@@ -61,7 +75,8 @@ enum {
     OZ_STOP_DEEP = 4,
     OZ_STOP_FAST = 8,
     OZ_STOP_MET = 16,
-    OZ_STOP_CROWDED = 32
+    OZ_STOP_CROWDED = 32,
+    OZ_STOP_SERVO = 64
 };
 
 /* The device's own words, one set a member. */
@@ -108,6 +123,16 @@ enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };
 
 /* Words of a grain's impulse at a wall: of force, then of torque. */
 enum { OZ_IMPULSE_WORDS = 6 };
+
+/* Words of a servo wall's state: those of an OzServoState. */
+enum {
+    OZ_SERVO_PLACE,
+    OZ_SERVO_SPEED,
+    OZ_SERVO_ACCELERATION,
+    OZ_SERVO_SEEN,
+    OZ_SERVO_PUSH,
+    OZ_SERVO
+};
 
 /* Words of a mesh's grid: where it begins (m, from the wall's point), 1/m, cells along each axis,
  * their beginning in mesh_first, and that of its triangles; whether grains touch both sides; the

@@ -160,6 +160,10 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
                 oz_ledger_wall_velocity(w, grain, arm, index, step + 1 - OZ_MOVES_BEFORE);
             after = oz_minus(after, new_one);
             real power = oz_dot(oz_work_load3(words + 9), oz_add(old_one, new_one));
+#if OZ_SERVOS > 0
+            /* a piston's work on grains stays within what the ledger is of */
+            power = oz_enclosure_servo(w, wall) < 0 ? power : REAL(0.0);
+#endif
             oz_ledger_give(w, slots, bits, OZ_L_WORK_WALLS, power, 0.5 * w->parameters->dt);
 #else
             after.z -= REAL(new_speed);

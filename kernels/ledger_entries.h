@@ -4,11 +4,14 @@
 #pragma once
 
 /* All models' last one; the others of a model are its losses. */
-#define OZ_LEDGER_WORK(X) X(WORK_WALLS, work_walls, work_walls, "put in by moving walls so far")
+#define OZ_LEDGER_WORK(X)                                                                          \
+    X(WORK_WALLS, work_walls, work_walls,                                                          \
+      "put in so far by moving walls, and by what drives pistons")
 
 /* The kernels' SPRING is what tangential springs were given: what they do not hold is friction. */
 #define OZ_LEDGER_LOSSES(X)                                                                        \
-    X(DISSIPATED, dissipated, energy_dissipated, "lost in dashpots, and to a fluid, so far")       \
+    X(DISSIPATED, dissipated, energy_dissipated,                                                   \
+      "lost in dashpots, pistons' too, and to a fluid, so far")                                    \
     X(SPRING, friction, energy_friction, "lost by sliding and resisted rolling so far")
 
 #define OZ_ELEMENT_LEDGER_LOSSES(X)                                                                \
@@ -17,12 +20,12 @@
     X(DISC_DAMPING, disc_damping, energy_disc_damping, "lost in discs' normal damping so far")     \
     X(DISC_FRICTION, disc_friction, energy_disc_friction, "lost in discs' sliding so far")
 
-#define OZ_LEDGER_ID(NAME, member, column, meaning) OZ_L_##NAME,
+#define OZ_LEDGER_ID(NAME, member, column, meaning)         OZ_L_##NAME,
 #define OZ_ELEMENT_LEDGER_ID(NAME, member, column, meaning) OZ_PL_##NAME,
 enum { OZ_LEDGER_LOSSES(OZ_LEDGER_ID) OZ_LEDGER_WORK(OZ_LEDGER_ID) OZ_LEDGER_WORDS };
 enum {
     OZ_ELEMENT_LEDGER_LOSSES(OZ_ELEMENT_LEDGER_ID) OZ_LEDGER_WORK(OZ_ELEMENT_LEDGER_ID)
-    OZ_ELEMENT_LEDGER
+        OZ_ELEMENT_LEDGER
 };
 #undef OZ_LEDGER_ID
 #undef OZ_ELEMENT_LEDGER_ID

@@ -26,6 +26,12 @@ typedef double fixed_position_kind;
 #else
 typedef int fixed_position_kind;
 #endif
+#if OZ_SERVOS > 0
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double wide_kind;
+#else
+typedef int wide_kind;
+#endif
 #if OZ_LEDGER || OZ_IMPULSES
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double ledger_kind;

@@ -17,7 +17,8 @@ static const char header[] =
     "count_layer1,count_layer2,count_layer3,count_layer4,nematic_s" AFTER_LAYERS;
 static const char listed[] = "step,time,tap,phase,cycle," BEFORE_LAYERS
                              "angle_layer<i>,count_layer<i>,nematic_s,nematic_axis,psi6,"
-                             "rattler_count" AFTER_LAYERS ",wall<i>_f<x>,wall<i>_t<x>";
+                             "rattler_count" AFTER_LAYERS ",wall<i>_f<x>,wall<i>_t<x>,"
+                             "servo<i>_place,servo<i>_velocity,servo<i>_force,servo<i>_pressure";
 static const char ledger_header[] =
     ",energy_potential,energy_elastic,energy_dissipated,energy_friction,work_walls,energy_residual";
 static const char final_header[] =

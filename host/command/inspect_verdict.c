@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "command/inspect_columns.h"
 #include "command/inspect_elements.h"
+#include "command/inspect_servos.h"
 #include "command/inspect_walls.h"
 #include "draw/renderer.h"
 #include "model/beam_limits.h"
@@ -381,6 +382,7 @@ OzStatus oz_inspect_verdict_print(FILE *file, const OzVerdict *verdict)
             print_adhesion(file, verdict);
             print_fluid(file, verdict);
             print_container(file, verdict);
+            oz_inspect_servos_print(file, verdict->scene, verdict->grains);
         }
     }
     print_traces(file, verdict->scene);

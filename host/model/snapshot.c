@@ -35,6 +35,7 @@ OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const Oz
     OZ_TRY(OZ_NEW(&snapshot->angular_velocity, 3 * count));
     OZ_TRY(OZ_NEW(&snapshot->wall_offset, scene->wall_count));
     OZ_TRY(OZ_NEW(&snapshot->wall_velocity, scene->wall_count));
+    OZ_TRY(OZ_NEW(&snapshot->wall_push, scene->wall_count));
     OZ_TRY(OZ_NEW(&snapshot->wall_impulse, scene->wall_count));
     if (grains->elements) {
         OZ_TRY(create_elements(snapshot, grains->elements->count));
@@ -58,6 +59,7 @@ void oz_snapshot_free(OzSnapshot *snapshot)
     free(snapshot->angular_velocity);
     free(snapshot->wall_offset);
     free(snapshot->wall_velocity);
+    free(snapshot->wall_push);
     free(snapshot->wall_impulse);
     free(snapshot->element_position);
     free(snapshot->element_angle);
@@ -123,6 +125,7 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
     copy_words(copy->angular_velocity, snapshot->angular_velocity, 3 * count);
     copy_words(copy->wall_offset, snapshot->wall_offset, walls);
     copy_words(copy->wall_velocity, snapshot->wall_velocity, walls);
+    copy_words(copy->wall_push, snapshot->wall_push, walls);
     copy->step = snapshot->step;
     copy->time = snapshot->time;
     copy->settling = snapshot->settling;
@@ -262,5 +265,6 @@ OzStatus oz_snapshot_state(OzSnapshot *s, OzStateVisit *visit)
     OZ_PASS(oz_state_double(visit, "angular_velocity", "rad/s", s->angular_velocity, 3 * s->count));
     OZ_PASS(oz_state_double(visit, "wall_offset", "m", s->wall_offset, walls));
     OZ_PASS(oz_state_double(visit, "wall_velocity", "m/s", s->wall_velocity, walls));
+    OZ_PASS(oz_state_double(visit, "wall_push", "N", s->wall_push, walls));
     return oz_state_int64(visit, "deep_count", "none", &s->deep_count);
 }

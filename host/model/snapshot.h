@@ -52,8 +52,10 @@ typedef struct OzSnapshot {
     double *axis;             /* 3 x count, unit                                              */
     double *velocity;         /* 3 x count                                                    */
     double *angular_velocity; /* 3 x count, world frame                                       */
-    double *wall_offset;      /* wall_count: displacement along z now, m                      */
+    double *wall_offset;      /* wall_count: displacement along its motion, or normal, m      */
     double *wall_velocity;    /* wall_count: m/s                                              */
+    double *wall_push; /* wall_count: N, of grains on a servo wall in the last step, along its
+                          normal: pushed back, below 0; 0 of other walls               */
     bool has_wall_impulse;
     double (*wall_impulse)[6]; /* wall_count: what all grains have pushed each wall with so far,
                                   force times time, N s, and turned it about its point, N m s;

@@ -6,6 +6,8 @@
 #include "observe/flat.h"
 #include "observe/moment.h"
 #include "observe/rod_energy.h"
+#include "observe/wall_columns.h"
+#include "scene/servo.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -115,32 +117,6 @@ static bool overlap_mean(const OzObservation *o, double *value)
     return o->snapshot->has_contacts;
 }
 
-/* The axes that a column of walls has a cell for: rods are in space, trigrains in a plane, in which
- * they turn about z. */
-static const char *axes_of(OzColumnNeed need, const OzScene *scene)
-{
-    return scene->model == OZ_MODEL_RODS ? "xyz" : need == OZ_COLUMN_WALL_TURNS ? "z" : "xy";
-}
-
-static double of_wall(const OzObservation *o, OzColumnNeed need, double (*values)[3])
-{
-    const char *axes = axes_of(need, o->snapshot->scene);
-    int count = (int)strlen(axes);
-    return values[o->index / count][axes[o->index % count] - 'x'];
-}
-
-static bool wall_force(const OzObservation *o, double *value)
-{
-    *value = of_wall(o, OZ_COLUMN_WALLS, o->push->force);
-    return o->push->is_known;
-}
-
-static bool wall_torque(const OzObservation *o, double *value)
-{
-    *value = of_wall(o, OZ_COLUMN_WALL_TURNS, o->push->torque);
-    return o->push->is_known;
-}
-
 static bool deep_count(const OzObservation *o, double *value)
 {
     *value = (double)o->snapshot->deep_count;
@@ -200,7 +176,7 @@ double oz_observables_energy(const OzSnapshot *snapshot)
     now = is_flat(snapshot)
               ? now + oz_element_energy_stored(snapshot) + oz_observables_lost(snapshot)
               : now + ledger->elastic OZ_LEDGER_LOSSES(ADD);
-    return now - work_of_walls(snapshot);
+    return now + oz_wall_columns_kinetic(snapshot) - work_of_walls(snapshot);
 }
 
 static bool kinetic(const OzObservation *o, double *value)
@@ -266,6 +242,7 @@ static bool residual(const OzObservation *o, double *value)
 #define LAYERS     OZ_COLUMN_LAYERS
 #define WALLS      OZ_COLUMN_WALLS
 #define WALL_TURNS OZ_COLUMN_WALL_TURNS
+#define SERVOS     OZ_COLUMN_SERVOS
 #define RODS       OZ_COLUMN_RODS
 #define FLAT       OZ_COLUMN_TRIGRAINS
 #define ALL        OZ_COLUMN_ALL
@@ -375,9 +352,15 @@ static const OzColumn list[] = {
     {"deep_count", "1", "contacts deeper than guards.overlap.warn so far, each counted once a step",
      ALL, ALWAYS, true, deep_count, 0},
     {"wall<i>_f<x>", "N", "force of all grains on walls.<i> along an axis, x, y or z, with observe.walls: "
-     "mean over the time since the row before, or instant (trigrains: x and y, a metre deep)", ALL, WALLS, false, wall_force, 0},
+     "mean over the time since the row before, or instant (trigrains: x and y, a metre deep)", ALL, WALLS, false, oz_wall_columns_force, 0},
     {"wall<i>_t<x>", "N m", "torque of these forces about the wall's point, which moves with it "
-     "(trigrains: z)", ALL, WALL_TURNS, false, wall_torque, 0},
+     "(trigrains: z)", ALL, WALL_TURNS, false, oz_wall_columns_torque, 0},
+    {"servo<i>_place", "m", "of the piston walls.<i>: how far along its normal from where it was built", RODS, SERVOS, false,
+     oz_wall_columns_place, 0},
+    {"servo<i>_velocity", "m/s", "of it, likewise", RODS, SERVOS, false, oz_wall_columns_velocity, 0},
+    {"servo<i>_force", "N", "with which it presses grains, in the last step", RODS, SERVOS, false, oz_wall_columns_servo_force, 0},
+    {"servo<i>_pressure", "Pa", "that over the area that it closes now; empty where there is none", RODS, SERVOS, false,
+     oz_wall_columns_pressure, 0},
     {"energy_potential", "J", "in gravity, from the origin", ALL, LEDGER, false, potential, 0},
     {"energy_elastic", "J", "stored in contacts now", RODS, LEDGER, false, elastic, 0},
 #define RODS_ROW(NAME, member, column, meaning)                                                    \
@@ -391,8 +374,8 @@ static const OzColumn list[] = {
     {"energy_beam_broken", "J", "lost in beams that broke so far, with beams.strength", FLAT, BROKEN, false,
      oz_flat_breakage, 2},
     OZ_LEDGER_WORK(WORK_ROW)
-    {"energy_residual", "J", "change of (kinetic + rotational + potential + stored) + all that is lost "
-     "- work_walls since the first row; 0 but for the integrator's error", ALL, LEDGER, false,
+    {"energy_residual", "J", "change of (kinetic + rotational + potential + stored + pistons' kinetic) + all that "
+     "is lost - work_walls since the first row; 0 but for the integrator's error", ALL, LEDGER, false,
      residual, 0},
     {0},
 };
@@ -405,16 +388,17 @@ const OzColumn *oz_observables_list(void)
 
 int oz_observables_width(const OzColumn *column, const OzScene *scene)
 {
-    const int cells[] = {[ALWAYS] = 1,
-                         [LEDGER] = 1,
-                         [ORDER] = 1,
-                         [PHASES] = 1,
-                         [STRENGTH] = 1,
-                         [BROKEN] = 1,
-                         [LAYERS] = OZ_MEASURE_LAYERS,
-                         [WALLS] = scene->wall_count * (int)strlen(axes_of(WALLS, scene)),
-                         [WALL_TURNS] =
-                             scene->wall_count * (int)strlen(axes_of(WALL_TURNS, scene))};
+    const int cells[] = {
+        [ALWAYS] = 1,
+        [LEDGER] = 1,
+        [ORDER] = 1,
+        [PHASES] = 1,
+        [STRENGTH] = 1,
+        [BROKEN] = 1,
+        [LAYERS] = OZ_MEASURE_LAYERS,
+        [SERVOS] = oz_servo_number(scene, scene->wall_count),
+        [WALLS] = scene->wall_count * (int)strlen(oz_wall_columns_axes(WALLS, scene)),
+        [WALL_TURNS] = scene->wall_count * (int)strlen(oz_wall_columns_axes(WALL_TURNS, scene))};
     return (column->models & 1 << scene->model) != 0 ? cells[column->need] : 0;
 }
 
@@ -434,8 +418,9 @@ int oz_observables_cells(const OzColumn *column, const OzScene *scene)
 void oz_observables_name(const OzColumn *column, const OzScene *scene, int cell,
                          char name[OZ_COLUMN_NAME])
 {
-    const char *axes = axes_of(column->need, scene);
+    const char *axes = oz_wall_columns_axes(column->need, scene);
     int count = (int)strlen(axes), thing = column->need == LAYERS ? cell + 1 : cell / count;
+    thing = column->need == SERVOS ? oz_wall_columns_servo(scene, cell) : thing;
     const char *at = column->name, *number = strstr(at, "<i>"), *letter = strstr(at, "<x>");
     if (!number) {
         snprintf(name, OZ_COLUMN_NAME, "%s", at);

@@ -26,7 +26,7 @@ static bool is_known(const OzSnapshot *snapshot)
     }
     for (int w = 0; w < snapshot->scene->wall_count && !snapshot->has_ledger; w++) {
         const OzWall *wall = &snapshot->scene->walls[w];
-        if (wall->motion.present || wall->since > 0) {
+        if (wall->motion.present || wall->servo.present || wall->since > 0) {
             return false;
         }
     }

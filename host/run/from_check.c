@@ -129,6 +129,12 @@ static OzStatus check_walls(const OzFromMember *from, const OzScene *scene)
     for (int w = 0; w < scene->wall_count; w++) {
         const OzWall *then = &from->scene.walls[w];
         OZ_PASS(check_mesh(from, scene, w));
+        if (then->servo.present && !scene->walls[w].servo.present) {
+            return oz_status_fail(OZ_ERR_INPUT,
+                                  "%s: walls.%d is a piston in %s and none here; expected a servo, "
+                                  "which goes on from where it stands",
+                                  scene->path, w, from->file->path);
+        }
         OzWallPose pose = oz_wall_motion_pose(then, time, false);
         bool smooth = then->kind == OZ_WALL_DRUM && then->tooth_count == 0;
         double turn = fmod(fabs(pose.turn), 2 * 3.14159265358979323846);

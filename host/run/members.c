@@ -7,6 +7,7 @@
 #include "model/beam_limits.h"
 #include "model/insert.h"
 #include "model/prediction.h"
+#include "model/servo_nature.h"
 #include "scene/sweep.h"
 #include "sim/part.h"
 #include "sim/resolution.h"
@@ -106,6 +107,20 @@ static OzStatus check_elements(const OzScene *scene, const OzGrains *grains, boo
     return OZ_OK;
 }
 
+/* Of how many contacts' stiffness is a guess: no reason to refuse. */
+static void warn_of_pistons(const OzScene *scene, const OzGrains *grains)
+{
+    for (int w = 0; w < scene->wall_count; w++) {
+        bool is_piston = scene->walls[w].servo.present;
+        double largest = is_piston ? oz_servo_nature_of(scene, grains, w).largest_step : INFINITY;
+        if (scene->step >= largest) {
+            oz_log_line("warning: time.step %g s may be unstable for the piston walls.%d, above "
+                        "about %.3g s; expected a heavier one or less damping",
+                        scene->step, w, largest);
+        }
+    }
+}
+
 static OzStatus check_contacts(const OzScene *scene, const OzGrains *grains, bool force)
 {
     OzPrediction *rows = NULL;
@@ -124,6 +139,7 @@ static OzStatus check_contacts(const OzScene *scene, const OzGrains *grains, boo
         }
     }
     free(rows);
+    warn_of_pistons(scene, grains);
     return status == OZ_OK ? oz_resolution_judge(scene, grains, force) : status;
 }
 

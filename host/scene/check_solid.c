@@ -3,6 +3,7 @@
 
 #include "scene/boundary.h"
 #include "scene/check_motion.h"
+#include "scene/check_servo.h"
 #include "scene/trace.h"
 #include "scene/wall_shape.h"
 
@@ -218,6 +219,7 @@ static void check_drag(const OzScene *scene, OzNode *root, OzFaults *faults)
 void oz_check_solid_scene(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
     check_walls(scene, root, faults);
+    oz_check_servo_scene(scene, root, faults);
     oz_boundary_check(scene, root, faults);
     check_room(scene, root, faults);
     check_singles(scene, root, faults);

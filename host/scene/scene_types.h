@@ -7,6 +7,7 @@
 #include "kernels/laws.h"
 #include "kernels/walls.h"
 #include "scene/beam_types.h"
+#include "scene/servo_types.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -145,6 +146,7 @@ typedef struct OzWall {
     double since;          /* s, key `from` of rods' walls: it is there from this time on */
     double until;          /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;
+    OzServo servo;           /* rods: planes, rectangles, discs                         */
     OzContactValues contact; /* the scene's, with this wall's own values put over them  */
     int line;
 } OzWall;
@@ -274,11 +276,9 @@ typedef struct OzObserve {
     bool has_outlet;
 } OzObserve;
 
-/* contacts.csv */
-typedef struct OzContactTable {
+typedef struct OzContactTable { /* contacts.csv */
     bool present;
-    double interval;      /* s between its moments; or:               */
-    double interval_taps; /* periods; both 0: the rows of series.csv  */
+    double interval, interval_taps; /* s, periods; both 0: at the rows of series.csv */
 } OzContactTable;
 
 typedef enum OzView {

@@ -227,7 +227,7 @@ int oz_wall_shape_sides(const OzWall *wall, OzWallShape sides[OZ_WALL_SIDES_MAX]
 
 void oz_wall_shape_shift(const OzWall *wall, double offset, double shift[3])
 {
-    const double *direction = wall->motion.direction;
+    const double *direction = wall->servo.present ? wall->normal : wall->motion.direction;
     bool is_told = direction[0] != 0 || direction[1] != 0 || direction[2] != 0;
     for (int c = 0; c < 3; c++) {
         shift[c] = offset * (is_told ? direction[c] : c == 2);

@@ -42,5 +42,6 @@ double oz_wall_shape_distance(const OzWall *wall, double offset, const double po
 double oz_wall_shape_side_distance(const OzWallShape *side, const double shift[3],
                                    const double point[3], double normal[3]);
 
-/* How far a wall has moved, m, that has done so by offset along its motion's direction. */
+/* How far a wall has moved, m, that has done so by offset along its motion's direction, or
+ * a servo along its normal. */
 void oz_wall_shape_shift(const OzWall *wall, double offset, double shift[3]);

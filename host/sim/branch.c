@@ -31,11 +31,12 @@ static const OzStateEntry *find_own(const OzBranchSource *source, const char *na
 static bool may_differ(const char *name)
 {
     static const char *const names[] = {
-        "LEDGER",    "INTEGRATOR_ID", /* MOVES_BEFORE and ORDER tell */
-        "FRICTION",  "HISTORY",       "SLIP_SCALE",    "ATTRACTION_CLAMP", "SURFACES",
-        "ADHESION",  "DRAG",          "ROLLING",       "ROLLING_SPRING",   "LAW_ID",
-        "LINE",      "SMOOTH",        "AT_CONTACT",    "GYROSCOPIC",       "MOVING",
-        "ALL_PAIRS", "FORCE_POINT",   "DAMPING_SHEAR", "TRIANGLE_FIELD"};
+        "LEDGER",     "INTEGRATOR_ID", /* MOVES_BEFORE and ORDER tell */
+        "FRICTION",   "HISTORY",       "SLIP_SCALE",    "ATTRACTION_CLAMP", "SURFACES",
+        "ADHESION",   "DRAG",          "ROLLING",       "ROLLING_SPRING",   "LAW_ID",
+        "LINE",       "SMOOTH",        "AT_CONTACT",    "GYROSCOPIC",       "MOVING",
+        "ALL_PAIRS",  "FORCE_POINT",   "DAMPING_SHEAR", "TRIANGLE_FIELD",   "SERVOS",
+        "FREE_MOTION"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(name, names[i]) == 0) {
             return true;
@@ -167,7 +168,7 @@ static OzStatus take_field(OzSim *sim, int field, int member, const OzBranchSour
     }
     const OzStateEntry *saved = find_own(source, row->name);
     size_t saved_bytes = saved ? (size_t)saved->count * oz_state_kind_bytes(kind) : 0;
-    if (!saved && springs) {
+    if (!saved && (springs || oz_model_field_begins_empty(row))) {
         return OZ_OK;
     }
     if (!saved || saved->kind != kind || (saved_bytes != bytes && !springs)) {

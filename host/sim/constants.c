@@ -2,9 +2,9 @@
 #include "sim/constants.h"
 
 #include "model/calibrate.h"
-#include "model/motion.h"
 #include "scene/boundary.h"
 #include "scene/wall_shape.h"
+#include "sim/servos.h"
 #include "sim/sides.h"
 #include "sim/units.h"
 
@@ -82,7 +82,7 @@ static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *
                       const OzWallShape *side, double unit)
 {
     to->shape = *side;
-    oz_motion_direction(&from->motion, to->direction);
+    oz_wall_shape_shift(from, 1, to->direction);
     memcpy(to->axis, from->motion.axis, sizeof to->axis);
     for (int c = 0; c < 3; c++) {
         double units = to->shape.point[c] / unit;
@@ -178,7 +178,8 @@ static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], co
     parameters->deep_stop = scene->guards.overlap_stop;
     parameters->deep_look = fmin(1, fmin(parameters->deep_warn, parameters->deep_stop));
     fill_space(parameters, scene);
-    fill_walls(parameters, wall_order, scene);
+    int walls = fill_walls(parameters, wall_order, scene);
+    oz_servos_fill(parameters, wall_order, walls, scene, grains);
     fill_shapes(parameters, grains);
 }
 

@@ -16,8 +16,12 @@ OzStatus oz_guard_fail(const OzModel *model, const OzControlHead *control, const
         }
     }
     model->advise(advice, sizeof advice, control, now);
-    return oz_status_fail(
-        OZ_ERR_BLOWUP, "%s: stopped at step %lld%s, time %.9g s, grain %d: %s; %s",
-        now->scene->path, (long long)now->step, settling ? " of settling" : "", now->time,
-        model->grain_of(now->grains, control->stop_index), text, advice);
+    char grain[32] = "";
+    if (control->stop_index != OZ_NEVER) {
+        snprintf(grain, sizeof grain, ", grain %d",
+                 model->grain_of(now->grains, control->stop_index));
+    }
+    return oz_status_fail(OZ_ERR_BLOWUP, "%s: stopped at step %lld%s, time %.9g s%s: %s; %s",
+                          now->scene->path, (long long)now->step, settling ? " of settling" : "",
+                          now->time, grain, text, advice);
 }

@@ -12,6 +12,8 @@
     X(tiles, false)                                                                                \
     X(pairs, false)                                                                                \
     X(grains, false)                                                                               \
+    X(sum, false)                                                                                  \
+    X(total, true)                                                                                 \
     X(after, false)                                                                                \
     X(measure, false)                                                                              \
     X(mark, true)                                                                                  \
@@ -60,8 +62,9 @@ static const bool single[] = {
 static bool may_be_absent(Phase phase)
 {
     return phase == PHASE_before || phase == PHASE_tiles || phase == PHASE_pairs ||
-           phase == PHASE_grains || phase == PHASE_after || phase == PHASE_plan ||
-           phase == PHASE_move_out || phase == PHASE_move_in;
+           phase == PHASE_grains || phase == PHASE_sum || phase == PHASE_total ||
+           phase == PHASE_after || phase == PHASE_plan || phase == PHASE_move_out ||
+           phase == PHASE_move_in;
 }
 
 OzStatus oz_large_create(OzLarge **out, cl_program program, const OzDevice *device)
@@ -202,7 +205,7 @@ static OzStatus renew(OzLarge *large, OzArrays *arrays, OzControlHead *control, 
 static OzStatus queue_step(OzLarge *large, OzArrays *arrays, int step)
 {
     static const Phase phases[] = {PHASE_before, PHASE_tiles, PHASE_pairs, PHASE_grains,
-                                   PHASE_after};
+                                   PHASE_sum,    PHASE_total, PHASE_after};
     for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++) {
         OZ_PASS(queue_phase(large, arrays, phases[i], step));
     }

@@ -18,7 +18,8 @@ bool oz_model_field_sums(const OzField *field)
 
 bool oz_model_field_begins_empty(const OzField *field)
 {
-    return oz_model_field_sums(field) || strcmp(field->name, "push") == 0;
+    return oz_model_field_sums(field) || strcmp(field->name, "push") == 0 ||
+           strcmp(field->name, "servo") == 0;
 }
 
 size_t oz_model_field_bytes(const OzModel *model, int field, const void *switches,

@@ -67,6 +67,7 @@ typedef struct OzField {
 #define OZ_FIELD_KIND_fixed_position OZ_STATE_INT32, true, OZ_WIDTH_ONE
 #define OZ_FIELD_KIND_integer        OZ_STATE_INT32, false, OZ_WIDTH_ONE
 #define OZ_FIELD_KIND_ledger         OZ_STATE_DOUBLE, false, OZ_WIDTH_ONE
+#define OZ_FIELD_KIND_wide           OZ_STATE_DOUBLE, true, OZ_WIDTH_ONE
 
 /* A guard's bit and what it says. */
 typedef struct OzStop {
@@ -191,8 +192,8 @@ typedef struct OzModel {
     void (*advise)(char *text, size_t size, const OzControlHead *control, const OzSnapshot *now);
 } OzModel;
 
-/* Whether a field adds up what has happened. Such a one, and what pushes grains from outside,
- * begins empty where no state has it. */
+/* Whether a field adds up what has happened. Such a one, and what pushes grains from outside, and a
+ * piston that stands where it was built, begins empty where no state has it. */
 bool oz_model_field_sums(const OzField *field);
 bool oz_model_field_begins_empty(const OzField *field);
 

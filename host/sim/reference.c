@@ -1,5 +1,6 @@
 /* The host reference: bodies, a pair list with skin, forces and motion, all in double. */
 #include "sim/reference_guard.h"
+#include "sim/reference_servo.h"
 
 #include "base/memory.h"
 #include "sim/contacts.h"
@@ -94,6 +95,7 @@ static void move_before(OzReference *r, double dt)
     }
     oz_gates_set(&r->physics, r->scene, force_time, false);
     oz_swings_set(&r->physics, r->scene, force_time, false);
+    oz_reference_servo_before(r, dt);
 }
 
 static void touch_pairs(OzReference *r, double dt)
@@ -279,13 +281,16 @@ static void note_wall(OzReference *r, int i, int index, double dt)
         OzGrain now = grain_now(r, i);
         OzWallDrive drive = oz_swings_drive_at(&r->physics, r->scene, wall,
                                                oz_step_clock_time(&r->clock, r->step) + dt);
+        bool is_servo = oz_reference_servo_speed(r, wall, &drive.speed);
         OzVec3 before =
             oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, r->wall_drive[wall]);
         OzVec3 after = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, drive);
         OzVec3 left = oz_minus(oz_grain_velocity_at(now, f->arm), after);
         oz_ledger_note(&r->work, f->contact, f->parts, left, dt);
         note_gate(r, wall, f, left, dt);
-        oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
+        if (!is_servo) { /* a piston's work on grains stays within what the ledger is of */
+            oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
+        }
         OzVec3 turning = oz_scale(drive.axis, drive.rate);
         note_rolling(r, f->contact, f->parts, oz_minus(now.rate, turning), dt);
         if (OZ_ROLLING) {
@@ -314,6 +319,7 @@ static OzStatus make_step(OzReference *r, double dt)
     gather_pairs(r);
     touch_walls(r, dt);
     move_after(r, dt);
+    oz_reference_servo_after(r, dt);
     if (r->physics.switches.ledger) {
         note_ledger(r, dt);
     }
@@ -348,6 +354,7 @@ static void copy_state(const OzReference *r, OzSnapshot *s)
     s->step = r->step;
     s->time = oz_step_clock_time(&r->clock, r->step);
     oz_snapshot_move_walls(s);
+    oz_reference_servo_write(r, s);
 }
 
 static OzStatus find_contacts(const OzReference *r, OzSnapshot *snapshot)

@@ -8,6 +8,8 @@
 #include "sim/pair_list.h"
 #include "sim/reference.h"
 
+#include "kernels/servo_move.h"
+
 struct OzReference {
     const OzScene *scene;
     const OzGrains *grains;
@@ -28,6 +30,7 @@ struct OzReference {
     double *mesh_memory;     /* count x physics.meshes x slots x words (kernels/wall_shape.h) */
     int crowded;             /* a grain that touches a mesh in too many places; -1: none       */
     OzWallDrive wall_drive[OZ_WALLS_MAX]; /* when the forces act          */
+    OzServoState servo[OZ_SERVOS_MAX];
     OzWork work;
     int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */
 };

@@ -13,6 +13,7 @@
 #include "sim/pack.h"
 #include "sim/rods_private.h"
 #include "sim/rods_read_snapshot.h"
+#include "sim/servos.h"
 #include "sim/sides.h"
 #include "sim/sizes.h"
 #include "sim/swings.h"
@@ -174,6 +175,9 @@ OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
     int walls = oz_rods_switches(sim)->walls, swung = oz_rods_switches(sim)->swung;
     size_t count = OZ_MOTION * (size_t)(steps + 1) * (size_t)walls;
     double *motion = NULL, *swing = NULL;
+    if (oz_rods_switches(sim)->servos > 0) {
+        OZ_TRY(oz_servos_hold(sim, member));
+    }
     OZ_TRY(OZ_NEW(&motion, count));
     OZ_TRY(OZ_NEW(&swing, swung ? count / OZ_MOTION * OZ_SWING : 1));
     for (int k = 0; k < steps + 1; k++) {
@@ -297,7 +301,7 @@ static void leave_out_walls(void *switches)
 {
     OzSwitches *s = switches;
     s->walls = s->edged = s->meshes = s->wall_kinds = s->wall_kinds_more = 0;
-    s->moving = s->gated = s->swung = s->impulses = 0;
+    s->moving = s->gated = s->swung = s->impulses = s->servos = 0;
 }
 
 static const OzStop stops[] = {
@@ -307,6 +311,7 @@ static const OzStop stops[] = {
                   "a wall"},
     {OZ_STOP_DEEP, "it overlaps another body by more than guards.overlap.stop"},
     {OZ_STOP_FAST, "an end of it moves more than half its radius in one step"},
+    {OZ_STOP_SERVO, "a piston has left the scene"},
     {OZ_STOP_CROWDED, "it touches a mesh in more places than a grain can, eight"},
 };
 
@@ -337,6 +342,10 @@ static void advise(char *text, size_t size, const OzControlHead *control, const 
         snprintf(text, size, "`orzo check` says what step is stable");
     } else if (control->stop_bits & OZ_STOP_FAST) {
         snprintf(text, size, "try a smaller time.step (`orzo check` says what is stable)");
+    } else if (control->stop_bits & OZ_STOP_SERVO) {
+        snprintf(text, size,
+                 "expected grains in its way, or a heavier piston (`orzo check` says its "
+                 "largest step)");
     } else if (control->stop_bits & (OZ_STOP_DEEP | OZ_STOP_MET)) {
         oz_advice_write(text, size, now, control->stop_index);
     } else {

@@ -15,6 +15,7 @@
 #define OZ_SWUNG          (s->swung)
 #define OZ_LEDGER         (s->ledger)
 #define OZ_IMPULSES       (s->impulses)
+#define OZ_SERVOS         (s->servos)
 #define OZ_PUSHED         (s->pushed)
 #define OZ_LINE           (s->line)
 #define OZ_RESORT         (s->resort)

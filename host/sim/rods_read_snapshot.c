@@ -9,6 +9,7 @@
 #include "sim/read_snapshot.h"
 #include "sim/rods_private.h"
 #include "sim/scalars.h"
+#include "sim/servos.h"
 #include "sim/sides.h"
 #include "sim/units.h"
 
@@ -162,6 +163,9 @@ static OzStatus find_all(OzSim *sim, int member, OzSnapshot *snapshot)
 
 OzStatus oz_rods_read_snapshot_state(OzSim *sim, int member, OzSnapshot *snapshot)
 {
+    if (oz_rods_switches(sim)->servos > 0) {
+        OZ_PASS(oz_servos_read(sim, member, snapshot));
+    }
     return oz_pack_state(&sim->arrays, member, oz_rods_parameters(sim, member), snapshot);
 }
 

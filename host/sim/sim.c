@@ -68,7 +68,8 @@ static bool sums_up(const OzSim *sim)
 {
     bool any = false;
     for (int f = 0; f < sim->model->field_count; f++) {
-        any |= oz_model_field_sums(&sim->model->fields[f]) && oz_arrays_bytes(&sim->arrays, f) > 0;
+        bool is_wide = sim->model->fields[f].kind == OZ_STATE_DOUBLE;
+        any |= is_wide && oz_arrays_bytes(&sim->arrays, f) > 0;
     }
     return any;
 }

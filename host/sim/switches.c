@@ -70,8 +70,8 @@ static bool resists(const OzContactValues *values)
     return values->rolling_friction > 0 || values->twisting_friction > 0;
 }
 
-/* Whether any contact of the scene sticks or resists rotation, and whether any with a spring. Springs are
- * kept beside the tangential ones. */
+/* Whether any contact of the scene sticks or resists rotation, and whether any with a spring.
+ * Springs are kept beside the tangential ones. */
 static void derive_rolling(OzSwitches *s, const OzScene *scene)
 {
     bool rolls = scene->contact.rolling_friction > 0;
@@ -97,7 +97,8 @@ static void derive_friction(OzSwitches *s, const OzScene *scene)
         s->history |= values->friction > 0 && has_spring(values, scene);
         s->gated |= oz_gates_has(&scene->walls[w]);
         s->moving |= scene->walls[w].motion.present || s->gated;
-        s->free_motion |= oz_motion_is_free(&scene->walls[w].motion);
+        s->servos += scene->walls[w].servo.present;
+        s->free_motion |= oz_motion_is_free(&scene->walls[w].motion) || s->servos > 0;
         s->swung |= oz_wall_swing_has(&scene->walls[w]);
     }
 }

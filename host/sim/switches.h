@@ -43,6 +43,7 @@
     X(SWUNG, swung, "walls that change their place as they turn")                                  \
     X(GATED, gated, "walls that come or go")                                                       \
     X(IMPULSES, impulses, "mean forces on walls")                                                  \
+    X(SERVOS, servos, "walls that hold a pressure")                                                \
     X(PUSHED, pushed, NULL)                                                                        \
     X(PERIODIC, periodic, "periodic boundaries")                                                   \
     X(ALL_PAIRS, all_pairs, NULL)

@@ -109,6 +109,17 @@ static void count_wall(OzWallParameters *wall, const OzUnits *u, int law)
     count_law(&wall->law, u, law);
 }
 
+static void count_servo(OzServoConstants *servo, const OzUnits *u)
+{
+    servo->mass /= u->mass;
+    servo->damping /= u->mass / u->time;
+    servo->force /= oz_units_force(u);
+    servo->pressure /= oz_units_force(u) / (u->length * u->length);
+    for (int k = 0; k < 2; k++) {
+        servo->gap[k] /= u->length;
+    }
+}
+
 static void count_grain(OzParameters *p, const OzUnits *u)
 {
     p->radius /= u->length;
@@ -151,6 +162,9 @@ OzParameters oz_units_parameters(const OzParameters *si, int law)
     count_law(&p.law, u, law);
     for (int w = 0; w < OZ_WALLS_MAX; w++) {
         count_wall(&p.wall[w], u, law);
+    }
+    for (int s = 0; s < OZ_SERVOS_MAX; s++) {
+        count_servo(&p.servo[s], u);
     }
     COUNT_LISTS(&p, u);
     count_grain(&p, u);

@@ -1,0 +1,57 @@
+/* Pistons' masses and dashpots. */
+#include "model/servo_nature.h"
+
+#include "model/calibrate.h"
+#include "model/hertz.h"
+#include "model/predict.h"
+
+#include <math.h>
+
+static double total_mass(const OzGrains *grains)
+{
+    double sum = 0;
+    for (int64_t i = 0; i < grains->count; i++) {
+        sum += grains->mass[i];
+    }
+    return grains->count > 0 ? sum : 1;
+}
+
+/* N/m, of a contact of two mean grains that bears a force. */
+static double contact_stiffness(const OzScene *scene, const OzGrains *grains, double mass,
+                                double force)
+{
+    const OzContactValues *values = &scene->contact;
+    if (oz_contact_is_linear(values->law)) {
+        return 0.5 * mass * oz_calibrate_contact(scene, values).stiffness;
+    }
+    double hertz = 0.5 * mass * oz_hertz_hit(scene, values, -1, grains).stiffness;
+    return 1.5 * cbrt(hertz * hertz * force);
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+OzServoNature oz_servo_nature_of(const OzScene *scene, const OzGrains *grains, int wall)
+{
+    const OzWall *piston = &scene->walls[wall];
+    const OzServo *servo = &piston->servo;
+    double all = total_mass(grains), count = fmax((double)grains->count, 1), row = cbrt(count);
+    OzServoNature nature = {.mass = servo->mass > 0 ? servo->mass : all};
+    nature.has_area = oz_servo_area_find(&nature.area, scene, wall);
+    double area = nature.has_area ? nature.area.side[0] * nature.area.side[1] : 0;
+    nature.load = servo->force + servo->pressure * area;
+    nature.load += servo->weight ? nature.mass * dot(scene->gravity, piston->normal) : 0;
+    double gravity = sqrt(dot(scene->gravity, scene->gravity));
+    double force = fmax(fabs(nature.load), all * gravity) / (row * row);
+    double contact = contact_stiffness(scene, grains, all / count, force);
+    nature.stiffness = row * contact;
+    nature.touching = row * row * contact;
+    nature.damping = servo->has_damping ? servo->damping : 2 * sqrt(nature.mass * nature.stiffness);
+    bool verlet = scene->integrator == OZ_INTEGRATOR_VELOCITY_VERLET;
+    nature.largest_step = oz_predict_largest_step(
+        verlet ? OZ_INTEGRATOR_VELOCITY_VERLET : OZ_INTEGRATOR_SYMPLECTIC_EULER,
+        nature.touching / nature.mass, nature.damping / nature.mass);
+    return nature;
+}
