@@ -1,23 +1,39 @@
-/* What two touching bodies know of their contact, what a law answers, and how the tangential spring is
- * carried along. Vectors point from body a to body b; a wall is always body a. */
+/* What two touching bodies know of their contact, what a law answers, and how the tangential spring
+ * is carried along. Vectors point from body a to body b; a wall is always body a. */
 #pragma once
 
 #include "kernels/vec3.h"
 
-/* Constants of a contact law. With `law: hooke` stiffnesses and dampings are per unit of effective mass, so
- * that one set serves every pair of grains (and one each wall); the other laws' headers say what theirs
- * are. */
+/* Constants of a contact law. With `law: hooke` stiffnesses and dampings are per unit of effective
+ * mass, so that one set serves every pair of grains (and one each wall); the other laws' headers
+ * say what theirs are. */
+#define OZ_LAW_CONSTANTS(number)                                                                   \
+    number stiffness;            /* k_n / m*, 1/s^2                                        */      \
+    number damping;              /* c_n / m*, 1/s                                          */      \
+    number tangential_stiffness; /* k_t / m*, 1/s^2                                        */      \
+    number tangential_damping;   /* c_t / m*, 1/s                                          */      \
+    number friction;             /* Coulomb coefficient                                    */      \
+    number rolling_friction,                                                                       \
+        twisting_friction;  /* couple over normal force and radius (contact_rolling.h) */          \
+    number adhesion;        /* N/m: a contact pulls with this times its radius; all laws' */       \
+    number rolling_damping; /* of the rolling spring, over critical damping           */
+
 typedef struct OzLawConstants {
-    scalar stiffness;            /* k_n / m*, 1/s^2                                        */
-    scalar damping;              /* c_n / m*, 1/s                                          */
-    scalar tangential_stiffness; /* k_t / m*, 1/s^2                                        */
-    scalar tangential_damping;   /* c_t / m*, 1/s                                          */
-    scalar friction;             /* Coulomb coefficient                                    */
-    scalar rolling_friction,
-        twisting_friction;  /* couple over normal force and radius (contact_rolling.h) */
-    scalar adhesion;        /* N/m: a contact pulls with this times its radius; all laws' */
-    scalar rolling_damping; /* of the rolling spring, over critical damping           */
+    OZ_LAW_CONSTANTS(scalar)
 } OzLawConstants;
+
+/* Those of a block of contacts: of grains of several materials each lane has its own (material.h).
+ */
+#if OZ_MATERIALS > 1
+typedef struct OzLawOfLanes {
+    OZ_LAW_CONSTANTS(real)
+} OzLawOfLanes;
+#define OZ_LAW        OzLawOfLanes
+#define OZ_LAW_NUMBER real
+#else
+#define OZ_LAW        OzLawConstants
+#define OZ_LAW_NUMBER scalar
+#endif
 
 typedef struct OzContact {
     OzVec3 normal;   /* unit vector                                                        */
@@ -80,9 +96,9 @@ OZ_INLINE OzCouple oz_contact_no_couple(void)
     return couple;
 }
 
-/* The stored spring turned with the normal as the pair turns (Pournin et al. 2005 take the normal as
- * constant; real contacts roll): projected on the new tangent plane, its length kept to fourth order of
- * the turn. */
+/* The stored spring turned with the normal as the pair turns (Pournin et al. 2005 take the normal
+ * as constant; real contacts roll): projected on the new tangent plane, its length kept to fourth
+ * order of the turn. */
 OZ_INLINE OzVec3 oz_contact_turn(OzVec3 stretch, OzVec3 normal)
 {
     real length2 = oz_dot(stretch, stretch), off = oz_dot(stretch, normal);

@@ -5,7 +5,7 @@
 
 #include "kernels/contact.h"
 
-OZ_INLINE OzResponse oz_contact_hertz(OzContact c, OzLawConstants law)
+OZ_INLINE OzResponse oz_contact_hertz(OzContact c, OZ_LAW law)
 {
     OzResponse out;
     real overlap = oz_larger(c.overlap, REAL(0.0));

@@ -10,7 +10,7 @@
 
 #include "kernels/contact.h"
 
-OZ_INLINE OzResponse oz_contact_hertz_mindlin(OzContact c, OzLawConstants law)
+OZ_INLINE OzResponse oz_contact_hertz_mindlin(OzContact c, OZ_LAW law)
 {
     OzResponse out;
     real overlap = oz_larger(c.overlap, REAL(0.0));

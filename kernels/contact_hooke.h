@@ -11,7 +11,7 @@
 
 #include "kernels/contact.h"
 
-OZ_INLINE OzResponse oz_contact_hooke(OzContact c, OzLawConstants law)
+OZ_INLINE OzResponse oz_contact_hooke(OzContact c, OZ_LAW law)
 {
     OzResponse out;
     out.spring = c.mass * law.stiffness * c.overlap;

@@ -13,7 +13,7 @@
 #include "kernels/contact_rolling.h"
 #include "kernels/laws.h"
 
-OZ_INLINE OzResponse oz_contact_response(OzContact c, OzLawConstants law)
+OZ_INLINE OzResponse oz_contact_response(OzContact c, OZ_LAW law)
 {
     OzResponse response = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 #define OZ_CONTACT_LAW_ROW(NAME, name, choice, linear, stiffness, damping)                         \
@@ -57,7 +57,8 @@ OZ_INLINE void oz_contact_limit(OzFriction *f, real limit, real stiffness, OzVec
  * it is advanced before the force (the rest after it) is the integrator's: 0 explicit, 1/2 second
  * order, 1 symplectic. */
 OZ_INLINE OzFriction oz_contact_friction(OzContact c, OzResponse response, real normal_force,
-                                         scalar friction, OzMemory *memory, scalar dt, scalar share)
+                                         OZ_LAW_NUMBER friction, OzMemory *memory, scalar dt,
+                                         scalar share)
 {
     OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), stretch = none;
     OzFriction f = {none, none, c.touching};
@@ -87,8 +88,8 @@ OZ_INLINE real oz_contact_depth(OzContact c)
     return c.touching ? c.overlap : REAL(1.0);
 }
 
-OZ_INLINE OzContactForce oz_contact_force(OzContact c, OzLawConstants law, OzMemory *memory,
-                                          scalar dt, scalar share)
+OZ_INLINE OzContactForce oz_contact_force(OzContact c, OZ_LAW law, OzMemory *memory, scalar dt,
+                                          scalar share)
 {
     OzContactForce out;
     OzResponse response = oz_contact_response(c, law);

@@ -68,7 +68,7 @@ OZ_INLINE void oz_line_add(OzLine *sum, OzContact at, OzVec3 arm_a, OzVec3 arm_b
 }
 
 /* The answer of a law to a contact, nothing where it does not touch. */
-OZ_INLINE OzResponse oz_line_response(OzContact c, OzLawConstants law)
+OZ_INLINE OzResponse oz_line_response(OzContact c, OZ_LAW law)
 {
     mask touching = c.overlap > REAL(0.0);
     OzResponse r = oz_contact_response(c, law);
@@ -89,7 +89,7 @@ typedef struct OzLineEnd {
 } OzLineEnd;
 
 /* Adds one end of the span; gives the energy of its spring. */
-OZ_INLINE real oz_line_end(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants law,
+OZ_INLINE real oz_line_end(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OZ_LAW law,
                            OzLineEnd at)
 {
     OzVec3 arm_a[2], arm_b[2];
@@ -111,7 +111,7 @@ OZ_INLINE real oz_line_end(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OzLa
 }
 
 /* Both ends of the span share what the skewness (w) leaves; gives the mean energy of their springs. */
-OZ_INLINE real oz_line_ends(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants law, real skew)
+OZ_INLINE real oz_line_ends(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OZ_LAW law, real skew)
 {
     OzVec3 a1 = a.half_shaft, a2 = b.half_shaft;
     real aa = oz_dot(a1, a1), ab = oz_dot(a1, a2), bb = oz_dot(a2, a2);
@@ -134,7 +134,7 @@ OZ_INLINE real oz_line_ends(OzLine *sum, OzGrain a, OzGrain b, OzVec3 apart, OzL
 }
 
 /* All points of a pair but for friction; c is the contact at the closest points. */
-OZ_INLINE OzLine oz_line_sum(OzGrain a, OzGrain b, OzVec3 apart, OzLawConstants law, OzContact c,
+OZ_INLINE OzLine oz_line_sum(OzGrain a, OzGrain b, OzVec3 apart, OZ_LAW law, OzContact c,
                              OzVec3 arm_a, OzVec3 arm_b)
 {
     OzVec3 none = oz_vec3(REAL(0.0), REAL(0.0), REAL(0.0)), a1 = a.half_shaft, a2 = b.half_shaft;

@@ -25,7 +25,7 @@ OZ_INLINE OzVec3 oz_rolling_constant(OzVec3 turning, real limit, real inertia, s
 }
 
 /* The spring's and the dashpot's couple; the spring yields at `limit`. */
-OZ_INLINE OzCouple oz_rolling_spring(OzContact c, OzLawConstants law, OzVec3 rolling, real limit,
+OZ_INLINE OzCouple oz_rolling_spring(OzContact c, OZ_LAW law, OzVec3 rolling, real limit,
                                      real stiffness, OzMemory *memory, scalar dt, scalar share)
 {
     OzCouple couple;
@@ -47,8 +47,8 @@ OZ_INLINE OzCouple oz_rolling_spring(OzContact c, OzLawConstants law, OzVec3 rol
 
 /* What a contact pressed by normal_force, whose normal spring has the stiffness k_n, does against
  * rotation. */
-OZ_INLINE OzCouple oz_contact_rolling(OzContact c, OzLawConstants law, real normal_force,
-                                      real stiffness, OzMemory *memory, scalar dt, scalar share)
+OZ_INLINE OzCouple oz_contact_rolling(OzContact c, OZ_LAW law, real normal_force, real stiffness,
+                                      OzMemory *memory, scalar dt, scalar share)
 {
     OzCouple couple = oz_contact_no_couple();
     if (OZ_ROLLING) {

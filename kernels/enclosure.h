@@ -111,8 +111,8 @@ OZ_INLINE void oz_enclosure_touch(OzWork *w, const OzSide *side, OzGrain grain, 
     where.wall_velocity = oz_enclosure_side_velocity(
         w, grain.position, oz_rods_wall_arm(grain, where.end, where.wall), side);
     where.wall_turning = oz_enclosure_side_turning(w, side);
-    OzWallForce found = oz_rods_wall(grain, where, w->parameters->wall[side->wall].law, &memory,
-                                     w->parameters->dt, oz_integrate_share());
+    OzWallForce found = oz_rods_wall(grain, where, OZ_MATERIAL_WALL_LAW(w, side->wall, slots),
+                                     &memory, w->parameters->dt, oz_integrate_share());
     oz_enclosure_side_remember(w, side->index, slots, memory);
     mask counts = OZ_ACTIVE_BEFORE(count);
     oz_loads_add(w, slots, oz_where(counts, found.parts.force),

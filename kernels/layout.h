@@ -106,6 +106,10 @@ enum { OZ_N_REST = 0, OZ_N_TURN = 4, OZ_N_TURN_REST = 8, OZ_FINE_RECORD = 12 };
  * of memory, reads one cache line. */
 enum { OZ_F_FORCE = 0, OZ_F_TORQUE = 4, OZ_PAIR_FORCE = 8, OZ_PAIR_TORQUE = 4 };
 
+/* Words of a row of constants of a law, a few to spare. Rows: of each two materials of grains, then
+ * of each wall and each material (material.h). */
+enum { OZ_LAW_ROW = 12 };
+
 /* Words of a pair's tangential or rolling spring, one to spare. */
 enum { OZ_SPRING = 4 };
 

@@ -255,8 +255,9 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
     OzMemory memory = oz_pairs_load_memory(w, items);
     OzClosest closest = {OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST] + at),
                          OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST + 1] + at)};
-    OzPairForce pair = oz_rods_touch(one, other, apart, closest, law, &memory, w->parameters->dt,
-                                     oz_integrate_share());
+    OzPairForce pair = oz_rods_touch(one, other, apart, closest,
+                                     OZ_MATERIAL_PAIR_LAW(w, pairs->a + at, pairs->b + at, law),
+                                     &memory, w->parameters->dt, oz_integrate_share());
     if (OZ_HISTORY) {
         oz_pairs_store_springs(w->pair_history, items, memory.stretch);
     }

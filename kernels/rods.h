@@ -33,8 +33,8 @@ OZ_INLINE OzClosest oz_rods_closest(OzVec3 apart, OzVec3 half_shaft_a, OzVec3 ha
 
 /* Replaces the contact at the closest points by the mean of the pair's points, and adds what they
  * do. */
-OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apart,
-                            OzLawConstants law, OzMemory *memory, scalar dt, scalar share)
+OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apart, OZ_LAW law,
+                            OzMemory *memory, scalar dt, scalar share)
 {
     OzContact *c = &pair->contact;
     OzLine sum = oz_line_sum(a, b, apart, law, *c, pair->arm_a, pair->arm_b);
@@ -74,8 +74,8 @@ OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apar
 
 /* What a and b do to each other, whose closest points are at `at`; their places are not looked at.
  */
-OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at,
-                                    OzLawConstants law, OzMemory *memory, scalar dt, scalar share)
+OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzClosest at, OZ_LAW law,
+                                    OzMemory *memory, scalar dt, scalar share)
 {
     OzPairForce pair;
     pair.contact = oz_grain_contact(a, b, apart, at, &pair.arm_a, &pair.arm_b, &pair.crossed);
@@ -99,7 +99,7 @@ OZ_INLINE OzPairForce oz_rods_touch(OzGrain a, OzGrain b, OzVec3 apart, OzCloses
     return pair;
 }
 
-OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, OzSpace space, OzLawConstants law,
+OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, OzSpace space, OZ_LAW law,
                                    OzMemory *memory, scalar dt, scalar share)
 {
     OzVec3 apart = oz_space_minus(a.position, b.position, space);
@@ -148,8 +148,8 @@ OZ_INLINE OzVec3 oz_rods_wall_torque(OzWallForce wall)
     return OZ_ROLLING ? oz_add(torque, oz_rods_wall_couple(wall)) : torque;
 }
 
-OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OzLawConstants law,
-                                   OzMemory *memory, scalar dt, scalar share)
+OZ_INLINE OzWallForce oz_rods_wall(OzGrain grain, OzWallEnd at, OZ_LAW law, OzMemory *memory,
+                                   scalar dt, scalar share)
 {
     OzWallForce force;
     OzContact *contact = &force.contact;

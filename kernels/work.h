@@ -17,6 +17,8 @@
 
 #include "kernels/member.h"
 
+#include "kernels/material.h"
+
 OZ_INLINE OzSpace oz_work_space(const OzWork *w)
 {
     OzSpace space;

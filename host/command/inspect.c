@@ -11,6 +11,7 @@
 #include "run/members.h"
 #include "run/protocol.h"
 #include "scene/keys.h"
+#include "scene/mixing.h"
 #include "scene/phases.h"
 
 #include <math.h>
@@ -168,6 +169,7 @@ static OzStatus open_all(Inspection *in, const OzOptions *options)
 {
     OzStatus status = OZ_OK;
     OZ_TRY(oz_scene_load(&in->scene, options->paths[0], options->settings, options->setting_count));
+    oz_mixing_say(&in->scene);
     OZ_TRY(oz_members_place(&in->grains, &in->scene));
     OZ_TRY(oz_device_open(&in->device, options->device, options->threads));
     status = oz_rehearsal_run(&in->rehearsal, &in->scene, &in->grains, &in->device,

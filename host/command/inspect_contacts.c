@@ -1,6 +1,7 @@
 /* Printing what each kind of contact of a scene of rods comes to. */
 #include "command/inspect_contacts.h"
 
+#include "command/inspect_materials.h"
 #include "command/inspect_range.h"
 #include "model/calibrate.h"
 #include "model/prediction.h"
@@ -85,9 +86,14 @@ static OzStatus describe_contact(char **text, const OzScene *scene, const OzPred
                : oz_status_fail(OZ_ERR_MEMORY, "out of memory for the text of a contact");
 }
 
-static void print_heading(FILE *file, int first_wall, int last_wall)
+static void print_heading(FILE *file, const OzScene *scene, const OzPrediction *row, int last_wall)
 {
-    if (first_wall < 0) {
+    int first_wall = row->wall;
+    if (oz_mixing_count(scene) > 1) {
+        char place[64];
+        oz_inspect_materials_place(place, sizeof place, scene, row);
+        fprintf(file, "contact            of %s\n", place);
+    } else if (first_wall < 0) {
         fprintf(file, "contact            of two grains\n");
     } else if (first_wall == last_wall) {
         fprintf(file, "contact            at wall %d\n", first_wall);
@@ -106,16 +112,18 @@ OzStatus oz_inspect_contacts_print(FILE *file, const OzScene *scene, const OzGra
     for (int first = 0; first < count; first = last + 1) {
         free(text);
         OZ_TRY(describe_contact(&text, scene, &rows[first]));
-        for (last = first; rows[first].wall >= 0 && last + 1 < count; last++) {
+        bool alone = rows[first].wall < 0 || oz_mixing_count(scene) > 1;
+        for (last = first; !alone && last + 1 < count; last++) {
             free(next);
             OZ_TRY(describe_contact(&next, scene, &rows[last + 1]));
             if (strcmp(text, next) != 0) {
                 break;
             }
         }
-        print_heading(file, rows[first].wall, rows[last].wall);
+        print_heading(file, scene, &rows[first], rows[last].wall);
         fputs(text, file);
     }
+    oz_inspect_materials_print(file, scene, rows, count);
 done:
     free(rows);
     free(text);

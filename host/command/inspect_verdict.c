@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "command/inspect_columns.h"
 #include "command/inspect_elements.h"
+#include "command/inspect_materials.h"
 #include "command/inspect_servos.h"
 #include "command/inspect_walls.h"
 #include "draw/renderer.h"
@@ -24,15 +25,6 @@ enum { WORDS = 48 };
 
 /* Beyond it a restitution is worth a word. */
 #define RESTITUTION_OFF 0.01
-
-static const char *place_of(const OzPrediction *row, char *text, size_t size)
-{
-    if (row->wall < 0) {
-        return "two grains";
-    }
-    snprintf(text, size, "a grain at wall %d", row->wall);
-    return text;
-}
 
 /* The contact whose restitution is furthest from what was asked for. */
 static const OzPrediction *worst_restitution(const OzPrediction *rows, int count, bool *alike)
@@ -68,6 +60,7 @@ static void print_restitution(FILE *file, const OzScene *scene, const OzPredicti
     char text[WORDS];
     bool alike;
     const OzPrediction *row = worst_restitution(rows, count, &alike);
+    oz_inspect_materials_place(text, sizeof text, scene, row);
     fputs("  restitution      ", file);
     if (row->values.law == OZ_LAW_HERTZ) { /* which asks for none */
         fprintf(file, "%.4g comes out at %.4g m/s\n", rows[0].hits.mean, rows[0].speed);
@@ -78,7 +71,7 @@ static void print_restitution(FILE *file, const OzScene *scene, const OzPredicti
         fprintf(file, " (%.3g ... %.3g by phase)", row->hits.low, row->hits.high);
     }
     if (!alike) {
-        fprintf(file, ", of %s, the worst", place_of(row, text, sizeof text));
+        fprintf(file, ", of %s, the worst", text);
     }
     print_advice(file, scene, row);
     fputc('\n', file);
@@ -99,14 +92,15 @@ static void print_stability(FILE *file, const OzVerdict *v, const OzPrediction *
     for (int i = 1; i < count; i++) {
         worst = rows[i].margin < worst->margin ? &rows[i] : worst;
     }
+    oz_inspect_materials_place(text, sizeof text, v->scene, worst);
     bool of_bed =
         v->rehearsal->has_stiffness && bed->contacts > 0 && bed->largest_step < worst->largest_step;
     print_stable(file, v->scene, of_bed ? bed->largest_step : worst->largest_step,
-                 of_bed ? "all contacts of the bed together" : place_of(worst, text, sizeof text));
+                 of_bed ? "all contacts of the bed together" : text);
     for (int i = 0; i < count; i++) {
         if (!rows[i].tangential_stable) {
-            fprintf(file, "  warning          the sticking spring of %s is unstable\n",
-                    place_of(&rows[i], text, sizeof text));
+            oz_inspect_materials_place(text, sizeof text, v->scene, &rows[i]);
+            fprintf(file, "  warning          the sticking spring of %s is unstable\n", text);
         }
     }
 }
@@ -315,11 +309,14 @@ static void print_adhesion(FILE *file, const OzVerdict *v)
 {
     const double pi = 3.14159265358979323846, *g = v->scene->gravity;
     double gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), pull = 0, weight = INFINITY;
-    for (int w = -1; w < v->scene->wall_count; w++) {
-        const OzContactValues *values = w < 0 ? &v->scene->contact : &v->scene->walls[w].contact;
+    for (int k = 0; k < oz_mixing_contacts(v->scene); k++) {
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, v->scene, k);
         for (int64_t i = 0; i < v->grains->count; i++) {
-            double radius = v->grains->diameter[i] * (w < 0 ? 0.25 : 0.5);
-            pull = fmax(pull, 2 * pi * values->surface_energy * radius);
+            int kind = oz_mixing_kind(v->scene, v->grains->population[i]);
+            double radius = v->grains->diameter[i] * (mixed.wall < 0 ? 0.25 : 0.5);
+            bool is_one = kind == mixed.one || kind == mixed.other;
+            pull = fmax(pull, is_one ? 2 * pi * mixed.values.surface_energy * radius : 0);
             weight = fmin(weight, v->grains->mass[i] * gravity);
         }
     }

@@ -19,7 +19,10 @@ static OzStatus find_limit(Limit *limit, const OzScene *scene, const OzGrains *g
                            const OzPrediction *rows, int w)
 {
     OzStiffness lying;
-    double largest = rows[1 + w].largest_step;
+    double largest = INFINITY;
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        largest = rows[i].wall == w ? fmin(largest, rows[i].largest_step) : largest;
+    }
     if (oz_stiffness_applies(scene)) {
         OZ_PASS(oz_stiffness_at_wall(&lying, scene, grains, w));
         largest = lying.largest_step;
@@ -51,7 +54,11 @@ OzStatus oz_inspect_walls_print(FILE *file, const OzScene *scene, const OzGrains
     for (int w = 0; w < scene->wall_count; w++) {
         OZ_TRY(find_limit(&limits[w], scene, grains, rows, w));
     }
-    fprintf(file, "  largest steps    two grains %.3g s", rows[0].largest_step);
+    double pairs = INFINITY;
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        pairs = rows[i].wall < 0 ? fmin(pairs, rows[i].largest_step) : pairs;
+    }
+    fprintf(file, "  largest steps    two grains %.3g s", pairs);
     for (int first = 0, last; first < scene->wall_count; first = last + 1) {
         last = first;
         while (last + 1 < scene->wall_count &&

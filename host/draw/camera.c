@@ -1,6 +1,8 @@
 /* The camera's place and the picture's division from a look alone. Knows neither GL nor grains. */
 #include "draw/camera.h"
 
+#include "draw/palette.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -137,7 +139,7 @@ static void place(OzCamera *camera, const OzLook *look, int view, double heading
 {
     double font = camera->font;
     double margin = font > 0 ? 0.8 * font : 0.02 * fmin(look->width, look->height);
-    double column = look->no_legend ? 0 : (look->colour == OZ_COLOUR_TYPE ? 9 : 6) * font;
+    double column = look->no_legend ? 0 : (oz_palette_is_by_type(look) ? 9 : 6) * font;
     double right = look->width - margin - column, left = margin;
     double top = margin + heading * font, bottom = look->height - margin - 1.3 * font;
     double views = look->view_count * (look->view_count > 1 ? 1.12 : 1.0);

@@ -5,6 +5,7 @@
 #include "draw/palette.h"
 #include "draw/pressed.h"
 #include "model/motion.h"
+#include "scene/mixing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -260,15 +261,21 @@ static void population_text(const OzPopulation *population, char *text, size_t s
 static void add_type_legend(const Page *page)
 {
     const OzScene *scene = page->snapshot->scene;
-    int rows = scene->population_count < 12 ? scene->population_count : 12;
+    bool by_material = page->look->colour == OZ_COLOUR_MATERIAL;
+    int count = by_material ? oz_mixing_count(scene) : scene->population_count;
+    int rows = count < 12 ? count : 12;
     double right = page->look->width - page->margin, box = 0.8 * page->size;
     double y = 0.5 * page->look->height - 0.75 * rows * page->size;
     for (int i = 0; i < rows; i++, y += 1.5 * page->size) {
         float rgb[3];
         char text[64];
         oz_palette_type(i, rgb);
-        (page->look->flat ? flat_population_text : population_text)(&scene->populations[i], text,
-                                                                    sizeof text);
+        if (by_material) {
+            snprintf(text, sizeof text, "%s", oz_mixing_name(scene, i));
+        } else {
+            (page->look->flat ? flat_population_text : population_text)(&scene->populations[i],
+                                                                        text, sizeof text);
+        }
         fill(page, right - box, y, right, y + box, rgb);
         write_text(page, OZ_WEIGHT_REGULAR, 0.8 * page->size, 1, right - box - 0.5 * page->size,
                    y + 0.72 * page->size, page->ink, text);
@@ -293,7 +300,7 @@ void oz_overlay_draw(const OzFont *font, OzImage *image, const OzSnapshot *snaps
     if (look->no_legend) {
         return;
     }
-    if (look->colour == OZ_COLOUR_TYPE) {
+    if (oz_palette_is_by_type(look)) {
         add_type_legend(&page);
     } else {
         add_colour_bar(&page);

@@ -2,6 +2,7 @@
 #include "draw/palette.h"
 
 #include "draw/long_axis.h"
+#include "scene/mixing.h"
 
 #include <math.h>
 
@@ -92,6 +93,11 @@ void oz_palette_grey(double x, float rgb[3])
     rgb[0] = rgb[1] = rgb[2] = (float)(0.15 + 0.75 * fmin(fmax(x, 0), 1));
 }
 
+bool oz_palette_is_by_type(const OzLook *look)
+{
+    return look->colour == OZ_COLOUR_TYPE || look->colour == OZ_COLOUR_MATERIAL;
+}
+
 void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const double *share,
                       int64_t i, float rgb[3])
 {
@@ -107,6 +113,9 @@ void oz_palette_grain(const OzSnapshot *snapshot, const OzLook *look, const doub
         return;
     case OZ_COLOUR_TYPE:
         oz_palette_type(snapshot->grains->population[i], rgb);
+        return;
+    case OZ_COLOUR_MATERIAL:
+        oz_palette_type(oz_mixing_kind(snapshot->scene, snapshot->grains->population[i]), rgb);
         return;
     case OZ_COLOUR_TURNED:
         oz_palette_cyclic(turn_share(snapshot, i), rgb);

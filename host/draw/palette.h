@@ -16,6 +16,9 @@ void oz_palette_cyclic(double x, float rgb[3]);
 /* A colour told apart from those of the other rows; after eight rows they begin again. */
 void oz_palette_type(int row, float rgb[3]);
 
+/* Whether colours are a row for each kind of grain, and no scale. */
+bool oz_palette_is_by_type(const OzLook *look);
+
 /* The colour of grain i; a grain without the quantity (the angle of a sphere, or of a square) is
  * grey. share: of every grain, 0 to 1, for OZ_COLOUR_ORDER (crystal of model/local_order.h),
  * _FORCE and _COORDINATION (draw/pressed.h); else NULL will do. */

@@ -1,6 +1,8 @@
 /* The rows. */
 #include "export/grain_columns.h"
 
+#include "scene/mixing.h"
+
 #include <string.h>
 
 static void fill_id(const OzSnapshot *snapshot, int64_t grain, double *values)
@@ -12,6 +14,11 @@ static void fill_id(const OzSnapshot *snapshot, int64_t grain, double *values)
 static void fill_population(const OzSnapshot *snapshot, int64_t grain, double *values)
 {
     *values = snapshot->grains->population[grain];
+}
+
+static void fill_material(const OzSnapshot *snapshot, int64_t grain, double *values)
+{
+    *values = oz_mixing_material(snapshot->scene, snapshot->grains->population[grain]);
 }
 
 static void fill_position(const OzSnapshot *snapshot, int64_t grain, double *values)
@@ -74,6 +81,7 @@ enum {
 static const OzGrainColumn COLUMNS[] = {
     {"id", "1", 1, {"id"}, true, true, ALL, fill_id},
     {"population", "1", 1, {"population"}, true, true, ALL, fill_population},
+    {"material", "1", 1, {"material"}, true, true, RODS, fill_material},
     {"position", "m", 3, {"x", "y", "z"}, false, false, ALL, fill_position},
     {"velocity", "m s-1", 3, {"vx", "vy", "vz"}, false, false, ALL, fill_velocity},
     {"angular_velocity",
@@ -102,5 +110,6 @@ const OzGrainColumn *oz_grain_columns_all(void)
 
 bool oz_grain_columns_serves(const OzGrainColumn *column, const OzSnapshot *snapshot)
 {
-    return (column->models & (snapshot->grains->elements ? FLAT : RODS)) != 0;
+    bool is_listed = column->fill != fill_material || snapshot->scene->material_count > 0;
+    return is_listed && (column->models & (snapshot->grains->elements ? FLAT : RODS)) != 0;
 }

@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 #include "model/predict.h"
+#include "scene/mixing.h"
 
 #include <complex.h>
 #include <math.h>
@@ -143,7 +144,7 @@ typedef struct Found {
 
 static const Found *find(const OzScene *scene, const OzContactValues *values)
 {
-    enum { KEPT = 4 };
+    enum { KEPT = 64 };
     static _Thread_local Found kept[KEPT];
     static _Thread_local int next;
     for (int i = 0; i < KEPT; i++) {
@@ -183,10 +184,13 @@ static void say(const OzScene *scene, const OzContactValues *values, const char 
 
 void oz_calibrate_say(const OzScene *scene)
 {
-    char where[32];
-    say(scene, &scene->contact, "contacts of grains");
-    for (int w = 0; w < scene->wall_count; w++) {
-        snprintf(where, sizeof where, "contacts at wall %d", w);
-        say(scene, &scene->walls[w].contact, where);
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        char where[64] = "contacts of grains";
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        if (mixed.wall >= 0) {
+            snprintf(where, sizeof where, "contacts at wall %d", mixed.wall);
+        }
+        say(scene, &mixed.values, where);
     }
 }

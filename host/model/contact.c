@@ -46,8 +46,7 @@ static double clamped_damping_ratio(double restitution)
  * cos = 0; u stays above 0 for zeta < 3 sqrt(3) / 4, but falls steeply to 1 / (2 zeta)^2 where a
  * strongly damped pull would begin: phi = end (1 - y^2) puts the panels there. 4000 of them leave
  * 1e-9 for e > 0.01. *duration receives the hit's, times sqrt(kappa). */
-static double smooth_restitution(double damping_ratio, OzAttraction attraction,
-                                     double *duration)
+static double smooth_restitution(double damping_ratio, OzAttraction attraction, double *duration)
 {
     enum { PANELS = 4000 };
     double zeta = damping_ratio, end = pi, loss = 0, time = 0;
@@ -152,10 +151,13 @@ static double hertz_damping(double e, OzAttraction attraction)
 static OzContactConstants constants_hertz_mindlin(const OzContactValues *one,
                                                   const OzContactValues *other)
 {
-    const OzContactValues *body[2] = {one, other};
+    bool told = one->other_modulus > 0;
+    const double moduli[2] = {one->youngs_modulus,
+                              told ? one->other_modulus : other->youngs_modulus};
+    const double ratios[2] = {one->poisson_ratio, told ? one->other_ratio : other->poisson_ratio};
     double compliance = 0, shear_compliance = 0;
     for (int i = 0; i < 2; i++) {
-        double modulus = body[i]->youngs_modulus, nu = body[i]->poisson_ratio;
+        double modulus = moduli[i], nu = ratios[i];
         compliance += (1 - nu * nu) / modulus;
         shear_compliance += (2 - nu) * 2 * (1 + nu) / modulus;
     }

@@ -28,7 +28,7 @@ typedef struct OzContactConstants {
 OzContactConstants oz_contact_constants(const OzContactValues *values);
 
 /* The constants of any law; grains are the scene's contact values, whose material meets that of
- * `values` (the same for two grains, a wall's otherwise). */
+ * `values` where these do not say what they meet (the same for two grains, a wall's otherwise). */
 OzContactConstants oz_contact_constants_of(const OzContactValues *values,
                                            const OzContactValues *grains);
 
@@ -39,4 +39,3 @@ bool oz_contact_is_linear(OzLaw law);
 /* The restitution of a contact that may not pull, for a damping ratio gamma / (2 sqrt(kappa)) >= 0:
  * 1 at 0, falling towards 0 (Schwager & Poeschel 2007). */
 double oz_contact_clamped_restitution(double damping_ratio);
-

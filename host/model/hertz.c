@@ -25,13 +25,21 @@ static double fastest_grain(const OzGrains *grains)
     return sqrt(fastest2);
 }
 
-static int64_t lightest(const OzGrains *grains)
+/* kg and m of the lightest grain of a kind. */
+static void find_lightest(double *mass, double *diameter, const OzScene *scene,
+                          const OzGrains *grains, int kind)
 {
-    int64_t least = 0;
-    for (int64_t i = 1; i < grains->count; i++) {
-        least = grains->mass[i] < grains->mass[least] ? i : least;
+    bool all = oz_mixing_count(scene) == 1, any = false;
+    *mass = 1e-6;
+    *diameter = 1e-3;
+    for (int64_t i = 0; i < grains->count; i++) {
+        bool is_one = all || oz_mixing_kind(scene, grains->population[i]) == kind;
+        if (is_one && (!any || grains->mass[i] < *mass)) {
+            *mass = grains->mass[i];
+            *diameter = grains->diameter[i];
+            any = true;
+        }
     }
-    return least;
 }
 
 static double approach(const OzScene *scene, const OzGrains *grains, double diameter, bool pair)
@@ -43,15 +51,21 @@ static double approach(const OzScene *scene, const OzGrains *grains, double diam
     return least > 0 ? least : 1e-3;
 }
 
-OzHertzHit oz_hertz_hit(const OzScene *scene, const OzContactValues *values, int wall,
-                        const OzGrains *grains)
+OzHertzHit oz_hertz_hit(const OzScene *scene, const OzMixed *mixed, const OzGrains *grains)
 {
-    bool pair = wall < 0, mindlin = values->law == OZ_LAW_HERTZ_MINDLIN;
-    OzContactConstants c = oz_contact_constants_of(values, &scene->contact);
-    int64_t i = lightest(grains);
-    double mass = (grains->count ? grains->mass[i] : 1e-6) * (pair ? 0.5 : 1);
-    double diameter = grains->count ? grains->diameter[i] : 1e-3;
+    bool pair = mixed->wall < 0, mindlin = mixed->values.law == OZ_LAW_HERTZ_MINDLIN;
+    OzContactConstants c = oz_contact_constants_of(&mixed->values, &scene->contact);
+    double mass, diameter, other_mass, other;
+    find_lightest(&mass, &diameter, scene, grains, mixed->one);
     double radius = diameter * (pair ? 0.25 : 0.5);
+    if (pair && mixed->one != mixed->other) {
+        find_lightest(&other_mass, &other, scene, grains, mixed->other);
+        radius = 0.5 * diameter * other / (diameter + other);
+        mass = mass * other_mass / (mass + other_mass);
+        diameter = fmin(diameter, other);
+    } else if (pair) {
+        mass *= 0.5;
+    }
     OzHertzHit hit = {.speed = approach(scene, grains, diameter, pair), .damping = c.damping};
     hit.stiffness = c.stiffness * (mindlin ? sqrt(radius) : 1) / mass;
     double overlap = pow(1.25 * hit.speed * hit.speed / hit.stiffness, 0.4);

@@ -4,6 +4,7 @@
 
 #include "model/contact.h"
 #include "model/grains.h"
+#include "scene/mixing.h"
 
 typedef struct OzHertzHit {
     double speed;     /* m/s, approach: the fastest grain at the start, the walls, or a fall of two
@@ -14,7 +15,6 @@ typedef struct OzHertzHit {
         linear; /* tangent at the deepest point, per kg; duration of the elastic hit   */
 } OzHertzHit;
 
-/* A hit of the lightest grain with one of its kind, or with a wall of these values (wall >= 0).
- * Without grains: of one of 1 mm and 1 mg. */
-OzHertzHit oz_hertz_hit(const OzScene *scene, const OzContactValues *values, int wall,
-                        const OzGrains *grains);
+/* A hit of the lightest grains of two kinds, or of one with a wall. Without grains: of some of 1 mm
+ * and 1 mg. */
+OzHertzHit oz_hertz_hit(const OzScene *scene, const OzMixed *mixed, const OzGrains *grains);

@@ -23,17 +23,21 @@ static bool sticking_is_stable(const OzScene *scene, const OzContactValues *valu
                                                  lighter * constants->tangential_damping);
 }
 
-static OzPrediction predict_kind(const OzScene *scene, const OzContactValues *values, int wall,
-                                 const OzGrains *grains)
+static OzPrediction predict_kind(const OzScene *scene, const OzMixed *mixed, const OzGrains *grains)
 {
+    const OzContactValues *values = &mixed->values;
     bool linear = oz_contact_is_linear(values->law);
-    OzPrediction row = {.wall = wall, .values = *values, .closed_form = NAN};
+    OzPrediction row = {.wall = mixed->wall,
+                        .one = mixed->one,
+                        .other = mixed->other,
+                        .values = *values,
+                        .closed_form = NAN};
     double step = scene->step;
     if (linear) {
         row.constants = oz_calibrate_contact(scene, values);
         row.hits = oz_predict_hits(scene->integrator, step, &row.constants, values->attraction);
     } else {
-        OzHertzHit hertz = oz_hertz_hit(scene, values, wall, grains);
+        OzHertzHit hertz = oz_hertz_hit(scene, mixed, grains);
         row.constants = hertz.linear;
         row.speed = hertz.speed;
         row.hits = oz_predict_hertz_hits(scene, values, &hertz);
@@ -54,28 +58,48 @@ static OzPrediction predict_kind(const OzScene *scene, const OzContactValues *va
     return row;
 }
 
-/* Effective masses: half a grain's between two like ones, the grain's own against a wall. */
-static void set_masses(OzPrediction *row, const OzGrains *grains)
+/* Least and greatest mass of a kind's grains; false: there are none. */
+static bool find_masses(double *low, double *high, const OzScene *scene, const OzGrains *grains,
+                        int kind)
 {
-    double low = INFINITY, high = 0;
+    bool all = oz_mixing_count(scene) == 1;
+    *low = INFINITY;
+    *high = 0;
     for (int64_t i = 0; i < grains->count; i++) {
-        low = fmin(low, grains->mass[i]);
-        high = fmax(high, grains->mass[i]);
+        if (all || oz_mixing_kind(scene, grains->population[i]) == kind) {
+            *low = fmin(*low, grains->mass[i]);
+            *high = fmax(*high, grains->mass[i]);
+        }
+    }
+    return *high > 0;
+}
+
+/* Effective masses: half a grain's between two like ones, the grain's own against a wall. */
+static void set_masses(OzPrediction *row, const OzScene *scene, const OzGrains *grains)
+{
+    double low, high, other_low, other_high;
+    bool any = find_masses(&low, &high, scene, grains, row->one);
+    if (row->wall < 0 && row->one != row->other) {
+        any &= find_masses(&other_low, &other_high, scene, grains, row->other);
+        row->mass_low = any ? low * other_low / (low + other_low) : 0;
+        row->mass_high = any ? high * other_high / (high + other_high) : 0;
+        return;
     }
     double share = row->wall < 0 ? 0.5 : 1;
-    row->mass_low = grains->count ? share * low : 0;
+    row->mass_low = any ? share * low : 0;
     row->mass_high = share * high;
 }
 
 OzStatus oz_prediction_rows(OzPrediction **rows, int *count, const OzScene *scene,
                             const OzGrains *grains)
 {
-    OZ_PASS(OZ_NEW(rows, scene->wall_count + 1));
-    *count = scene->wall_count + 1;
+    *count = oz_mixing_contacts(scene);
+    OZ_PASS(OZ_NEW(rows, *count));
     for (int i = 0; i < *count; i++) {
-        const OzContactValues *values = i ? &scene->walls[i - 1].contact : &scene->contact;
-        (*rows)[i] = predict_kind(scene, values, i - 1, grains);
-        set_masses(&(*rows)[i], grains);
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        (*rows)[i] = predict_kind(scene, &mixed, grains);
+        set_masses(&(*rows)[i], scene, grains);
     }
     return OZ_OK;
 }

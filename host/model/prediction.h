@@ -4,10 +4,12 @@
 
 #include "model/grains.h"
 #include "model/predict.h"
+#include "scene/mixing.h"
 
 /* One kind of contact of a scene. */
 typedef struct OzPrediction {
     int wall;                     /* index of the wall, -1: grain against grain              */
+    int one, other;               /* kinds of the grains (scene/mixing.h), at a wall the same */
     OzContactValues values;       /* as the scene has them                                   */
     OzContactConstants constants; /* as used; Hertzian laws: tangent at a hit's deepest point */
     double speed;                 /* m/s, Hertzian laws: of the hit that is predicted; else 0 */
@@ -22,6 +24,7 @@ typedef struct OzPrediction {
     bool tangential_stable;       /* a sticking tangential spring is stable too: warn if not */
 } OzPrediction;
 
-/* *rows receives one row for pairs of grains, then one for each wall; the caller frees it. */
+/* *rows receives one row for pairs of grains of each two materials, then one for each wall with
+ * each of these: without materials one of two grains, then one a wall. The caller frees it. */
 OzStatus oz_prediction_rows(OzPrediction **rows, int *count, const OzScene *scene,
                             const OzGrains *grains);

@@ -16,16 +16,22 @@ static double total_mass(const OzGrains *grains)
     return grains->count > 0 ? sum : 1;
 }
 
-/* N/m, of a contact of two mean grains that bears a force. */
+/* N/m, of a contact of two mean grains that bears a force; of several materials the stiffest. */
 static double contact_stiffness(const OzScene *scene, const OzGrains *grains, double mass,
                                 double force)
 {
-    const OzContactValues *values = &scene->contact;
-    if (oz_contact_is_linear(values->law)) {
-        return 0.5 * mass * oz_calibrate_contact(scene, values).stiffness;
+    bool linear = oz_contact_is_linear(scene->contact.law);
+    double stiffest = 0;
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        if (mixed.wall < 0) {
+            double own = linear ? oz_calibrate_contact(scene, &mixed.values).stiffness
+                                : oz_hertz_hit(scene, &mixed, grains).stiffness;
+            stiffest = fmax(stiffest, 0.5 * mass * own);
+        }
     }
-    double hertz = 0.5 * mass * oz_hertz_hit(scene, values, -1, grains).stiffness;
-    return 1.5 * cbrt(hertz * hertz * force);
+    return linear ? stiffest : 1.5 * cbrt(stiffest * stiffest * force);
 }
 
 static double dot(const double *a, const double *b)

@@ -61,6 +61,33 @@ static double potential(const OzSnapshot *snapshot)
     return sum;
 }
 
+/* The stiffest contact of two grains, per mass. */
+static double linear_of(const OzScene *scene)
+{
+    double stiffest = oz_contact_constants_of(&scene->contact, &scene->contact).stiffness;
+    for (int i = 1; i < oz_mixing_contacts(scene) - scene->wall_count * oz_mixing_count(scene);
+         i++) {
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        stiffest =
+            fmax(stiffest, oz_contact_constants_of(&mixed.values, &scene->contact).stiffness);
+    }
+    return stiffest;
+}
+
+static double hertz_of(const OzScene *scene, const OzGrains *grains)
+{
+    double stiffest = 0;
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        if (mixed.wall < 0) {
+            stiffest = fmax(stiffest, oz_hertz_hit(scene, &mixed, grains).stiffness);
+        }
+    }
+    return stiffest;
+}
+
 /* Energy of rounding: what contacts and beams hold when lengths are wrong by so small a share. A
  * percent of overlap and, of its energy, 1e-12 comes to 1e-8 of lengths; places in float are kept
  * to 2^-22 of the smallest diameter (constants.c), of which some sixteen may come together. */
@@ -70,9 +97,9 @@ static double rounding(const OzSnapshot *snapshot)
     const OzGrains *g = snapshot->grains;
     double share = scene->precision == OZ_PRECISION_FLOAT ? 4e-6 : 1e-8, sum = 0;
     bool is_linear = oz_contact_is_linear(scene->contact.law);
-    double linear = oz_contact_constants_of(&scene->contact, &scene->contact).stiffness;
+    double linear = linear_of(scene);
     linear = isfinite(linear) ? linear : 0; /* without discs no contact time is given */
-    double hertz = is_linear ? 0 : oz_hertz_hit(scene, &scene->contact, -1, g).stiffness;
+    double hertz = is_linear ? 0 : hertz_of(scene, g);
     for (int64_t i = 0; i < snapshot->count; i++) {
         double way = share * g->diameter[i];
         sum += is_linear ? 0.5 * g->mass[i] * linear * way * way

@@ -11,6 +11,7 @@
 #include "run/pace.h"
 #include "run/swap.h"
 #include "run/worker_state.h"
+#include "scene/mixing.h"
 #include "sim/read_snapshot.h"
 #include "sim/settle.h"
 #include "sim/stiffness.h"
@@ -100,7 +101,9 @@ static OzStatus watch_settling(void *context, double time, double ratio)
 {
     OzWorker *worker = context;
     if (worker->leads) {
-        oz_stage_say(&worker->stage, "settling: %.3f s, kinetic energy %.3g of what lifts all by a diameter", time, ratio);
+        oz_stage_say(&worker->stage,
+                     "settling: %.3f s, kinetic energy %.3g of what lifts all by a diameter", time,
+                     ratio);
     }
     if (must_end(worker)) {
         return oz_status_fail(OZ_ERR_INTERRUPTED, "interrupted at %.9g s of settling", time);
@@ -115,7 +118,11 @@ static OzStatus tell_contacts(const OzWorker *worker)
 {
     OzStiffness stiffness;
     OzOutputs *first = worker->members[0];
-    if (!worker->leads || !first->is_open || !oz_stiffness_applies(&first->scene)) {
+    if (!worker->leads || !first->is_open) {
+        return OZ_OK;
+    }
+    oz_mixing_say(&first->scene);
+    if (!oz_stiffness_applies(&first->scene)) {
         return OZ_OK;
     }
     oz_calibrate_say(&first->scene);

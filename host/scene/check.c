@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "scene/check_flat.h"
+#include "scene/check_materials.h"
 #include "scene/check_motion.h"
 #include "scene/check_solid.h"
 #include "scene/keys.h"
@@ -341,6 +342,22 @@ static bool knows_law(const Checker *checker)
     return !law || (law->text && strcmp(law->text, name) == 0);
 }
 
+/* In the items of a list, or at the top. */
+static void refuse_law(Checker *checker, const char *list, int count, const char *name)
+{
+    for (int i = 0; i < count; i++) {
+        char path[96], item[24] = "";
+        if (list[0]) {
+            snprintf(item, sizeof item, "%s.%d.", list, i);
+        }
+        snprintf(path, sizeof path, "%s%s", item, name);
+        if (is_written(checker, path)) {
+            fault(checker, path, "%s makes no sense with contact.law %s; expected another law",
+                  path, oz_keys_choice_name("contact.law", (int)checker->scene->contact.law));
+        }
+    }
+}
+
 /* Keys of other laws than the scene's; a wall's row belongs to the laws of the row it inherits. */
 static void check_laws(Checker *checker)
 {
@@ -353,17 +370,11 @@ static void check_laws(Checker *checker)
             !oz_keys_serves(key, (int)scene->model)) {
             continue;
         }
-        for (int i = -1; i < scene->wall_count; i++) {
-            char path[96], wall[24] = "";
-            if (i >= 0) {
-                snprintf(wall, sizeof wall, "walls.%d.", i);
-            }
-            snprintf(path, sizeof path, "%s%s", wall, key->path);
-            if (is_written(checker, path)) {
-                fault(checker, path, "%s makes no sense with contact.law %s; expected another law",
-                      path, oz_keys_choice_name("contact.law", (int)scene->contact.law));
-            }
-        }
+        const char *name = strchr(key->path, '.') + 1;
+        refuse_law(checker, "", 1, key->path);
+        refuse_law(checker, "walls", scene->wall_count, key->path);
+        refuse_law(checker, "materials", scene->material_count, name);
+        refuse_law(checker, "pairs", scene->pair_count, name);
     }
 }
 
@@ -409,6 +420,7 @@ static void fit_step(Checker *checker)
 OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
 {
     Checker checker = {scene, root, faults};
+    oz_check_materials_resolve(scene, root, faults);
     check_laws(&checker);
     check_wall_choices(&checker);
     fit_step(&checker);

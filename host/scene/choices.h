@@ -104,6 +104,7 @@ static const char *const COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                       [OZ_COLOUR_ORDER] = "order",
                                       [OZ_COLOUR_FORCE] = "force",
                                       [OZ_COLOUR_COORDINATION] = "coordination",
+                                      [OZ_COLOUR_MATERIAL] = "material",
                                       NULL};
 static const char *const FLAT_COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                            "",
@@ -114,4 +115,5 @@ static const char *const FLAT_COLOURS[] = {[OZ_COLOUR_ANGLE] = "angle",
                                            "",
                                            [OZ_COLOUR_FORCE] = "force",
                                            [OZ_COLOUR_COORDINATION] = "coordination",
+                                           "",
                                            NULL};

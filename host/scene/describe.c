@@ -89,6 +89,8 @@ static void print_expected(const OzKey *key, FILE *file)
         fprintf(file, key->width > 1 ? "a list of 1 to %d of " : "a list of %d of ", key->width);
     } else if (key->type == OZ_KEY_VECTOR) {
         fprintf(file, "a list of %d numbers ", key->width);
+    } else if (key->type == OZ_KEY_NAMES) {
+        fprintf(file, "a list of %d names", key->width);
     } else if (key->type == OZ_KEY_COUNTS || key->type == OZ_KEY_SIZE) {
         fprintf(file, "a list of %d whole numbers ", key->width);
     }

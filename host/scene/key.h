@@ -11,6 +11,7 @@ typedef enum OzKeyType {
     OZ_KEY_BOOL,    /* bool                                                        */
     OZ_KEY_TEXT,    /* char *, owned                                               */
     OZ_KEY_FILE,    /* char *, owned: relative to the file that names it, stored absolute */
+    OZ_KEY_NAMES,   /* char *[width], owned                                        */
     OZ_KEY_CHOICE,  /* an enum                                                     */
     OZ_KEY_CHOICES, /* up to `width` enums, and their int count                    */
     OZ_KEY_VECTOR,  /* double[width]                                               */

@@ -117,6 +117,8 @@ size_t oz_keys_size(const OzKey *key)
     case OZ_KEY_CHOICES:
     case OZ_KEY_SIZE:
         return (size_t)key->width * sizeof(int);
+    case OZ_KEY_NAMES:
+        return (size_t)key->width * sizeof(char *);
     case OZ_KEY_VECTOR:
     case OZ_KEY_COUNTS:
         return (size_t)key->width * sizeof(double);

@@ -152,6 +152,9 @@ static void inherit_item(const Reader *reader, const OzKey *key, const Place *pl
     const void *base = reader->scene;
     if (from->inherits && !oz_tree_at((OzNode *)(uintptr_t)reader->root, from->path)) {
         snprintf(path, sizeof path, "%s%s", place->prefix, from->inherits);
+        if (!oz_keys_of(path, reader->model)) { /* of materials, without a group */
+            snprintf(path, sizeof path, "%s%s", place->prefix, strrchr(from->inherits, '.') + 1);
+        }
         from = oz_keys_of(path, reader->model);
         base = place->base;
     }
@@ -249,13 +252,31 @@ static bool is_asked_for(const OzKey *key, const Place *place)
     return true;
 }
 
+/* Whether each material says a value of `contact` itself, and each wall that is of none. */
+static bool is_said_by_all(const Reader *reader, const OzKey *key)
+{
+    const OzNode *materials = oz_tree_child(reader->root, "materials");
+    const OzNode *walls = oz_tree_child(reader->root, "walls");
+    const char *name = strchr(key->path, '.') + 1;
+    bool all = materials && materials->kind == OZ_NODE_LIST && materials->count > 0;
+    for (int i = 0; all && i < materials->count; i++) {
+        all = oz_tree_child(materials->items[i], name) != NULL;
+    }
+    for (int w = 0; all && walls && walls->kind == OZ_NODE_LIST && w < walls->count; w++) {
+        const OzNode *own = oz_tree_child(walls->items[w], "contact");
+        all = oz_tree_child(walls->items[w], "material") || (own && oz_tree_child(own, name));
+    }
+    return all;
+}
+
 static bool is_required(const Reader *reader, const OzKey *key, const Place *place)
 {
     return key->required && belongs(reader, key, place->prefix) &&
            (!key->kinds || key->kinds & place->kind) &&
            (!key->shapes || key->shapes & place->shape) &&
-           (!key->laws || (reader->contacts && reader->law_known &&
-                           key->laws >> reader->scene->contact.law & 1)) &&
+           (!key->laws ||
+            (reader->contacts && reader->law_known && key->laws >> reader->scene->told.law & 1 &&
+             !is_said_by_all(reader, key))) &&
            is_asked_for(key, place);
 }
 

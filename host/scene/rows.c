@@ -58,22 +58,23 @@ enum { OZ_LAWS(LAW_BIT) };
 #define GRAIN(field)  .offset = offsetof(OzPopulation, field), GRAINS_MADE
 #define WALL(field)   .offset = offsetof(OzWall, field)
 #define PHASE(field)  .offset = offsetof(OzPhase, field), FIXED("the run has begun with them")
+#define MATERIAL(field) .offset = offsetof(OzMaterial, field)
 
 /* A contact key twice: of the scene, and of a wall that may have its own. */
 #define CONTACT(name, spec, fallback_, help_)                                                      \
     {                                                                                              \
-        "contact." #name, spec, AT(contact.name), fallback_, SOLID, .help = help_                  \
+        "contact." #name, spec, AT(told.name), fallback_, SOLID, .help = help_                  \
     }
 #define WALL_CONTACT(name, spec, help_)                                                            \
     {                                                                                              \
-        "walls[].contact." #name, spec, WALL(contact.name), .inherits = "contact." #name, SOLID,   \
+        "walls[].contact." #name, spec, WALL(told.name), .inherits = "contact." #name, SOLID,   \
                                                             .help = help_ " (this wall)"           \
     }
 
 /* A choice that the kernels make once for all bodies. */
 #define WALL_SHARED(name, choices_)                                                                \
     {                                                                                              \
-        "walls[].contact." #name, CHOICE(choices_), WALL(contact.name),                            \
+        "walls[].contact." #name, CHOICE(choices_), WALL(told.name),                            \
             .inherits = "contact." #name, .shared = true, SOLID, .help = "the whole scene's"       \
     }
 
@@ -139,29 +140,29 @@ static const OzKey KEYS[] = {
      FLAT, .help = "where it acts: the overlap's centroid (conservative), or its chord's midpoint"},
 #include "scene/rows_beams.h"
     CONTACT(law, CHOICE(LAWS), DEFAULT("hooke"), "normal force from overlap"),
-    {"contact.law", CHOICE(FLAT_LAWS), AT(contact.law), DEFAULT("hooke"), FLAT,
+    {"contact.law", CHOICE(FLAT_LAWS), AT(told.law), DEFAULT("hooke"), FLAT,
      .help = "normal force of discs from overlap"},
-    {"contact.contact_time", CONTACT_TIME, AT(contact.contact_time), REQUIRED, .laws = HOOKE,
+    {"contact.contact_time", CONTACT_TIME, AT(told.contact_time), REQUIRED, .laws = HOOKE,
      .help = "duration of a free binary hit of two centres"},
-    {"contact.restitution", FRACTION, AT(contact.restitution), REQUIRED,
+    {"contact.restitution", FRACTION, AT(told.restitution), REQUIRED,
      .laws = HOOKE | HERTZ_MINDLIN, .help = "speed after over speed before a central hit"},
-    {"contact.youngs_modulus", MODULUS, AT(contact.youngs_modulus), REQUIRED, .laws = HERTZ_MINDLIN,
+    {"contact.youngs_modulus", MODULUS, AT(told.youngs_modulus), REQUIRED, .laws = HERTZ_MINDLIN,
      SOLID, .help = "of the grains' material"},
-    {"contact.poisson_ratio", POISSON, AT(contact.poisson_ratio), REQUIRED, .laws = HERTZ_MINDLIN,
+    {"contact.poisson_ratio", POISSON, AT(told.poisson_ratio), REQUIRED, .laws = HERTZ_MINDLIN,
      SOLID, .help = "of the grains' material"},
-    {"contact.hertz_stiffness", NUMBER(1e-12, 1e30, "N/m^1.5"), AT(contact.hertz_stiffness),
+    {"contact.hertz_stiffness", NUMBER(1e-12, 1e30, "N/m^1.5"), AT(told.hertz_stiffness),
      REQUIRED, .laws = HERTZ, .help = "force over overlap^1.5"},
-    {"contact.normal_damping_rate", DAMPING_RATE, AT(contact.normal_damping_rate), REQUIRED,
+    {"contact.normal_damping_rate", DAMPING_RATE, AT(told.normal_damping_rate), REQUIRED,
      .laws = HERTZ, .help = "damping force over effective mass and rate of overlap"},
-    {"contact.tangential_damping_rate", DAMPING_RATE, AT(contact.tangential_damping_rate), REQUIRED,
+    {"contact.tangential_damping_rate", DAMPING_RATE, AT(told.tangential_damping_rate), REQUIRED,
      .laws = HERTZ, .help = "the same for sliding, below Coulomb's limit"},
-    {"contact.friction", COEFFICIENT, AT(contact.friction), DEFAULT("0.3"),
+    {"contact.friction", COEFFICIENT, AT(told.friction), DEFAULT("0.3"),
      .help = "Coulomb's coefficient"},
     CONTACT(tangential_stiffness, RATIO, DEFAULT("2/7"),
             "tangential over normal stiffness (hertz-mindlin has Mindlin's)"),
     CONTACT(tangential_damping, RATIO, .inherits = "contact.tangential_stiffness",
             "tangential over normal damping"),
-    {"contact.tangential_damping", RATIO, AT(contact.tangential_damping), DEFAULT("1"), FLAT,
+    {"contact.tangential_damping", RATIO, AT(told.tangential_damping), DEFAULT("1"), FLAT,
      .help = "of discs, over normal damping (hooke)"},
     CONTACT(surface_energy, NUMBER(0, 1e9, "J/m^2"), DEFAULT("0"),
             "w, work of adhesion: bodies that overlap pull each other with 2 pi w R"),
@@ -185,6 +186,7 @@ static const OzKey KEYS[] = {
     CONTACT(
         restitution_calibration, CHOICE(CALIBRATIONS), DEFAULT("none"),
         "discrete: makes up for the step's errors and fits the step to the contact time (hooke)"),
+#include "scene/rows_materials.h"
     {"grains", OF(ITEMS), AT(populations), .count_offset = offsetof(OzScene, population_count),
      .item_size = sizeof(OzPopulation), .line_offset = offsetof(OzPopulation, line), REQUIRED,
      GRAINS_MADE, .help = "populations, in any mixture"},
@@ -217,8 +219,10 @@ static const OzKey KEYS[] = {
      .help = "of the caps and the shaft's mantle"},
     {"grains[].aspect", RANGE(0, 1e6, ""), GRAIN(aspect), .kinds = MADE, DEFAULT("0"), SOLID,
      .help = "shaft length over diameter; 0 is a sphere"},
+    {"grains[].material", OF(TEXT), GRAIN(material), .write = OZ_WRITE_NONZERO, SOLID,
+     .fallback_help = "none", .help = "a name of materials"},
     {"grains[].density", NUMBER(1e-6, 1e9, "kg/m^3"), GRAIN(density), .kinds = MADE,
-     DEFAULT("2500"), SOLID, .help = "of the material"},
+     DEFAULT("2500"), SOLID, .help = "of the grains, if it is not their material's"},
     {"grains[].density", NUMBER(1e-6, 1e9, "kg/m^2"), GRAIN(density), .kinds = MADE, DEFAULT("4"),
      FLAT, .help = "mass over area"},
     {"grains[].fill", NUMBER(1e-6, 0.6, ""), GRAIN(fill), .kinds = RANDOM, DEFAULT("0.15"), SOLID,

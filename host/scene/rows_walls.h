@@ -78,6 +78,9 @@
      .help = "of a cone: at its point, and at the far end"},
     {"walls[].diameter", NUMBER(1e-9, 1e6, "m"), WALL(diameter), WALLS_MADE, .kinds = DRUM,
      REQUIRED, FLAT, .help = "inner diameter, between the teeth"},
+    {"walls[].material", OF(TEXT), WALL(material), .write = OZ_WRITE_NONZERO, SOLID,
+     .fallback_help = "none: walls[].contact",
+     .help = "a name of materials, instead of contact values of its own"},
     {"walls[].motion", OF(SECTION), WALL(motion.present), .fallback_help = "at rest",
      FIXED("walls move from the start or not at all; one that moves rests with amplitude 0"),
      .help = "offset upwards, or along motion.direction: amplitude x (sin(2 pi frequency time + "

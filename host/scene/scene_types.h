@@ -4,9 +4,9 @@
 
 #include "base/status.h"
 #include "kernels/integrators.h"
-#include "kernels/laws.h"
 #include "kernels/walls.h"
 #include "scene/beam_types.h"
+#include "scene/material.h"
 #include "scene/servo_types.h"
 
 #include <stdbool.h>
@@ -19,14 +19,6 @@ typedef enum OzBroadphase {
     OZ_BROADPHASE_ALL_PAIRS, /* every pair, on the device: to test with       */
     OZ_BROADPHASE_SORT_AXIS  /* P's sort by highest point, on the host        */
 } OzBroadphase;
-typedef enum OzSlip { OZ_SLIP_CUT, OZ_SLIP_SCALE } OzSlip;
-typedef enum OzRolling { OZ_ROLLING_RESISTS_BY_SPRING, OZ_ROLLING_RESISTS_CONSTANTLY } OzRolling;
-typedef enum OzAttraction { OZ_ATTRACTION_ALLOW, OZ_ATTRACTION_CLAMP } OzAttraction;
-typedef enum OzDamping { OZ_DAMPING_CONSTANT, OZ_DAMPING_SMOOTH } OzDamping;
-typedef enum OzParallel { OZ_PARALLEL_SINGLE, OZ_PARALLEL_LINE } OzParallel;
-typedef enum OzContactPoint { OZ_POINT_MIDPOINT, OZ_POINT_SURFACES } OzContactPoint;
-typedef enum OzRestitutionAt { OZ_RESTITUTION_CENTRE, OZ_RESTITUTION_CONTACT } OzRestitutionAt;
-typedef enum OzCalibration { OZ_CALIBRATION_NONE, OZ_CALIBRATION_DISCRETE } OzCalibration;
 
 typedef enum OzForcePoint { OZ_FORCE_CENTROID, OZ_FORCE_MIDPOINT } OzForcePoint;
 typedef enum OzOverlapForce { OZ_OVERLAP_KINDS, OZ_OVERLAP_FIELD } OzOverlapForce;
@@ -37,33 +29,6 @@ typedef struct OzTriangleValues {
     OzOverlapForce overlap;
     OzForcePoint force_point; /* of kinds                                             */
 } OzTriangleValues;
-
-/* What two touching bodies do to each other. */
-typedef struct OzContactValues {
-    OzLaw law;
-    double contact_time;         /* s, of a free binary hit of two centres                   */
-    double restitution;          /* 0..1 as written; below 0.01 the physics uses 0.01        */
-    double friction;             /* Coulomb coefficient                                      */
-    double tangential_stiffness; /* k_t / k_n                                                */
-    double tangential_damping;   /* c_t / c_n; defaults to tangential_stiffness              */
-    double surface_energy;       /* J/m^2, work of adhesion                                */
-    OzRolling rolling;           /* how contacts resist rolling                            */
-    double rolling_friction;     /* couple over normal force and radius; 0: none           */
-    double rolling_damping;      /* of the rolling spring, over critical damping           */
-    double twisting_friction;    /* couple about the normal, likewise                      */
-    OzSlip slip;
-    OzAttraction attraction;
-    OzDamping damping; /* hooke: how the dashpot begins                            */
-    OzParallel parallel;
-    OzContactPoint contact_point;
-    OzRestitutionAt restitution_at;
-    OzCalibration restitution_calibration; /* hooke: whether the step's errors are made up for */
-    double hertz_stiffness;         /* N/m^(3/2), hertz                                       */
-    double normal_damping_rate;     /* 1/s, hertz                                             */
-    double tangential_damping_rate; /* 1/s, hertz                                             */
-    double youngs_modulus;          /* Pa, hertz-mindlin: of the grains, or of the wall       */
-    double poisson_ratio;           /* hertz-mindlin                                          */
-} OzContactValues;
 
 /* A stretch of shaking: offset (-1)^halves A sin(2 pi f (t - since) + phase) - base. */
 typedef struct OzShake {
@@ -147,7 +112,10 @@ typedef struct OzWall {
     double until;          /* s: the wall is gone from this time on; 0: never            */
     OzMotion motion;
     OzServo servo;           /* rods: planes, rectangles, discs                         */
-    OzContactValues contact; /* the scene's, with this wall's own values put over them  */
+    char *material;          /* NULL: none                                              */
+    int material_number;     /* no key: its place in materials, from 1; 0: none         */
+    OzContactValues told;    /* as written: the scene's, with this wall's own over them */
+    OzContactValues contact; /* those, or of its material against the grains' (mixing.h) */
     int line;
 } OzWall;
 
@@ -187,6 +155,8 @@ typedef struct OzPopulation {
     int64_t count;          /* random: as written; lattice: product of cells; single: 1; file: -1 */
     OzRange diameter;       /* m                                                       */
     OzRange aspect;         /* shaft length / diameter; 0 = sphere                     */
+    char *material;         /* NULL: none                                              */
+    int material_number;    /* no key: its place in materials, from 1; 0: none         */
     double density;         /* kg/m^3                                                  */
     double fill;            /* volume fraction of the random start column              */
     double velocity_spread; /* m/s, random: standard deviation of each component       */
@@ -301,7 +271,8 @@ typedef enum OzColour {
     OZ_COLOUR_TURNED,      /* trigrains: how far since the start, cyclic, 0..360 degrees       */
     OZ_COLOUR_ORDER,       /* rods: local order (model/local_order.h), viridis, 0..1           */
     OZ_COLOUR_FORCE,       /* sum of what contacts push it with, viridis, 0 to the bed's scale */
-    OZ_COLOUR_COORDINATION /* grains and walls that it touches, viridis, 0..12             */
+    OZ_COLOUR_COORDINATION, /* grains and walls that it touches, viridis, 0..12             */
+    OZ_COLOUR_MATERIAL      /* rods: one colour for each material                           */
 } OzColour;
 
 /* THE list of formats that a run's frames are exported to, X(NAME, name, choice):
@@ -412,7 +383,12 @@ typedef struct OzScene {
     OzBroadphase broadphase;
     double skin; /* m, neighbour list's reach beyond contact; 0: chosen by orzo */
     bool gyroscopic;
-    OzContactValues contact;
+    OzContactValues told;    /* contact, as written                             */
+    OzContactValues contact; /* that, or of the first material of grains, with its like */
+    OzMaterial *materials;
+    int material_count;
+    OzMaterialPair *pairs;
+    int pair_count;
     OzDrag drag;
     OzTriangleValues triangles;
     OzBeamValues beams;

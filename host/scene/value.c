@@ -264,6 +264,16 @@ static OzStatus read_text(const OzKey *key, const OzNode *node, char **place, Oz
     return status;
 }
 
+static OzStatus read_names(const OzKey *key, const OzNode *node, char **names, OzFaults *faults)
+{
+    if (has_items(key, node, key->width, key->width, faults)) {
+        for (int i = 0; i < key->width; i++) {
+            OZ_PASS(read_text(key, node->items[i], &names[i], faults));
+        }
+    }
+    return OZ_OK;
+}
+
 OzStatus oz_value_read(const OzKey *key, const OzNode *node, void *base, OzFaults *faults)
 {
     void *place = oz_value_at(key, base);
@@ -301,6 +311,8 @@ OzStatus oz_value_read(const OzKey *key, const OzNode *node, void *base, OzFault
     case OZ_KEY_TEXT:
     case OZ_KEY_FILE:
         return read_text(key, node, place, faults);
+    case OZ_KEY_NAMES:
+        return read_names(key, node, place, faults);
     default:
         break;
     }
@@ -350,13 +362,23 @@ void oz_value_copy(const OzKey *key, void *base, const OzKey *from, const void *
     }
 }
 
+/* How many texts a row owns. */
+static int texts_of(const OzKey *key)
+{
+    bool one = key->type == OZ_KEY_TEXT || key->type == OZ_KEY_FILE;
+    return one ? 1 : key->type == OZ_KEY_NAMES ? key->width : 0;
+}
+
 OzStatus oz_value_own(const OzKey *key, void *base)
 {
     void **owned = oz_value_at(key, base);
-    if (key->type == OZ_KEY_TEXT || key->type == OZ_KEY_FILE) {
-        const char *text = *owned;
-        *owned = NULL;
-        return oz_memory_text((char **)owned, text);
+    int texts = texts_of(key);
+    OzStatus status = OZ_OK;
+    for (int i = 0; i < texts; i++) {
+        const char *text = owned[i];
+        owned[i] = NULL;
+        OzStatus own = oz_memory_text((char **)&owned[i], text);
+        status = status == OZ_OK ? own : status;
     }
     if (key->type == OZ_KEY_NUMBERS && *owned) {
         const void *numbers = *owned;
@@ -365,16 +387,18 @@ OzStatus oz_value_own(const OzKey *key, void *base)
         OZ_PASS(oz_memory_new(owned, count, sizeof(double), "numbers"));
         memcpy(*owned, numbers, count * sizeof(double));
     }
-    return OZ_OK;
+    return status;
 }
 
 void oz_value_free(const OzKey *key, void *base)
 {
-    if (key->type == OZ_KEY_TEXT || key->type == OZ_KEY_FILE || key->type == OZ_KEY_NUMBERS) {
-        void **owned = oz_value_at(key, base);
-        free(*owned);
-        *owned = NULL;
-    } else if (key->type == OZ_KEY_SWEEP) {
+    int count = key->type == OZ_KEY_NUMBERS ? 1 : texts_of(key);
+    void **owned = oz_value_at(key, base);
+    for (int i = 0; i < count; i++) {
+        free(owned[i]);
+        owned[i] = NULL;
+    }
+    if (key->type == OZ_KEY_SWEEP) {
         oz_sweep_free(oz_value_at(key, base));
     }
 }

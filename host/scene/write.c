@@ -105,7 +105,8 @@ static void print_element(const OzKey *key, const void *place, int i, FILE *file
         break;
     case OZ_KEY_TEXT:
     case OZ_KEY_FILE:
-        print_text(*(char *const *)place, file);
+    case OZ_KEY_NAMES:
+        print_text(((char *const *)place)[i], file);
         break;
     default:
         if (key->infinite && isinf(((const double *)place)[i])) {
@@ -135,6 +136,7 @@ void oz_write_value(const OzKey *key, const void *base, FILE *file)
     case OZ_KEY_VECTOR:
     case OZ_KEY_COUNTS:
     case OZ_KEY_SIZE:
+    case OZ_KEY_NAMES:
         print_list(key, place, key->width, file);
         break;
     case OZ_KEY_CHOICES:
@@ -190,11 +192,34 @@ static bool has_contacts(const OzScene *scene)
     return any;
 }
 
+/* Whether a material, or a wall that is of none, has the scene's own value, which need not be there
+ * otherwise. */
+static bool is_taken(const OzScene *scene, const OzKey *key)
+{
+    char path[64];
+    const char *name = strchr(key->path, '.') + 1;
+    snprintf(path, sizeof path, "materials[].%s", name);
+    for (int i = 0; i < scene->material_count; i++) {
+        if (oz_value_same(oz_keys_find(path), &scene->materials[i], key, scene)) {
+            return true;
+        }
+    }
+    snprintf(path, sizeof path, "walls[].contact.%s", name);
+    for (int w = 0; w < scene->wall_count; w++) {
+        if (!scene->walls[w].material &&
+            oz_value_same(oz_keys_find(path), &scene->walls[w], key, scene)) {
+            return true;
+        }
+    }
+    return scene->material_count == 0;
+}
+
 /* A law's values: of that law alone, and where they are not asked for those that are there. */
 static bool is_of_law(const OzScene *scene, const OzKey *key, const void *base)
 {
-    return !key->laws || (key->laws >> scene->contact.law & 1 &&
-                          (has_contacts(scene) || oz_value_holds(key, base)));
+    return !key->laws ||
+           (key->laws >> scene->contact.law & 1 &&
+            ((has_contacts(scene) && is_taken(scene, key)) || oz_value_holds(key, base)));
 }
 
 bool oz_write_applies(const OzScene *scene, const OzKey *key, const void *base)

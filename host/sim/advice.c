@@ -128,6 +128,9 @@ static void blame_softness(char *text, size_t size, const OzSnapshot *now, int64
     if (!hooke) {
         snprintf(text, size, "%s %.2g times the stiffness would do", why, pow(times, 2.5));
         return;
+    } else if (scene->material_count > 0) {
+        snprintf(text, size, "%s contact times %.2g times shorter would do", why, times);
+        return;
     }
     double own = press->wall < 0 ? scene->contact.contact_time
                                  : scene->walls[press->wall].contact.contact_time;

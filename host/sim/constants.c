@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-static OzLawConstants law_of(const OzScene *scene, const OzContactValues *values)
+OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values)
 {
     OzContactConstants constants = oz_calibrate_contact(scene, values);
     OzLawConstants law = {.stiffness = constants.stiffness,
@@ -88,7 +88,7 @@ static void fill_wall(OzWallParameters *to, const OzScene *scene, const OzWall *
         double units = to->shape.point[c] / unit;
         to->shape.point[c] = unit < 1 ? round(units) : units;
     }
-    to->law = law_of(scene, &from->contact);
+    to->law = oz_constants_law(scene, &from->contact);
 }
 
 static int fill_walls(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], const OzScene *scene)
@@ -170,7 +170,7 @@ static void fill_rest(OzParameters *parameters, int wall_order[OZ_WALLS_MAX], co
     parameters->inverse_unit = 1 / parameters->length_unit;
     parameters->dt = scene->step;
     memcpy(parameters->gravity, scene->gravity, sizeof scene->gravity);
-    parameters->law = law_of(scene, &scene->contact);
+    parameters->law = oz_constants_law(scene, &scene->contact);
     parameters->fluid.linear = 3 * M_PI * scene->drag.viscosity;
     parameters->fluid.square = M_PI / 8 * scene->drag.density * scene->drag.coefficient;
     memcpy(parameters->fluid.wind, scene->drag.wind, sizeof scene->drag.wind);

@@ -13,6 +13,9 @@
 OzStatus oz_constants_fill(OzParameters *parameters, int wall_order[OZ_WALLS_MAX],
                            const OzScene *scene, const OzGrains *grains);
 
+/* What the kernels have of contact values, in SI. */
+OzLawConstants oz_constants_law(const OzScene *scene, const OzContactValues *values);
+
 /* The same for a scene that takes over from one whose parameters these are: units and length_unit
  * stay, as the device's arrays are in them. Fails also where walls now lie too far away for them.
  */

@@ -118,7 +118,7 @@ OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const OzMe
 {
     const OzPhysics *physics = &contacts->physics;
     OzGrain first = grain_of(contacts->snapshot, a), second = grain_of(contacts->snapshot, b);
-    OzLawConstants law = physics->parameters.law;
+    OzLawConstants law = oz_dialect_pair_law(physics, a, b);
     OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
     bool turned = a > b;
     Found found = {.stored = stored_of(memory)};
@@ -169,10 +169,10 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const 
     double dt = physics->parameters.dt;
     OzWallForce at =
         part < OZ_WALL_PARTS
-            ? oz_dialect_touch_wall(physics, index, one, contacts->drives, dt, &next)
+            ? oz_dialect_touch_wall(physics, index, grain, one, contacts->drives, dt, &next)
             : oz_dialect_touch_end(physics, wall,
-                                   mesh_end(contacts, grain, one, wall, part - OZ_WALL_PARTS), one,
-                                   contacts->drives, dt, &next);
+                                   mesh_end(contacts, grain, one, wall, part - OZ_WALL_PARTS),
+                                   grain, one, contacts->drives, dt, &next);
     found.parts = at.parts;
     found.contact = at.contact;
     if (!found.contact.touching) {
@@ -180,7 +180,7 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const 
     }
     OzContactEntry entry = {
         .a = (int32_t)grain, .b = -1 - physics->wall_order[wall], .part_a = index};
-    double friction = physics->parameters.wall[wall].law.friction;
+    double friction = oz_dialect_wall_law(physics, wall, grain).friction;
     entry.spring_energy = memory ? springs_energy(contacts, &found, friction) : 0;
     fill(&entry, &found, -1, one, at.arm); /* to the kernels a wall is a */
     return oz_contact_list_add(contacts->list, &entry);

@@ -2,6 +2,7 @@
  * a device are those of sim/host_switches.h. For .c files alone. */
 #pragma once
 
+#include "scene/mixing.h"
 #include "sim/host_switches.h"
 #include "sim/host_touch.h"
 #include "sim/physics.h"
@@ -46,6 +47,29 @@ OZ_INLINE void oz_dialect_store3(double *to, OzVec3 v)
     to[0] = v.x;
     to[1] = v.y;
     to[2] = v.z;
+}
+
+/* Which material of grains a grain is of. */
+OZ_INLINE int oz_dialect_kind(const OzPhysics *physics, int64_t grain)
+{
+    return oz_mixing_kind(physics->scene, physics->grains->population[grain]);
+}
+
+/* The constants of two grains, and of a grain at kernel wall w: as kernels/material.h. */
+OZ_INLINE OzLawConstants oz_dialect_pair_law(const OzPhysics *physics, int64_t a, int64_t b)
+{
+    int kinds = physics->switches.materials;
+    return kinds > 1
+               ? physics
+                     ->law_table[oz_dialect_kind(physics, a) * kinds + oz_dialect_kind(physics, b)]
+               : physics->parameters.law;
+}
+
+OZ_INLINE OzLawConstants oz_dialect_wall_law(const OzPhysics *physics, int w, int64_t grain)
+{
+    int kinds = physics->switches.materials;
+    return kinds > 1 ? physics->law_table[(kinds + w) * kinds + oz_dialect_kind(physics, grain)]
+                     : physics->parameters.wall[w].law;
 }
 
 OZ_INLINE OzSpace oz_dialect_space(const OzPhysics *physics)
@@ -242,23 +266,24 @@ OZ_INLINE OzWallEnd oz_dialect_mesh_end(const OzHostTouch *touch, OzGrain grain)
     return at;
 }
 
-/* That of a grain which stands so against kernel wall w, but for the wall's velocity; drives: of
- * every wall; memory as for oz_rods_wall. */
-OZ_INLINE OzWallForce oz_dialect_touch_end(const OzPhysics *physics, int w, OzWallEnd at,
+/* That of grain number i which stands so against kernel wall w, but for the wall's velocity;
+ * drives: of every wall; memory as for oz_rods_wall. */
+OZ_INLINE OzWallForce oz_dialect_touch_end(const OzPhysics *physics, int w, OzWallEnd at, int64_t i,
                                            OzGrain grain, const OzWallDrive *drives, double dt,
                                            OzMemory *memory)
 {
     at.wall_velocity = oz_dialect_wall_velocity(
         physics, w, grain.position, oz_rods_wall_arm(grain, at.end, at.wall), drives[w]);
     at.wall_turning = oz_scale(drives[w].axis, drives[w].rate);
-    return oz_rods_wall(grain, at, physics->parameters.wall[w].law, memory, dt, physics->share);
+    return oz_rods_wall(grain, at, oz_dialect_wall_law(physics, w, i), memory, dt, physics->share);
 }
 
 /* The same of an end or a point of a shaft, no slot. */
-OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int index, OzGrain grain,
-                                            const OzWallDrive *drives, double dt, OzMemory *memory)
+OZ_INLINE OzWallForce oz_dialect_touch_wall(const OzPhysics *physics, int index, int64_t i,
+                                            OzGrain grain, const OzWallDrive *drives, double dt,
+                                            OzMemory *memory)
 {
     int w, part = oz_dialect_part(physics, index, &w);
     OzWallEnd at = oz_dialect_end(physics, w, part, grain, drives);
-    return oz_dialect_touch_end(physics, w, at, grain, drives, dt, memory);
+    return oz_dialect_touch_end(physics, w, at, i, grain, drives, dt, memory);
 }

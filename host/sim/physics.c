@@ -26,6 +26,9 @@ OzStatus oz_physics_derive(OzPhysics *physics, const OzScene *scene, const OzGra
     physics->touches += OZ_MESH_SLOTS * physics->meshes;
     physics->share = shares[scene->integrator];
     OZ_PASS(oz_constants_fill(&physics->parameters, physics->wall_order, &in_double, grains));
+    physics->scene = scene;
+    physics->grains = grains;
+    oz_law_table_fill(physics->law_table, scene, physics->wall_order, physics->wall_count);
     for (int k = 0; k < OZ_WALLS_MAX; k++) {
         bool is_there = k < physics->wall_count;
         physics->mesh[k] = is_there ? scene->walls[physics->wall_order[k]].mesh : NULL;

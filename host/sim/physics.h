@@ -6,11 +6,14 @@
 
 #include "scene/wall_mesh.h"
 #include "sim/constants.h"
+#include "sim/law_table.h"
 
 #include "kernels/wall_swing.h"
 
 typedef struct OzPhysics {
     OzSwitches switches;
+    const OzScene *scene;         /* borrowed                                                 */
+    const OzGrains *grains;       /* borrowed                                                 */
     OzParameters parameters;      /* in double whatever the scene says: length_unit is 1      */
     int wall_order[OZ_WALLS_MAX]; /* scene index of kernel wall k, in the order of kinds      */
     const OzWallMesh
@@ -18,12 +21,13 @@ typedef struct OzPhysics {
     OzWallSwing
         swing[OZ_WALLS_MAX]; /* how kernel wall k stands (sim/swings.h); as built at first */
     int wall_count;
-    int meshes;   /* how many of them are meshes                                              */
-    int edged;    /* how many of them, the last ones, have edges                               */
-    int ends;     /* of a grain that a wall can touch: 1 when all grains are spheres, else 2 */
-    int touches;  /* of a grain that walls can touch, in the order of kernels/wall_shaft.h: ends at
-                     all walls, then points of its shaft at those with edges, then slots of
-                     each mesh                                                             */
+    int meshes;  /* how many of them are meshes                                              */
+    int edged;   /* how many of them, the last ones, have edges                               */
+    int ends;    /* of a grain that a wall can touch: 1 when all grains are spheres, else 2 */
+    int touches; /* of a grain that walls can touch, in the order of kernels/wall_shaft.h: ends at
+                    all walls, then points of its shaft at those with edges, then slots of
+                    each mesh                                                             */
+    OzLawConstants law_table[OZ_LAW_TABLE_MOST]; /* where grains are of several materials      */
     double share; /* of a step by which tangential springs are advanced before the force     */
 } OzPhysics;
 

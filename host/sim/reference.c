@@ -103,9 +103,9 @@ static void touch_pairs(OzReference *r, double dt)
     OzSpace space = oz_dialect_space(&r->physics);
     for (int64_t p = 0; p < r->near.pairs.count; p++) {
         OzPair pair = r->near.pairs.pair[p];
-        r->pair_force[p] =
-            oz_rods_pair(r->seen[pair.a], r->seen[pair.b], space, r->physics.parameters.law,
-                         &r->near.memory[p], dt, r->physics.share);
+        r->pair_force[p] = oz_rods_pair(r->seen[pair.a], r->seen[pair.b], space,
+                                        oz_dialect_pair_law(&r->physics, pair.a, pair.b),
+                                        &r->near.memory[p], dt, r->physics.share);
     }
 }
 
@@ -130,7 +130,7 @@ static void touch_wall(OzReference *r, int i, int index, double dt)
 {
     int64_t k = (int64_t)i * r->physics.touches + index;
     OzWallForce *f = &r->wall_force[k];
-    *f = oz_dialect_touch_wall(&r->physics, index, r->seen[i], r->wall_drive, dt,
+    *f = oz_dialect_touch_wall(&r->physics, index, i, r->seen[i], r->wall_drive, dt,
                                &r->wall_memory[k]);
     r->load[i].force = oz_add(r->load[i].force, f->parts.force);
     r->load[i].torque = oz_add(r->load[i].torque, oz_rods_wall_torque(*f));
@@ -186,7 +186,7 @@ static void touch_mesh(OzReference *r, int i, int mesh, int w, double dt)
     for (int k = 0; k < OZ_MESH_SLOTS; k++) {
         OzWallForce *f = &r->wall_force[at + k];
         OzWallEnd end = oz_dialect_mesh_end(&found.at[k], grain);
-        *f = oz_dialect_touch_end(physics, w, end, grain, r->wall_drive, dt,
+        *f = oz_dialect_touch_end(physics, w, end, i, grain, r->wall_drive, dt,
                                   &r->wall_memory[at + k]);
         r->load[i].force = oz_add(r->load[i].force, f->parts.force);
         r->load[i].torque = oz_add(r->load[i].torque, oz_rods_wall_torque(*f));

@@ -81,14 +81,14 @@ static bool gravity_matters(const Pace *pace, const OzScene *scene)
 }
 
 /* Overlap of one kind of contact, m: at rest under the grain's own weight, or of a hit. */
-static double overlap_of(const OzScene *scene, const OzGrains *grains,
-                         const OzContactValues *values, int wall, const Pace *pace, bool rests)
+static double overlap_of(const OzScene *scene, const OzGrains *grains, const OzMixed *mixed,
+                         const Pace *pace, bool rests)
 {
-    if (oz_contact_is_linear(values->law)) {
-        double stiffness = oz_calibrate_contact(scene, values).stiffness;
+    if (oz_contact_is_linear(mixed->values.law)) {
+        double stiffness = oz_calibrate_contact(scene, &mixed->values).stiffness;
         return rests ? pace->gravity / stiffness : pace->start / sqrt(stiffness);
     }
-    double stiffness = oz_hertz_hit(scene, values, wall, grains).stiffness;
+    double stiffness = oz_hertz_hit(scene, mixed, grains).stiffness;
     return rests ? pow(pace->gravity / stiffness, 2.0 / 3)
                  : pow(1.25 * pace->start * pace->start / stiffness, 0.4);
 }
@@ -98,12 +98,12 @@ static double least_overlap(const OzScene *scene, const OzGrains *grains, const 
                             bool rests)
 {
     double least = INFINITY;
-    if (grains->count > 1) {
-        least = overlap_of(scene, grains, &scene->contact, -1, pace, rests);
-    }
-    for (int w = 0; w < scene->wall_count; w++) {
-        double own = overlap_of(scene, grains, &scene->walls[w].contact, w, pace, rests);
-        least = fmin(least, own);
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        if (mixed.wall >= 0 || grains->count > 1) {
+            least = fmin(least, overlap_of(scene, grains, &mixed, pace, rests));
+        }
     }
     return least;
 }

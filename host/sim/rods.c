@@ -9,6 +9,7 @@
 #include "sim/gates.h"
 #include "sim/host_lists.h"
 #include "sim/launch.h"
+#include "sim/law_table.h"
 #include "sim/mesh_pack.h"
 #include "sim/pack.h"
 #include "sim/rods_private.h"
@@ -127,6 +128,8 @@ static OzStatus write_parameters(OzSim *sim, int member)
 {
     const OzParameters *parameters = oz_rods_parameters(sim, member);
     OZ_PASS(oz_pack_parameters(&sim->arrays, member, parameters));
+    OZ_PASS(oz_law_table_write(&sim->arrays, member, &sim->batch.members[member],
+                               oz_rods_own(sim)->wall_order, parameters));
     return oz_mesh_pack_write(&sim->arrays, member, sim->batch.members[member].scene, parameters);
 }
 

@@ -11,6 +11,7 @@
 #define OZ_WALL_COUNT     (s->walls)
 #define OZ_WALL_EDGED     (s->edged)
 #define OZ_MESHES         (s->meshes)
+#define OZ_MATERIALS      (s->materials)
 #define OZ_MOVING         (s->moving)
 #define OZ_SWUNG          (s->swung)
 #define OZ_LEDGER         (s->ledger)

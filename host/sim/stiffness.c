@@ -7,6 +7,7 @@
 #include "model/calibrate.h"
 #include "model/predict.h"
 #include "scene/boundary.h"
+#include "scene/mixing.h"
 #include "sim/contacts.h"
 #include "sim/dialect.h"
 #include "sim/sort_axis.h"
@@ -67,6 +68,12 @@ static double inertia_of(const OzGrains *grains, int64_t i)
     return 0.25 * grains->mass[i] * grains->diameter[i] * grains->diameter[i];
 }
 
+/* Which material of grains it is of. */
+static int kind_of(const OzScene *scene, const OzGrains *grains, int64_t i)
+{
+    return oz_mixing_count(scene) > 1 ? oz_mixing_kind(scene, grains->population[i]) : 0;
+}
+
 static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
 {
     const OzGrains *g = bed->now->grains;
@@ -91,7 +98,10 @@ static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
     double a2 = inertia_of(g, a), b2 = inertia_of(g, b);
     spring.inertia = a2 * b2 / (a2 + b2);
     spring.radius = 0.5 * g->diameter[a] * g->diameter[b] / (g->diameter[a] + g->diameter[b]);
-    return add(bed, &bed->now->scene->contact, mass, spring);
+    OzContactValues values;
+    const OzScene *scene = bed->now->scene;
+    oz_mixing_grains(&values, scene, kind_of(scene, g, a), kind_of(scene, g, b));
+    return add(bed, &values, mass, spring);
 }
 
 static OzStatus add_walls(Bed *bed, OzContacts *contacts, int64_t i)
@@ -107,8 +117,10 @@ static OzStatus add_walls(Bed *bed, OzContacts *contacts, int64_t i)
         Spring spring = {.a = i, .b = -1, .normal = load(e->normal), .arm_a = arm};
         spring.radius = 0.5 * bed->now->grains->diameter[i];
         spring.inertia = inertia_of(bed->now->grains, i);
-        const OzWall *wall = &bed->now->scene->walls[-1 - e->b];
-        OZ_PASS(add(bed, &wall->contact, bed->now->grains->mass[i], spring));
+        OzContactValues values;
+        oz_mixing_wall(&values, bed->now->scene, -1 - e->b,
+                       kind_of(bed->now->scene, bed->now->grains, i));
+        OZ_PASS(add(bed, &values, bed->now->grains->mass[i], spring));
     }
     return OZ_OK;
 }
@@ -294,7 +306,9 @@ static OzStatus lie(OzStiffness *result, const OzScene *scene, const OzGrains *g
         Spring spring = {.b = -1, .normal = {0, 0, -1}, .arm_a = {end * half, 0, -radius}};
         spring.radius = radius;
         spring.inertia = inertia_of(grains, i);
-        OZ_TRY(add(&bed, &scene->walls[w].contact, grains->mass[i], spring));
+        OzContactValues values;
+        oz_mixing_wall(&values, scene, w, kind_of(scene, grains, i));
+        OZ_TRY(add(&bed, &values, grains->mass[i], spring));
     }
     *result = (OzStiffness){.contacts = bed.count};
     iterate(&bed, result);
@@ -305,19 +319,30 @@ done:
     return status;
 }
 
+static double aspect_of(const OzGrains *grains, int64_t i)
+{
+    return grains->length[i] / grains->diameter[i];
+}
+
 OzStatus oz_stiffness_at_wall(OzStiffness *result, const OzScene *scene, const OzGrains *grains,
                               int w)
 {
-    OzStiffness other;
-    int64_t longest = 0, shortest = 0;
-    for (int64_t i = 1; i < grains->count; i++) {
-        double aspect = grains->length[i] / grains->diameter[i];
-        longest = aspect > grains->length[longest] / grains->diameter[longest] ? i : longest;
-        shortest = aspect < grains->length[shortest] / grains->diameter[shortest] ? i : shortest;
+    *result = (OzStiffness){.largest_step = INFINITY};
+    for (int kind = 0; kind < oz_mixing_count(scene); kind++) {
+        int64_t longest = -1, shortest = -1;
+        for (int64_t i = 0; i < grains->count; i++) {
+            if (kind_of(scene, grains, i) == kind) {
+                double aspect = aspect_of(grains, i);
+                longest = longest < 0 || aspect > aspect_of(grains, longest) ? i : longest;
+                shortest = shortest < 0 || aspect < aspect_of(grains, shortest) ? i : shortest;
+            }
+        }
+        for (int k = 0; longest >= 0 && k < 2; k++) {
+            OzStiffness other;
+            OZ_PASS(lie(&other, scene, grains, k ? shortest : longest, w));
+            *result = other.largest_step < result->largest_step ? other : *result;
+        }
     }
-    OZ_PASS(lie(result, scene, grains, longest, w));
-    OZ_PASS(lie(&other, scene, grains, shortest, w));
-    *result = other.largest_step < result->largest_step ? other : *result;
     return OZ_OK;
 }
 

@@ -4,6 +4,7 @@
 #include "model/contact.h"
 #include "model/motion.h"
 #include "scene/boundary.h"
+#include "scene/mixing.h"
 #include "scene/wall_swing.h"
 #include "sim/gates.h"
 #include "sim/resolution.h"
@@ -74,13 +75,13 @@ static bool resists(const OzContactValues *values)
  * Springs are kept beside the tangential ones. */
 static void derive_rolling(OzSwitches *s, const OzScene *scene)
 {
-    bool rolls = scene->contact.rolling_friction > 0;
-    s->rolling = resists(&scene->contact);
-    s->adhesion = scene->contact.surface_energy > 0;
-    for (int w = 0; w < scene->wall_count; w++) {
-        s->rolling |= resists(&scene->walls[w].contact);
-        s->adhesion |= scene->walls[w].contact.surface_energy > 0;
-        rolls |= scene->walls[w].contact.rolling_friction > 0;
+    bool rolls = false;
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        s->rolling |= resists(&mixed.values);
+        s->adhesion |= mixed.values.surface_energy > 0;
+        rolls |= mixed.values.rolling_friction > 0;
     }
     s->rolling_spring = rolls && scene->contact.rolling == OZ_ROLLING_RESISTS_BY_SPRING;
     s->history |= s->rolling_spring;
@@ -89,12 +90,17 @@ static void derive_rolling(OzSwitches *s, const OzScene *scene)
 /* Whether any contact of the scene has friction, and whether any of these has a spring. */
 static void derive_friction(OzSwitches *s, const OzScene *scene)
 {
-    s->friction = scene->contact.friction > 0;
-    s->history = s->friction && has_spring(&scene->contact, scene);
+    for (int i = 0; i < oz_mixing_contacts(scene); i++) {
+        OzMixed mixed;
+        oz_mixing_contact(&mixed, scene, i);
+        s->friction |= mixed.values.friction > 0;
+        s->history |= mixed.values.friction > 0 && has_spring(&mixed.values, scene);
+    }
+}
+
+static void derive_motion(OzSwitches *s, const OzScene *scene)
+{
     for (int w = 0; w < scene->wall_count; w++) {
-        const OzContactValues *values = &scene->walls[w].contact;
-        s->friction |= values->friction > 0;
-        s->history |= values->friction > 0 && has_spring(values, scene);
         s->gated |= oz_gates_has(&scene->walls[w]);
         s->moving |= scene->walls[w].motion.present || s->gated;
         s->servos += scene->walls[w].servo.present;
@@ -113,7 +119,9 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     s.moves_before = moves_before(scene->integrator);
     s.round = all_round(grains);
     s.equal = all_equal(grains);
+    s.materials = oz_mixing_count(scene);
     derive_friction(&s, scene);
+    derive_motion(&s, scene);
     derive_rolling(&s, scene);
     s.slip_scale = s.history && scene->contact.slip == OZ_SLIP_SCALE;
     s.attraction_clamp = scene->contact.attraction == OZ_ATTRACTION_CLAMP;

@@ -26,6 +26,7 @@
     X(ATTRACTION_CLAMP, attraction_clamp, NULL)                                                    \
     X(SURFACES, surfaces, NULL)                                                                    \
     X(LAW_ID, law, NULL)                                                                           \
+    X(MATERIALS, materials, NULL)                                                                  \
     X(LINE, line, "two-point contacts of parallel shafts")                                         \
     X(SMOOTH, smooth, NULL)                                                                        \
     X(AT_CONTACT, at_contact, NULL)                                                                \

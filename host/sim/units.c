@@ -84,7 +84,7 @@ static double unit_of(Dimension dimension, const OzUnits *u)
     }
 }
 
-static void count_law(OzLawConstants *law, const OzUnits *u, int id)
+void oz_units_law(OzLawConstants *law, const OzUnits *u, int id)
 {
 #define ROW(NAME, name, choice, linear, stiffness, damping) [OZ_LAW_##NAME] = {stiffness, damping},
     static const struct {
@@ -106,7 +106,7 @@ static void count_wall(OzWallParameters *wall, const OzUnits *u, int law)
     for (int c = 0; c < 2; c++) {
         wall->shape.extent[c] /= u->length;
     }
-    count_law(&wall->law, u, law);
+    oz_units_law(&wall->law, u, law);
 }
 
 static void count_servo(OzServoConstants *servo, const OzUnits *u)
@@ -159,7 +159,7 @@ OzParameters oz_units_parameters(const OzParameters *si, int law)
     for (int c = 0; c < 3; c++) {
         p.fluid.wind[c] /= oz_units_speed(u);
     }
-    count_law(&p.law, u, law);
+    oz_units_law(&p.law, u, law);
     for (int w = 0; w < OZ_WALLS_MAX; w++) {
         count_wall(&p.wall[w], u, law);
     }

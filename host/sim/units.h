@@ -21,6 +21,9 @@ double oz_units_force(const OzUnits *units);
 double oz_units_inertia(const OzUnits *units);
 double oz_units_energy(const OzUnits *units);
 
+/* Makes a law's constants, of this row in the list, such as kernels count them. */
+void oz_units_law(OzLawConstants *law, const OzUnits *units, int id);
+
 /* The parameters of a scene with the given law (its row in the list), in SI, as kernels count them.
  */
 OzParameters oz_units_parameters(const OzParameters *si, int law);
