@@ -38,6 +38,20 @@ static const char many[] =
     "  - {kind: cylinder, diameter: 2e-2}\n"
     "observe: {interval: 3e-3}\n";
 
+/* As many spheres under a lid, whose force is the sum over all of them. */
+static const char pressed[] =
+    "model: rods\n"
+    "gravity: [0, 0, -100]\n"
+    "time: {step: 1e-5, duration: 1e-3}\n"
+    "contact: {contact_time: 3e-4, restitution: 0.5}\n"
+    "grains: [{kind: random, count: 6100, diameter: [0.4e-3, 0.6e-3], fill: 0.4}]\n"
+    "walls:\n"
+    "  - {kind: plane}\n"
+    "  - {kind: cylinder, diameter: 2e-2}\n"
+    "  - {kind: plane, point: [0, 0, 4.6e-3], normal: [0, 0, -1], servo: {force: 0.6, damping: "
+    "0.6}}\n"
+    "observe: {interval: 1e-3}\n";
+
 static void test_few(void **state)
 {
     (void)state;
@@ -62,6 +76,19 @@ static void test_many(void **state)
         cell = strchr(cell, ',') + 1;
     }
     assert_true(strtol(cell, NULL, 10) > 100); /* contact_count */
+    free(series);
+}
+
+static void test_pressed(void **state)
+{
+    (void)state;
+    write_file("pressed.yaml", "%s", pressed);
+    expect(0, "6100 grains", "run pressed.yaml -o pressed_one --no-video --device cpu --threads 1");
+    expect(0, "6100 grains", "run pressed.yaml -o pressed_two --no-video --device cpu --threads 2");
+    assert_true(same_files("pressed_one/final.csv", "pressed_two/final.csv"));
+    assert_true(same_files("pressed_one/series.csv", "pressed_two/series.csv"));
+    char *series = read_file("pressed_one/series.csv", NULL);
+    assert_true(atof(strrchr(line_of(series, 2), ',') + 1) > 10); /* Pa, the last column */
     free(series);
 }
 
@@ -236,6 +263,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_few),
         cmocka_unit_test(test_many),
+        cmocka_unit_test(test_pressed),
         cmocka_unit_test(test_flat),
         cmocka_unit_test(test_simulations_at_once),
     };
