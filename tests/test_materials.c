@@ -177,6 +177,35 @@ static void test_predictions(void **state)
     rig_close(&rig);
 }
 
+/* What is written of a scene loads to the same, and a change of one value reaches all that are
+ * mixed of it. A value of `contact` that no material takes may be missing. */
+static void test_written_and_changed(void **state)
+{
+    (void)state;
+    Rig rig;
+    OzScene next;
+    char *settings[] = {"materials.1.friction=0.64", "pairs.0.restitution=0.6"};
+    rig_open(&rig, "model: rods\ntime: {step: 1e-6, duration: 1}\n" MATERIALS
+                   "pairs: [{between: [glass, steel], restitution: 0.8}]\ngrains:\n"
+                   "  - {kind: single, material: steel, diameter: 1e-3, position: [0, 0, 1e-3]}\n"
+                   "  - {kind: single, material: glass, diameter: 1e-3, position: [0, 0, 3e-3]}\n"
+                   "walls: [{kind: plane, material: glass}]\n");
+    must(oz_scene_change(&next, &rig.scene, NULL, 0));
+    assert_memory_equal(&next.contact, &rig.scene.contact, sizeof next.contact);
+    assert_memory_equal(&next.walls[0].contact, &rig.scene.walls[0].contact, sizeof next.contact);
+    assert_true(next.populations[0].density == 7800);
+    oz_scene_free(&next);
+    must(oz_scene_change(&next, &rig.scene, settings, 2));
+    OzMixed mixed;
+    oz_mixing_contact(&mixed, &next, 1);
+    assert_true(mixed.values.restitution == 0.6);
+    assert_true(fabs(mixed.values.friction - 0.32) < 1e-15);
+    oz_mixing_contact(&mixed, &next, 4);
+    assert_true(mixed.wall == 0 && fabs(mixed.values.friction - 0.32) < 1e-15);
+    oz_scene_free(&next);
+    rig_close(&rig);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +215,7 @@ int main(void)
         cmocka_unit_test(test_the_ledger_closes),
         cmocka_unit_test(test_walls_alone_cost_nothing),
         cmocka_unit_test(test_predictions),
+        cmocka_unit_test(test_written_and_changed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
