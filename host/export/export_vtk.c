@@ -8,6 +8,7 @@
 #include "export/part_file.h"
 #include "export/surface.h"
 #include "export/vtk_file.h"
+#include "export/vtk_index.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +26,6 @@ typedef struct Writer {
 } Writer;
 
 static const char PART[] = "vtk.part";
-static const char INDEX_END[] = "</Collection>\n</VTKFile>\n";
 
 /* The arrays of one file. */
 typedef struct Arrays {
@@ -54,23 +54,7 @@ static OzStatus begin_index(Writer *writer, Kind kind)
 {
     char name[64];
     snprintf(name, sizeof name, "%s.pvd", KIND_NAMES[kind]);
-    OZ_PASS(oz_folder_create_file(&writer->index[kind], writer->target->folder, name));
-    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
-          writer->index[kind]);
-    return OZ_OK;
-}
-
-/* A further entry, and the end behind it, over which the next one is written: in one piece, so that
- * the index is whole at any moment. */
-static OzStatus add_to_index(FILE *index, double time, const char *name)
-{
-    char text[256];
-    int end = (int)strlen(INDEX_END);
-    int length = snprintf(text, sizeof text, "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n%s", time,
-                          name, INDEX_END);
-    bool good = fwrite(text, 1, (size_t)length, index) == (size_t)length && fflush(index) == 0;
-    good = good && fseeko(index, -end, SEEK_CUR) == 0;
-    return good ? OZ_OK : oz_status_fail(OZ_ERR_FILE, "cannot write the .pvd of %s", name);
+    return oz_vtk_index_create(&writer->index[kind], writer->target->folder, name);
 }
 
 static OzStatus write_file(Writer *writer, Kind kind, const OzVtkFile *vtk)
@@ -84,7 +68,7 @@ static OzStatus write_file(Writer *writer, Kind kind, const OzVtkFile *vtk)
     OZ_PASS(oz_part_file_create(&file, writer->target->folder, PART));
     oz_vtk_file_write(vtk, file);
     OZ_PASS(oz_part_file_place(file, writer->target->folder, PART, name));
-    return add_to_index(writer->index[kind], vtk->time, name);
+    return oz_vtk_index_add(writer->index[kind], vtk->time, name);
 }
 
 /* Every column of grains but their position; row i is of the grain owner[i], without one of i. */
