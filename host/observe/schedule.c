@@ -41,6 +41,14 @@ static double contacts_interval(const OzScene *scene)
     return table->present ? interval : 0;
 }
 
+/* The same of fields.csv. */
+static double fields_interval(const OzScene *scene)
+{
+    const OzFieldTable *table = &scene->fields;
+    double interval = table->interval > 0 ? table->interval : table->interval_taps * scene->period;
+    return table->present ? interval : 0;
+}
+
 /* s between events of each kind; 0: there are none. */
 static void intervals_of(const OzScene *scene, double until, double intervals[OZ_TRACKS])
 {
@@ -53,6 +61,7 @@ static void intervals_of(const OzScene *scene, double until, double intervals[OZ
     intervals[OZ_TRACK_FRAME] = frame_interval(scene, duration);
     intervals[OZ_TRACK_STROBE] = scene->snapshots.strobe;
     intervals[OZ_TRACK_CONTACTS] = contacts_interval(scene);
+    intervals[OZ_TRACK_FIELDS] = fields_interval(scene);
     intervals[OZ_TRACK_EXPORT] = scene->export_count > 0 ? scene->export_interval : 0;
     intervals[OZ_TRACK_CHECKPOINT] = scene->checkpoint.interval_taps * scene->period;
 }
@@ -174,9 +183,11 @@ static int64_t next_step(OzSchedule *s)
 static int due_with(const OzSchedule *s, int due)
 {
     bool contacts = s->scene->contacts.present && s->track[OZ_TRACK_CONTACTS].interval == 0;
+    bool fields = s->scene->fields.present && s->track[OZ_TRACK_FIELDS].interval == 0;
     bool exports = s->scene->export_count > 0 && s->track[OZ_TRACK_EXPORT].interval == 0;
     int leads = s->scene->movie.present ? OZ_DUE_MOVIE : OZ_DUE_ROW;
     return (contacts && (due & OZ_DUE_ROW) ? OZ_DUE_CONTACTS : 0) |
+           (fields && (due & OZ_DUE_ROW) ? OZ_DUE_FIELDS : 0) |
            (exports && (due & leads) ? OZ_DUE_EXPORT : 0);
 }
 
@@ -203,6 +214,7 @@ bool oz_schedule_next(OzSchedule *s, int64_t *step, int *due)
     *due |= pass(s, OZ_TRACK_STROBE, next) ? OZ_DUE_STROBE : 0;
     *due |= pass_checkpoints(s, next) ? OZ_DUE_CHECKPOINT : 0;
     *due |= pass(s, OZ_TRACK_CONTACTS, next) ? OZ_DUE_CONTACTS : 0;
+    *due |= pass(s, OZ_TRACK_FIELDS, next) ? OZ_DUE_FIELDS : 0;
     *due |= pass(s, OZ_TRACK_EXPORT, next) ? OZ_DUE_EXPORT : 0;
     *due |= due_with(s, *due);
     while (snapshot_step(s) <= next) {
@@ -245,6 +257,7 @@ static bool is_by_tap(const OzScene *scene, int kind)
 {
     return kind == OZ_TRACK_SAMPLE || kind == OZ_TRACK_CHECKPOINT ||
            (kind == OZ_TRACK_CONTACTS && scene->contacts.interval_taps > 0) ||
+           (kind == OZ_TRACK_FIELDS && scene->fields.interval_taps > 0) ||
            (kind == OZ_TRACK_ROW && (scene->observe.interval_taps > 0 || phase_of(scene) > 0));
 }
 
@@ -374,7 +387,7 @@ OzStatus oz_schedule_state(OzSchedule *s, OzStateVisit *visit)
 {
     int64_t snapshots = s->snapshots, kept = s->kept;
     double checkpoint = s->track[OZ_TRACK_CHECKPOINT].interval;
-    OZ_PASS(oz_state_enter(visit, "schedule", 5));
+    OZ_PASS(oz_state_enter(visit, "schedule", 6));
     OZ_PASS(oz_step_clock_state(&s->clock, visit, "clock"));
     for (int k = 0; k < OZ_TRACKS; k++) {
         OZ_PASS(track_state(&s->track[k], visit, "track", k));

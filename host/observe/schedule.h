@@ -21,8 +21,9 @@ enum {
     OZ_DUE_EXPORT = 128,
     OZ_DUE_SHOWN = 256,    /* contacts in pictures */
     OZ_DUE_SETTLING = 512, /* a frame of the movie, before time 0 */
-    OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS | OZ_DUE_EXPORT |
-                    OZ_DUE_SHOWN /* what needs the snapshot's contacts */
+    OZ_DUE_FIELDS = 1024,
+    OZ_DUE_LISTED = OZ_DUE_ROW | OZ_DUE_CONTACTS | OZ_DUE_EXPORT | OZ_DUE_SHOWN |
+                    OZ_DUE_FIELDS /* what needs the snapshot's contacts */
 };
 
 /* Events of one kind: event `count` is next, at from + count x interval. */
@@ -39,6 +40,7 @@ typedef enum OzTrackKind {
     OZ_TRACK_CONTACTS,
     OZ_TRACK_CHECKPOINT,
     OZ_TRACK_EXPORT,
+    OZ_TRACK_FIELDS,
     OZ_TRACKS
 } OzTrackKind;
 
@@ -60,8 +62,9 @@ typedef struct OzSchedule {
  * 0 is at time 0. With observe.at: mean, rows follow each `interval` seconds and at the last step,
  * samples samples_per_tap times a period. With top or bottom, there is a sample in every period
  * where the first moving wall is highest or lowest, and rows at such moments only, the first in the
- * first period, the others each `interval` seconds after. Contacts asked for without an interval
- * are due with every row, an export without one with every frame of the movie, or else row. */
+ * first period, the others each `interval` seconds after. Contacts and fields asked for without an
+ * interval are due with every row, an export without one with every frame of the movie, or else
+ * row. */
 OzSchedule oz_schedule_create(const OzScene *scene, double until);
 
 /* Lets another scene's events follow from this step, before which all have been due; what has not

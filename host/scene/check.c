@@ -7,6 +7,7 @@
 #include "scene/check_materials.h"
 #include "scene/check_motion.h"
 #include "scene/check_solid.h"
+#include "scene/check_tables.h"
 #include "scene/keys.h"
 #include "scene/phases.h"
 #include "scene/value.h"
@@ -149,6 +150,7 @@ static void derive_times(Checker *checker)
     check_taps(checker, "time.taps");
     check_taps(checker, "observe.interval_taps");
     check_taps(checker, "contacts.interval_taps");
+    check_taps(checker, "fields.interval_taps");
     if (scene->taps > 0) {
         scene->duration = scene->taps * scene->period;
     }
@@ -274,6 +276,8 @@ static void check_run_length(Checker *checker)
     double taps = scene->contacts.interval_taps * scene->period;
     check_interval(checker, "contacts.interval", fmax(scene->contacts.interval, taps),
                    "contacts.csv");
+    taps = scene->fields.interval_taps * scene->period;
+    check_interval(checker, "fields.interval", fmax(scene->fields.interval, taps), "fields.csv");
 }
 
 static void check_export(Checker *checker)
@@ -438,6 +442,7 @@ OzStatus oz_check_scene(OzScene *scene, OzNode *root, OzFaults *faults)
         oz_check_flat_scene(scene, root, faults);
     } else {
         oz_check_solid_scene(scene, root, faults);
+        oz_check_tables_fields(scene, root, faults);
     }
     return status;
 }

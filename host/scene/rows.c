@@ -82,13 +82,17 @@ enum { OZ_LAWS(LAW_BIT) };
 #define PICTURE_SIZE                                                                               \
     .type = OZ_KEY_SIZE, .low = OZ_PICTURE_SIDE_MIN, .high = OZ_PICTURE_SIDE_MAX,                  \
     .unit = "pixels", .width = 2
-#define CONTACT_TIME  NUMBER(1e-12, 100, "s")
-#define MODULUS       NUMBER(1, 1e18, "Pa")
-#define POISSON       NUMBER(0, 0.5, "")
-#define DAMPING_RATE  NUMBER(0, 1e15, "1/s")
-#define FRACTION      NUMBER(0, 1, "")
-#define COEFFICIENT   NUMBER(0, 1e6, "")
-#define RATIO         NUMBER(0, 100, "")
+#define CONTACT_TIME NUMBER(1e-12, 100, "s")
+#define MODULUS      NUMBER(1, 1e18, "Pa")
+#define POISSON      NUMBER(0, 0.5, "")
+#define DAMPING_RATE NUMBER(0, 1e15, "1/s")
+#define FRACTION     NUMBER(0, 1, "")
+#define COEFFICIENT  NUMBER(0, 1e6, "")
+#define RATIO        NUMBER(0, 100, "")
+#define RANGE_OF(axis)                                                                             \
+    .count_offset = offsetof(OzScene, fields.has_range[axis]), .write = OZ_WRITE_MARKED,           \
+    .fallback_help = "the container's inside, else what grains take up at the first moment, and "  \
+                     "the width beyond"
 #define REQUIRED      .required = true
 #define DEFAULT(text) .fallback = text
 
@@ -330,14 +334,7 @@ static const OzKey KEYS[] = {
     {"checkpoint.times", .type = OZ_KEY_NUMBERS, .low = 0, .high = 1e9, .unit = "s",
      AT(checkpoint.times), .count_offset = offsetof(OzScene, checkpoint.count), .rival = "taps",
      .write = OZ_WRITE_UNLESS_RIVAL, .help = "states are kept at these times"},
-    {"contacts", OF(SECTION), AT(contacts.present), COLUMNS, .fallback_help = "no contacts.csv",
-     .help = "a row of contacts.csv for each contact at each of its moments"},
-    {"contacts.interval", NUMBER(1e-12, 1e9, "s"), AT(contacts.interval), .rival = "interval_taps",
-     .write = OZ_WRITE_NONZERO, .fallback_help = "the rows of series.csv",
-     .help = "between its moments"},
-    {"contacts.interval_taps", NUMBER(1e-9, 1e9, "periods"), AT(contacts.interval_taps),
-     .rival = "interval", .write = OZ_WRITE_NONZERO,
-     .help = "the same in periods of the first moving wall"},
+#include "scene/rows_tables.h"
     {"export", .type = OZ_KEY_CHOICES, .choices = EXPORTS, .unit = "", .width = OZ_EXPORTS_END,
      AT(exports), .count_offset = offsetof(OzScene, export_count), .write = OZ_WRITE_NONZERO,
      FIXED("frames are kept for it from the start"), .fallback_help = "none",

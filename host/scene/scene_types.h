@@ -8,6 +8,7 @@
 #include "scene/beam_types.h"
 #include "scene/material.h"
 #include "scene/servo_types.h"
+#include "scene/tables.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -246,11 +247,6 @@ typedef struct OzObserve {
     bool has_outlet;
 } OzObserve;
 
-typedef struct OzContactTable { /* contacts.csv */
-    bool present;
-    double interval, interval_taps; /* s, periods; both 0: at the rows of series.csv */
-} OzContactTable;
-
 typedef enum OzView {
     OZ_VIEW_LATERAL, /* from the front, a little above the horizon */
     OZ_VIEW_CUT,     /* the same without what stands before the middle */
@@ -404,6 +400,7 @@ typedef struct OzScene {
     OzGuards guards;
     OzObserve observe;
     OzContactTable contacts;
+    OzFieldTable fields;
     OzMovieSettings movie;
     OzSnapshotSettings snapshots;
     OzCheckpoints checkpoint;
