@@ -30,7 +30,8 @@ static const char rods[] =
     "  - {kind: cylinder, diameter: 5e-3}\n"
     "movie: {fps: 10, length: 2}\n"
     "observe: {ledger: %s, interval_taps: 0.25, samples_per_tap: 8, walls: true}\n"
-    "contacts: {interval: 3.1e-4}\n";
+    "contacts: {interval: 3.1e-4}\n"
+    "fields: {cells: [2, 1, 3], width: 1e-3, interval: 2.9e-4, mean_from: 2e-3, vtk: true}\n";
 
 /* Grains of any shape thrown into a shaken vessel, of test_threads: integrator. */
 static const char flat[] =
@@ -124,15 +125,16 @@ static void open_case(Run *run, const Case *c, const char *name, bool goes_on)
 
 static void assert_same_files(const Case *c, const char *a, const char *b)
 {
-    static const char *const names[] = {"series.csv", "final.csv", "frames.bin", "contacts.csv"};
-    static const char *const asked[] = {"", "", "movie", "contacts:"};
+    static const char *const names[] = {"series.csv",   "final.csv",  "frames.bin",
+                                        "contacts.csv", "fields.csv", "fields_mean.csv"};
+    static const char *const asked[] = {"", "", "movie", "contacts:", "fields:", "fields:"};
     char one[64], other[64];
     snprintf(one, sizeof one, "%s/%s", folder, a);
     snprintf(other, sizeof other, "%s/%s", folder, b);
-    for (int k = 0; k < 4 * c->members; k++) {
-        if (strstr(c->text, asked[k % 4]) && !same_in_folders(one, other, k / 4, names[k % 4])) {
-            fail_msg("case %d, member %d: %s of the runs %s and %s differ", (int)(c - cases), k / 4,
-                     names[k % 4], a, b);
+    for (int k = 0; k < 6 * c->members; k++) {
+        if (strstr(c->text, asked[k % 6]) && !same_in_folders(one, other, k / 6, names[k % 6])) {
+            fail_msg("case %d, member %d: %s of the runs %s and %s differ", (int)(c - cases), k / 6,
+                     names[k % 6], a, b);
         }
     }
 }

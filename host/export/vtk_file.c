@@ -1,4 +1,4 @@
-/* Writes .vtp files. */
+/* Writes .vtp and .vti files. */
 #include "export/vtk_file.h"
 
 #include <stdbool.h>
@@ -73,24 +73,48 @@ static const char *byte_order(void)
     return *(const unsigned char *)&word ? "LittleEndian" : "BigEndian";
 }
 
+/* The head; attributes: of the kind's own element. */
+static void begin(FILE *file, const char *kind, const char *attributes, double time)
+{
+    fprintf(file,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"%s\" "
+            "header_type=\"UInt64\">\n<%s%s>\n",
+            kind, byte_order(), kind, attributes);
+    fprintf(file,
+            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+            "format=\"ascii\">%.17g</DataArray></FieldData>\n",
+            time);
+}
+
 void oz_vtk_file_write(const OzVtkFile *vtk, FILE *file)
 {
     static const char *const counts[] = {[OZ_VTK_VERTICES] = "NumberOfVerts",
                                          [OZ_VTK_LINES] = "NumberOfLines",
                                          [OZ_VTK_POLYGONS] = "NumberOfPolys"};
     Walk xml = {.file = file}, raw = {.file = file, .is_raw = true};
-    fprintf(file,
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" "
-            "header_type=\"UInt64\">\n<PolyData>\n",
-            byte_order());
-    fprintf(file,
-            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-            "format=\"ascii\">%.17g</DataArray></FieldData>\n",
-            vtk->time);
+    begin(file, "PolyData", "", vtk->time);
     fprintf(file, "<Piece NumberOfPoints=\"%lld\" %s=\"%lld\">\n", (long long)vtk->point_count,
             counts[vtk->cells], (long long)vtk->cell_count);
     visit_all(&xml, vtk);
     fputs("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_", file);
     visit_all(&raw, vtk);
+    fputs("\n</AppendedData>\n</VTKFile>\n", file);
+}
+
+void oz_vtk_file_write_image(const OzVtkImage *image, FILE *file)
+{
+    Walk xml = {.file = file}, raw = {.file = file, .is_raw = true};
+    const double *low = image->low, *edge = image->edge;
+    long long x = image->cells[0], y = image->cells[1], z = image->cells[2];
+    char attributes[256];
+    snprintf(attributes, sizeof attributes,
+             " WholeExtent=\"0 %lld 0 %lld 0 %lld\" Origin=\"%.17g %.17g %.17g\" "
+             "Spacing=\"%.17g %.17g %.17g\"",
+             x, y, z, low[0], low[1], low[2], edge[0], edge[1], edge[2]);
+    begin(file, "ImageData", attributes, image->time);
+    fprintf(file, "<Piece Extent=\"0 %lld 0 %lld 0 %lld\">\n", x, y, z);
+    visit_arrays(&xml, "CellData", image->arrays, image->array_count, x * y * z);
+    fputs("</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_", file);
+    visit_arrays(&raw, "CellData", image->arrays, image->array_count, x * y * z);
     fputs("\n</AppendedData>\n</VTKFile>\n", file);
 }

@@ -1,5 +1,5 @@
-/* One VTK file of polygonal data (.vtp): XML, with the arrays behind it as raw bytes of this
- * machine's order, which every reader of VTK takes. */
+/* One VTK file of polygonal data (.vtp) or of equal cells (.vti): XML, with the arrays behind it as
+ * raw bytes of this machine's order, which every reader of VTK takes. */
 #pragma once
 
 #include <stdint.h>
@@ -27,3 +27,15 @@ typedef struct OzVtkFile {
 
 /* The caller looks whether file took it all. */
 void oz_vtk_file_write(const OzVtkFile *vtk, FILE *file);
+
+/* Cells along x, y and z, the first beginning at `low` (m), each of `edge` (m); arrays are of
+ * cells, x fastest. All borrowed. */
+typedef struct OzVtkImage {
+    double time; /* s */
+    const int64_t *cells;
+    const double *low, *edge;
+    const OzVtkArray *arrays;
+    int array_count;
+} OzVtkImage;
+
+void oz_vtk_file_write_image(const OzVtkImage *image, FILE *file);

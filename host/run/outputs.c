@@ -21,6 +21,10 @@ OzFolderUse oz_outputs_use(bool overwrite)
                                          "series.csv",
                                          "series.csv.part",
                                          "contacts.csv",
+                                         "fields.csv",
+                                         "fields_mean.csv",
+                                         "fields/fields.p*",
+                                         "fields/fields_*.vti",
                                          "frames.bin",
                                          "scene_final.yaml",
                                          "from.txt",
@@ -135,11 +139,35 @@ static OzStatus open_pictures(OzOutputs *o, const OzOptions *options, const char
                         : OZ_OK;
 }
 
+/* contacts.csv and fields.csv. */
+static OzStatus open_tables(OzOutputs *o)
+{
+    OzStatus status = OZ_OK;
+    char *contacts = NULL, *fields = NULL;
+    if (o->scene.contacts.present) {
+        OZ_TRY(claim(&contacts, o->folder, "contacts.csv", NULL));
+        OZ_TRY((o->goes_on ? oz_contact_rows_go_on : oz_contact_rows_create)(&o->contact_rows,
+                                                                             contacts));
+    }
+    if (o->scene.fields.present) {
+        OZ_TRY(claim(&fields, o->folder, "fields.csv", NULL));
+        OZ_TRY((o->goes_on ? oz_coarse_rows_go_on : oz_coarse_rows_create)(&o->fields, fields,
+                                                                           &o->scene));
+    }
+    if (o->scene.fields.present && o->scene.fields.vtk) {
+        OZ_TRY(oz_coarse_images_create(&o->field_images, o->folder));
+    }
+done:
+    free(contacts);
+    free(fields);
+    return status;
+}
+
 OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const char *device,
                          OzRenderQueue *render_queue)
 {
     OzStatus status = OZ_OK;
-    char *series = NULL, *contacts = NULL, *frames = NULL;
+    char *series = NULL, *frames = NULL;
     const OzScene *scene = &outputs->scene;
     const OzGrains *grains = &outputs->grains;
     bool stores = has_pictures(scene) || scene->export_count > 0;
@@ -159,11 +187,7 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     OZ_TRY(claim(&series, outputs->folder, "series.csv", NULL));
     OZ_TRY((outputs->goes_on ? oz_series_go_on : oz_series_create)(&outputs->series, series, scene,
                                                                    grains));
-    if (scene->contacts.present) {
-        OZ_TRY(claim(&contacts, outputs->folder, "contacts.csv", NULL));
-        OZ_TRY((outputs->goes_on ? oz_contact_rows_go_on
-                                 : oz_contact_rows_create)(&outputs->contact_rows, contacts));
-    }
+    OZ_TRY(open_tables(outputs));
     OZ_TRY(oz_reload_log_create(&outputs->reloads, outputs->folder, outputs->goes_on));
     if (options->watch || isinf(scene->duration)) { /* whose end is noted nowhere else */
         OZ_TRY(oz_reload_log_begin(outputs->reloads));
@@ -176,7 +200,6 @@ OzStatus oz_outputs_open(OzOutputs *outputs, const OzOptions *options, const cha
     OZ_TRY(open_pictures(outputs, options, device, render_queue));
 done:
     free(series);
-    free(contacts);
     free(frames);
     return status;
 }
@@ -234,6 +257,12 @@ static OzStatus end_export(OzOutputs *o)
     return status;
 }
 
+static OzStatus write_fields(OzOutputs *o)
+{
+    OZ_PASS(oz_coarse_rows_write(o->fields, &o->now));
+    return o->field_images ? oz_coarse_images_add(o->field_images, o->fields, o->now.time) : OZ_OK;
+}
+
 OzStatus oz_outputs_look(OzOutputs *outputs, int due)
 {
     int purpose = purpose_of(due);
@@ -246,6 +275,9 @@ OzStatus oz_outputs_look(OzOutputs *outputs, int due)
     }
     if (due & OZ_DUE_CONTACTS) {
         OZ_PASS(oz_contact_rows_write(outputs->contact_rows, &outputs->now));
+    }
+    if (due & OZ_DUE_FIELDS) {
+        OZ_PASS(write_fields(outputs));
     }
     if (purpose && outputs->frames) {
         OZ_PASS(oz_frames_add(outputs->frames, &outputs->now, purpose));
@@ -283,11 +315,28 @@ OzStatus oz_outputs_note_end(OzOutputs *outputs, int64_t step, double time, cons
     return write_scene(&outputs->scene, outputs->folder, "scene_final.yaml");
 }
 
+static OzStatus write_mean_fields(OzOutputs *o)
+{
+    OzStatus status = OZ_OK;
+    char *mean = NULL;
+    OZ_TRY(claim(&mean, o->folder, "fields_mean.csv", NULL));
+    OZ_TRY(oz_coarse_rows_write_mean(o->fields, mean));
+    if (o->field_images) {
+        OZ_TRY(oz_coarse_images_add_mean(o->field_images, o->fields, o->now.time));
+    }
+done:
+    free(mean);
+    return status;
+}
+
 OzStatus oz_outputs_write_final(OzOutputs *outputs)
 {
     OzStatus status = OZ_OK;
     char *spectrum = NULL;
     OZ_TRY(oz_final_write(&outputs->now, outputs->final));
+    if (outputs->fields && oz_coarse_rows_has_mean(outputs->fields)) {
+        OZ_TRY(write_mean_fields(outputs));
+    }
     if (oz_series_has_spectrum(outputs->series)) { /* a name is noted only for a file that comes */
         OZ_TRY(claim(&spectrum, outputs->folder, "inclination_spectrum.csv", NULL));
         OZ_TRY(oz_series_write_spectrum(outputs->series, spectrum));

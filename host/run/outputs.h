@@ -5,7 +5,9 @@
 #include "base/folder.h"
 #include "cli.h"
 #include "draw/render_queue.h"
+#include "export/coarse_images.h"
 #include "export/export.h"
+#include "observe/coarse_rows.h"
 #include "observe/contact_rows.h"
 #include "observe/frames.h"
 #include "observe/series.h"
@@ -34,6 +36,10 @@ typedef enum OzOutcome {
     X(OzFrames, frames, oz_frames_state(o->frames, visit), oz_frames_finish(o->frames))            \
     X(OzContactRows, contact_rows, oz_contact_rows_state(o->contact_rows, visit),                  \
       oz_contact_rows_free(o->contact_rows))                                                       \
+    X(OzCoarseRows, fields, oz_coarse_rows_state(o->fields, visit),                                \
+      oz_coarse_rows_free(o->fields))                                                              \
+    X(OzCoarseImages, field_images, oz_coarse_images_state(o->field_images, visit),                \
+      oz_coarse_images_free(o->field_images))                                                      \
     X(OzSeries, series, oz_series_state(o->series, visit), oz_series_free(o->series))              \
     X(OzReloadLog, reloads, oz_reload_log_state(o->reloads, visit),                                \
       oz_reload_log_free(o->reloads))                                                              \
@@ -95,7 +101,7 @@ OzStatus oz_outputs_take(OzOutputs *outputs, OzScene *next, const char *caption)
  * scene_final.yaml. */
 OzStatus oz_outputs_note_end(OzOutputs *outputs, int64_t step, double time, const char *how);
 
-/* outputs->now as final.csv, and a drum's inclination_spectrum.csv. */
+/* outputs->now as final.csv, a drum's inclination_spectrum.csv, and the mean of fields. */
 OzStatus oz_outputs_write_final(OzOutputs *outputs);
 
 /* Finishes movie, frames and series; they are whole afterwards. Returns the first failure. */
