@@ -30,12 +30,13 @@ static const double SIDE = 3.2e-3; /* m, of the bed's cell along x and y */
 
 /* The stress at each height of a bed at rest bears what is above, but for what the floor bears
  * itself; across it none is borne, without walls aside. All the floor bears is the bed's weight,
- * and the sum of stresses that of weights times heights. */
+ * and the sum of stresses that of weights times heights. A fabric's trace is each grain's volume
+ * times its contacts. */
 static void test_a_bed_at_rest(void **state)
 {
     (void)state;
     enum { SLABS = 400 };
-    double weight = 0, moment = 0, above = 0, floor = 0, borne = 0;
+    double weight = 0, moment = 0, above = 0, floor = 0, borne = 0, fabric = 0, volume = 0;
     rig_open(&rig,
              "model: rods\nseed: 4\ntime: {step: 2e-5, duration: 9}\nintegrator: velocity-verlet\n"
              "contact: {contact_time: 6e-4, restitution: 0.1, friction: 0.4}\n"
@@ -56,6 +57,7 @@ static void test_a_bed_at_rest(void **state)
          c++) { /* the floor's, as deep as overlaps are */
         const OzContactEntry *e = &rig.now.contacts.entry[c];
         moment += e->b < 0 ? e->push * e->normal[2] * e->point[2] : 0;
+        volume += rig.grains.mass[e->a] / 2500 + (e->b < 0 ? 0 : rig.grains.mass[e->b] / 2500);
     }
     for (int64_t i = SLABS - 1; i >= 0; i--) {
         double numbers[OZ_COARSE_NUMBERS];
@@ -70,10 +72,14 @@ static void test_a_bed_at_rest(void **state)
         above += load;
         floor += lift;
         borne += stress[8] * slab;
+        for (int k = 0; k < 3; k++) {
+            fabric += numbers[OZ_COARSE_COLUMN_fabric + k] * slab;
+        }
     }
     assert_near(floor, weight, 1e-4 * weight);
     assert_near(borne, moment, 5e-5 * moment); /* unrest */
     assert_true(moment > 1.2e-3 * weight);     /* some layers */
+    assert_near(fabric, volume, 1e-12 * volume);
     leave_fields();
 }
 
