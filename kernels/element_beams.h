@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/beam_strength.h"
+#include "kernels/beam_yield.h"
 #include "kernels/element_sums.h"
 
 OZ_INLINE OzBeamEnd oz_element_beams_end(const OzWork *w, const int *slots)
@@ -25,6 +26,28 @@ OZ_INLINE void oz_element_beams_check(OzWork *w, const OzBeamForce *f, const int
         oz_work_stop_lanes(w, bent, OZ_ELEMENT_STOP_BENT, step, slots);
     }
 }
+
+#if OZ_YIELD
+/* Shapes at rest follow forces that beams do not bear, which are then what they bear. */
+OZ_INLINE void oz_element_beams_yield(OzWork *w, int block, OzBeamForce *f, const int *a,
+                                      const int *b)
+{
+    global real *rest = w->beam_rest + (size_t)block * OZ_BEAM_REST;
+    global real *wear = w->beam_wear + (size_t)block * OZ_BEAM_WEAR;
+    OzBeamRest now = {rest[0], rest[1], rest[2], REAL(0.0), REAL(0.0) > REAL(0.0)};
+    OzBeamConstants constants = w->parameters->beam;
+    OzBeamRest next = oz_beam_yield(constants, w->parameters->yield, f, now);
+    mask yields = next.yields & (wear[OZ_BW_WHOLE] > REAL(0.5));
+    if (OZ_ANY(yields)) {
+        rest[0] = yields ? next.length : rest[0];
+        rest[1] = yields ? next.a : rest[1];
+        rest[2] = yields ? next.b : rest[2];
+        wear[OZ_BW_YIELDED] += yields ? next.lost : REAL(0.0);
+        *f = oz_beam_force(constants, oz_element_beams_end(w, a), oz_element_beams_end(w, b),
+                           rest[0], rest[1], rest[2]);
+    }
+}
+#endif
 
 #if OZ_STRENGTH
 /* Takes away what broken beams would do, and breaks those that bear no more. before: how long ago,
@@ -62,6 +85,9 @@ OZ_INLINE void oz_element_beams_pull(OzWork *w, int step, scalar share, OzElemen
         global const real *rest = w->beam_rest + (size_t)block * OZ_BEAM_REST;
         OzBeamForce f = oz_beam_force(w->parameters->beam, oz_element_beams_end(w, a),
                                       oz_element_beams_end(w, b), rest[0], rest[1], rest[2]);
+#if OZ_YIELD
+        oz_element_beams_yield(w, block, &f, a, b);
+#endif
 #if OZ_STRENGTH
         oz_element_beams_bear(w, block, &f, a, b, (scalar)0.5 * share * w->parameters->dt, step);
 #endif

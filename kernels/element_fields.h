@@ -64,5 +64,6 @@
 /* A beam's words: length at rest, and at either end the angle at rest. */
 enum { OZ_BEAM_REST = 3 };
 
-/* What strength has made of a beam: 1 while it holds, 0 once broken; the energy lost by that. */
-enum { OZ_BW_WHOLE, OZ_BW_LOST, OZ_BEAM_WEAR };
+/* What strength has made of a beam: 1 while it holds, 0 once broken; the energy lost by that, and
+ * by yielding. */
+enum { OZ_BW_WHOLE, OZ_BW_LOST, OZ_BW_YIELDED, OZ_BEAM_WEAR };

@@ -19,7 +19,7 @@ typedef struct OzElementParameters {
     scalar stiffness; /* N/m^2, force of two triangles over their overlap area            */
     scalar deep_warn, deep_stop; /* shares of a triangle inside another, or of a disc's diameter */
     OzBeamConstants beam;
-    OzBeamStrength strength; /* with OZ_STRENGTH only                                          */
+    OzBeamStrength strength, yield;          /* with OZ_STRENGTH only          */
     OzDiscLaw law[OZ_ELEMENT_WALLS_MAX + 1]; /* of discs: with other grains, then with each wall  */
     OZ_PARAMETERS_LISTS /* elements that reach farther are not in the grid, all look at them */
 } OzElementParameters;

@@ -82,7 +82,7 @@ static void residual_counts_every_account(void **state)
     heap.snapshot.time = 0.1;
     heap.snapshot.contacts.entry[0].energy = 1e-6;
     heap.snapshot.beams.energy = 2e-6;
-    heap.snapshot.element_ledger = (OzElementLedger){1e-7, 2e-7, 4e-7, 8e-7, 16e-7, 0};
+    heap.snapshot.element_ledger = (OzElementLedger){1e-7, 2e-7, 4e-7, 8e-7, 16e-7, 0, 0};
     assert_int_equal(oz_series_write(series, &heap.snapshot), OZ_OK);
     close_series(series);
     assert_near(value_in(1, "energy_residual"), 0, 0);

@@ -15,10 +15,7 @@
 /* The shaken bed of test_lists, whose kernels these are: integrator, precision, broadphase. */
 static const char rods[] =
     "model: rods\n"
-    "integrator: %s\n"
-    "precision: %s\n"
-    "broadphase: %s\n"
-    "gravity: [0, 0, -100]\n"
+    "integrator: %s\nprecision: %s\nbroadphase: %s\ngravity: [0, 0, -100]\n"
     "time: {step: 1e-5, duration: 1.2e-2}\n"
     "contact: {contact_time: 3e-4, restitution: 0.5, friction: 0.4, rolling_friction: 0.02}\n"
     "grains:\n"
@@ -70,7 +67,8 @@ static const char breaking[] =
     "time: {step: 2e-6, duration: 8e-3}\n"
     "gravity: [20, -200]\n"
     "triangles: {overlap: field}\n"
-    "beams: {strength: {tension: 8e-3, compression: 0.02, moment: 4e-7, criterion: quadratic}}\n"
+    "beams: {strength: {tension: 8e-3, compression: 0.02, moment: 4e-7, criterion: quadratic}, "
+    "yield: {moment: 3e-7}}\n"
     "grains: [{kind: random, count: 12, shape: polygon, corners: [3, 5], radius: [1e-3, 2e-3]}]\n"
     "walls:\n"
     "  - {kind: vessel, width: 15e-3, height: 3e-2, motion: {frequency: 500, "

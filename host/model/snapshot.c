@@ -22,7 +22,7 @@ static OzStatus create_elements(OzSnapshot *snapshot, int64_t count)
 OzStatus oz_snapshot_create(OzSnapshot *snapshot, const OzScene *scene, const OzGrains *grains)
 {
     OzStatus status = OZ_OK;
-    bool breaks = grains->elements && scene->beams.strength.present;
+    bool breaks = grains->elements && oz_beam_types_wear(&scene->beams);
     int64_t count = breaks ? grains->elements->free_count : grains->count; /* there may be */
     memset(snapshot, 0, sizeof *snapshot);
     snapshot->scene = scene;

@@ -33,7 +33,8 @@ typedef struct OzBeamSums {
 typedef struct OzElementLedger {
     OZ_ELEMENT_LEDGER_LOSSES(OZ_LEDGER_MEMBER)
     OZ_LEDGER_WORK(OZ_LEDGER_MEMBER)
-    double beam_broken; /* stored in beams that broke, which kernels keep by beam */
+    double beam_broken;  /* stored in beams that broke, which kernels keep by beam */
+    double beam_yielded; /* lost in beams that yielded, likewise                 */
 } OzElementLedger;
 
 typedef struct OzSnapshot {

@@ -42,11 +42,16 @@ OzStatus oz_wear_create(OzWear *wear, const OzElements *elements)
                      .element_count = elements->free_count};
     OZ_TRY(OZ_NEW(&wear->whole, wear->beam_count));
     OZ_TRY(OZ_NEW(&wear->lost, wear->beam_count));
+    OZ_TRY(OZ_NEW(&wear->yielded, wear->beam_count));
+    OZ_TRY(OZ_NEW(&wear->rest, 3 * wear->beam_count));
     OZ_TRY(OZ_NEW(&wear->scar, wear->scar_count));
     OZ_TRY(OZ_NEW(&wear->scar_first, wear->element_count));
     OZ_TRY(OZ_NEW(&wear->scar_end, wear->element_count));
     for (int64_t k = 0; k < wear->beam_count; k++) {
         wear->whole[k] = 1;
+        wear->rest[3 * k] = elements->beam_length[k];
+        wear->rest[3 * k + 1] = elements->beam_rest_a[k];
+        wear->rest[3 * k + 2] = elements->beam_rest_b[k];
     }
     number_scars(wear, elements);
 done:
@@ -60,6 +65,8 @@ void oz_wear_free(OzWear *wear)
 {
     free(wear->whole);
     free(wear->lost);
+    free(wear->yielded);
+    free(wear->rest);
     free(wear->scar);
     free(wear->scar_first);
     free(wear->scar_end);
@@ -77,6 +84,8 @@ void oz_wear_copy(OzWear *to, const OzWear *from)
 {
     copy(to->whole, from->whole, to->beam_count);
     copy(to->lost, from->lost, to->beam_count);
+    copy(to->yielded, from->yielded, to->beam_count);
+    copy(to->rest, from->rest, 3 * to->beam_count);
     copy(to->scar, from->scar, to->scar_count);
 }
 
@@ -89,13 +98,23 @@ int64_t oz_wear_broken(const OzWear *wear)
     return broken;
 }
 
+static double sum_of(const double *values, int64_t count)
+{
+    double sum = 0;
+    for (int64_t k = 0; k < count; k++) {
+        sum += values[k];
+    }
+    return sum;
+}
+
 double oz_wear_lost(const OzWear *wear)
 {
-    double lost = 0;
-    for (int64_t k = 0; k < wear->beam_count; k++) {
-        lost += wear->lost[k];
-    }
-    return lost;
+    return sum_of(wear->lost, wear->beam_count);
+}
+
+double oz_wear_yielded(const OzWear *wear)
+{
+    return sum_of(wear->yielded, wear->beam_count);
 }
 
 OzStatus oz_wear_state(OzWear *wear, OzStateVisit *visit)
@@ -105,5 +124,7 @@ OzStatus oz_wear_state(OzWear *wear, OzStateVisit *visit)
     }
     OZ_PASS(oz_state_double(visit, "beam_whole", "none", wear->whole, wear->beam_count));
     OZ_PASS(oz_state_double(visit, "beam_lost", "J", wear->lost, wear->beam_count));
+    OZ_PASS(oz_state_double(visit, "beam_yielded", "J", wear->yielded, wear->beam_count));
+    OZ_PASS(oz_state_double(visit, "beam_rest", "m, rad", wear->rest, 3 * wear->beam_count));
     return oz_state_double(visit, "scar", "m^1.5", wear->scar, wear->scar_count);
 }

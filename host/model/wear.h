@@ -1,6 +1,6 @@
-/* What has become of the beams of grains that can break (`beams.strength`), by beam, and of the
- * contacts that began where they broke (kernels/beam_strength.h), by pair of triangles of one
- * grain. Zeroed: a scene whose beams hold. */
+/* What has become of the beams of grains that can break or yield (`beams.strength`, `yield`), by
+ * beam, and of the contacts that began where they broke (kernels/beam_strength.h), by pair of
+ * triangles of one grain. Zeroed: a scene whose beams hold. */
 #pragma once
 
 #include "base/state.h"
@@ -10,6 +10,8 @@ typedef struct OzWear {
     int64_t beam_count, scar_count, element_count; /* free elements */
     double *whole;       /* beam_count: 1, 0 once broken                                  */
     double *lost;        /* beam_count: J, that it stored when it broke                   */
+    double *yielded;     /* beam_count: J, lost while it yielded                          */
+    double *rest;        /* 3 x beam_count: length and angles at rest now, as those of elements */
     double *scar;        /* scar_count: root of m^3, least depth since the pair was parted */
     int64_t *scar_first; /* element_count: less i + 1, where the pairs of element i begin  */
     int64_t *scar_end;   /* element_count: the end of its grain's elements                 */
@@ -27,9 +29,10 @@ void oz_wear_free(OzWear *wear);
 /* Into one made for the same grains. */
 void oz_wear_copy(OzWear *to, const OzWear *from);
 
-/* Sums: beams that broke, and the energy that was lost so. */
+/* Sums: beams that broke, and the energies that were lost so and by yielding. */
 int64_t oz_wear_broken(const OzWear *wear);
 double oz_wear_lost(const OzWear *wear);
+double oz_wear_yielded(const OzWear *wear);
 
 /* Saves or loads; nothing where beams hold. */
 OzStatus oz_wear_state(OzWear *wear, OzStateVisit *visit);

@@ -44,6 +44,6 @@ double oz_element_energy_lost(const OzSnapshot *snapshot)
 {
     const OzElementLedger *ledger = &snapshot->element_ledger;
 #define ADD(NAME, member, column, meaning) +ledger->member
-    return ledger->beam_broken OZ_ELEMENT_LEDGER_LOSSES(ADD);
+    return ledger->beam_broken + ledger->beam_yielded OZ_ELEMENT_LEDGER_LOSSES(ADD);
 #undef ADD
 }

@@ -89,7 +89,7 @@ bool oz_flat_breakage(const OzObservation *observation, double *value)
 {
     const OzSnapshot *s = observation->snapshot;
     const double values[] = {(double)s->count, (double)oz_wear_broken(&s->wear),
-                             s->element_ledger.beam_broken};
+                             s->element_ledger.beam_broken, s->element_ledger.beam_yielded};
     *value = values[observation->index];
     return observation->index < 2 || s->has_ledger;
 }

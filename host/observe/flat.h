@@ -22,7 +22,7 @@ bool oz_flat_overlap_mean(const OzObservation *observation, double *value);
 /* index: 0 stretch_min, 1 stretch_max, 2 bend_max in degrees. None without beams. */
 bool oz_flat_beams(const OzObservation *observation, double *value);
 
-/* index: 0 grains, 1 broken beams, 2 energy lost by them. */
+/* index: 0 grains, 1 broken beams, 2 energy lost by them, 3 by yielding ones. */
 bool oz_flat_breakage(const OzObservation *observation, double *value);
 
 /* index: 0 in contacts, 1 in beams. */

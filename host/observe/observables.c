@@ -239,6 +239,7 @@ static bool residual(const OzObservation *o, double *value)
 #define PHASES     OZ_COLUMN_PHASES
 #define STRENGTH   OZ_COLUMN_STRENGTH
 #define BROKEN     OZ_COLUMN_STRENGTH_LEDGER
+#define YIELD      OZ_COLUMN_YIELD_LEDGER
 #define LAYERS     OZ_COLUMN_LAYERS
 #define WALLS      OZ_COLUMN_WALLS
 #define WALL_TURNS OZ_COLUMN_WALL_TURNS
@@ -327,8 +328,7 @@ static const OzColumn list[] = {
     {"stretch_max", "1", "longest beam over its length at rest", FLAT, ALWAYS, false, oz_flat_beams, 1},
     {"bend_max", "degrees", "largest bending angle of a beam's end", FLAT, ALWAYS, false,
      oz_flat_beams, 2},
-    {"grain_count", "1", "grains now: what beams still join is one; this and the next with beams.strength",
-     FLAT, STRENGTH, true, oz_flat_breakage, 0},
+    {"grain_count", "1", "grains now: what beams still join is one", FLAT, STRENGTH, true, oz_flat_breakage, 0},
     {"broken_beams", "1", "beams that broke so far", FLAT, STRENGTH, true, oz_flat_breakage, 1},
     {"outflow_count", "1", "grains whose centre is below observe.outlet; this and the next two are "
      "empty without it", FLAT, ALWAYS, true, oz_flat_outflow, 0},
@@ -371,8 +371,8 @@ static const OzColumn list[] = {
     {#column, "J", meaning, ALL, LEDGER, false, walls_work, 0},
     OZ_LEDGER_LOSSES(RODS_ROW)
     OZ_ELEMENT_LEDGER_LOSSES(FLAT_ROW)
-    {"energy_beam_broken", "J", "lost in beams that broke so far, with beams.strength", FLAT, BROKEN, false,
-     oz_flat_breakage, 2},
+    {"energy_beam_broken", "J", "lost in beams that broke so far", FLAT, BROKEN, false, oz_flat_breakage, 2},
+    {"energy_beam_yielded", "J", "lost in beams that yielded so far", FLAT, YIELD, false, oz_flat_breakage, 3},
     OZ_LEDGER_WORK(WORK_ROW)
     {"energy_residual", "J", "change of (kinetic + rotational + potential + stored + pistons' kinetic) + all that "
      "is lost - work_walls since the first row; 0 but for the integrator's error", ALL, LEDGER, false,
@@ -395,6 +395,7 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
         [PHASES] = 1,
         [STRENGTH] = 1,
         [BROKEN] = 1,
+        [YIELD] = 1,
         [LAYERS] = OZ_MEASURE_LAYERS,
         [SERVOS] = oz_servo_number(scene, scene->wall_count),
         [WALLS] = scene->wall_count * (int)strlen(oz_wall_columns_axes(WALLS, scene)),
@@ -405,13 +406,13 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
 int oz_observables_cells(const OzColumn *column, const OzScene *scene)
 {
     bool of_walls = column->need == WALLS || column->need == WALL_TURNS;
+    bool of_ledger = column->need == LEDGER || column->need == BROKEN || column->need == YIELD;
+    bool of_strength = column->need == STRENGTH || column->need == BROKEN;
     bool is_there =
-        (column->need != LEDGER || scene->observe.ledger) &&
+        (!of_ledger || scene->observe.ledger) && (!of_strength || scene->beams.strength.present) &&
+        (column->need != YIELD || scene->beams.yield.present) &&
         (column->need != ORDER || scene->observe.order) &&
-        (column->need != PHASES || scene->phase_count > 0) &&
-        (column->need != STRENGTH || scene->beams.strength.present) &&
-        (column->need != BROKEN || (scene->beams.strength.present && scene->observe.ledger)) &&
-        (!of_walls || scene->observe.walls);
+        (column->need != PHASES || scene->phase_count > 0) && (!of_walls || scene->observe.walls);
     return is_there ? oz_observables_width(column, scene) : 0;
 }
 

@@ -19,6 +19,13 @@ typedef struct OzBeamStrengthValues {
     OzStrengthCriterion criterion;
 } OzBeamStrengthValues;
 
+/* What beams bear before they give way for good (kernels/beam_yield.h); INFINITY: anything. */
+typedef struct OzBeamYieldValues {
+    bool present;
+    double tension, compression; /* N   */
+    double moment;               /* N m */
+} OzBeamYieldValues;
+
 typedef struct OzBeamValues {
     double stiffness;     /* E, N/m: force over elongation                            */
     double second_moment; /* I, m^3: E I / L is the bending stiffness                 */
@@ -28,4 +35,11 @@ typedef struct OzBeamValues {
     double length_min; /* m: grains with shorter beams are not made                */
     double area_min;   /* m^2: nor with smaller triangles                          */
     OzBeamStrengthValues strength;
+    OzBeamYieldValues yield;
 } OzBeamValues;
+
+/* Whether anything becomes of the beams. */
+static inline bool oz_beam_types_wear(const OzBeamValues *beams)
+{
+    return beams->strength.present || beams->yield.present;
+}

@@ -102,6 +102,18 @@ static void check_wall(const Checker *checker, const OzWall *wall)
     }
 }
 
+static void check_yield(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    const OzBeamYieldValues *y = &scene->beams.yield;
+    bool is_said = oz_tree_at(root, "beams.yield.tension") ||
+                   oz_tree_at(root, "beams.yield.compression") ||
+                   oz_tree_at(root, "beams.yield.moment");
+    if (!is_said && isinf(y->tension) && isinf(y->compression) && isinf(y->moment)) {
+        oz_tree_fault(root, faults, "beams.yield",
+                      "beams.yield says nothing; expected tension, compression or moment");
+    }
+}
+
 static void check_strength(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
     const OzBeamStrengthValues *s = &scene->beams.strength;
@@ -140,6 +152,9 @@ void oz_check_flat_scene(OzScene *scene, OzNode *root, OzFaults *faults)
     }
     if (scene->beams.strength.present) {
         check_strength(scene, root, faults);
+    }
+    if (scene->beams.yield.present) {
+        check_yield(scene, root, faults);
     }
     if (scene->snapshots.strobe > 0 && oz_scene_shows_contacts(scene)) {
         oz_tree_fault(root, faults, "snapshots.strobe",

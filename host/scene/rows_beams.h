@@ -30,4 +30,16 @@
      DEFAULT("separate"), FLAT,
      .help = "of f and m, force and moment over their limits: either reaches 1; or f + m does; or "
              "f^2 + m (Herrmann)"},
+    {"beams.yield", OF(SECTION), AT(beams.yield.present), FLAT,
+     FIXED("beams that gave way keep their shape"), .fallback_help = "beams spring back",
+     .help = "what a beam bears before its shape at rest follows: it carries no more than that"},
+    {"beams.yield.tension", NUMBER(1e-30, 1e30, "N"), .infinite = "infinite",
+     AT(beams.yield.tension), DEFAULT("infinite"), FLAT,
+     .help = "axial force at which a pulled beam grows longer for good"},
+    {"beams.yield.compression", NUMBER(1e-30, 1e30, "N"), .infinite = "infinite",
+     AT(beams.yield.compression), DEFAULT("infinite"), FLAT,
+     .help = "axial force at which a pressed beam grows shorter for good"},
+    {"beams.yield.moment", NUMBER(1e-30, 1e30, "N m"), .infinite = "infinite",
+     AT(beams.yield.moment), DEFAULT("infinite"), FLAT,
+     .help = "bending moment at which its end is bent for good"},
 /* clang-format on */

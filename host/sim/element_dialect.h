@@ -10,5 +10,6 @@
 #define OZ_DAMPING_SHEAR  oz_host_switches_now.balanced
 
 #include "kernels/beam_strength.h"
+#include "kernels/beam_yield.h"
 #include "kernels/disc.h"
 #include "kernels/triangle_field.h"

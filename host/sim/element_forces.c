@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "model/wall_motion.h"
+#include "sim/element_bear.h"
 #include "sim/element_overlap.h"
 
 #include <stdlib.h>
@@ -87,26 +88,6 @@ static OzVec2 point_of(const OzOverlap *o, OzVec2 normal, double size)
     return oz_along2(o->centroid, off, oz_vec2(normal.y, -normal.x));
 }
 
-/* Of triangles that overlapped when a grain broke between them; whether they still do. */
-static bool weaken(Forces *f, int a, int b, OzOverlap *o)
-{
-    int64_t scar = f->wear ? oz_wear_scar(f->wear, a, b) : -1;
-    if (scar < 0 || !(f->wear->scar[scar] > 0)) {
-        return false;
-    }
-    bool unfelt = !OZ_TRIANGLE_FIELD && o->swallowed;
-    double depth = unfelt ? OZ_HUGE : sqrt(fmax(o->energy, 0)), least = f->wear->scar[scar];
-    double share = oz_beam_strength_share(depth, least);
-    least = oz_beam_strength_least(depth, least);
-    if (f->wears) {
-        f->wear->scar[scar] = least;
-    }
-    o->push = oz_scale2(o->push, share);
-    o->moment *= share;
-    o->energy = unfelt ? 0 : (depth - least) * (depth - least);
-    return least > 0;
-}
-
 static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, int b, OzVec2 apart)
 {
     OzTriangle one = triangle_at(f, a, oz_vec2(0, 0)), other = triangle_at(f, b, apart);
@@ -115,7 +96,8 @@ static OzStatus touch_triangles(Forces *f, const OzElementState *state, int a, i
     }
     double stiffness = f->scene->triangles.stiffness;
     OzOverlap o = oz_element_overlap_find(f->elements, a, b, &one, &other);
-    bool fresh = weaken(f, a, b, &o); /* how deep they are is nobody's fault */
+    bool fresh =
+        oz_element_bear_contact(&f->bear, a, b, &o); /* how deep they are is nobody's fault */
     if (!fresh && !OZ_TRIANGLE_FIELD && (o.swallowed || o.deep)) {
         note_fault(f, o.swallowed ? OZ_ELEMENT_SWALLOWED : OZ_ELEMENT_DEEP, a, b);
     }
@@ -270,30 +252,12 @@ static void sum_beam(Forces *f, const OzBeamForce *beam, int a, int b)
     }
 }
 
-/* Breaks a beam that bears no more, and leaves nothing of what a broken one would do. */
-static void bear(Forces *f, int64_t k, OzBeamForce *beam, OzBeamEnd a, OzBeamEnd b)
-{
-    OzWear *wear = f->wear;
-    double length = f->elements->beam_length[k];
-    if (f->wears && wear->whole[k] > 0 &&
-        oz_beam_strength_load(f->beam, f->strength, beam, length) >= 1) {
-        wear->whole[k] = 0;
-        wear->lost[k] = oz_beam_strength_stored(beam, a, b, f->wear_share);
-        f->broke = true;
-    }
-    oz_beam_strength_drop(beam, !(wear->whole[k] > 0));
-}
-
 static void add_beams(Forces *f, const OzElementState *state)
 {
     for (int64_t k = 0; k < f->elements->beam_count; k++) {
         int a = f->elements->beam_a[k], b = f->elements->beam_b[k];
         OzBeamEnd one = beam_end(state, a), other = beam_end(state, b);
-        OzBeamForce beam = oz_beam_force(f->beam, one, other, f->elements->beam_length[k],
-                                         f->elements->beam_rest_a[k], f->elements->beam_rest_b[k]);
-        if (f->wear) {
-            bear(f, k, &beam, one, other);
-        }
+        OzBeamForce beam = oz_element_bear_beam(&f->bear, f->elements, k, one, other);
         sum_beam(f, &beam, a, b);
         add_load(f, state, a, oz_scale2(beam.force, -1), beam.moment_a);
         add_load(f, state, b, beam.force, beam.moment_b);
@@ -400,8 +364,9 @@ OzStatus oz_element_forces_create(OzElementForces *forces, const OzScene *scene,
     OzStatus status = OZ_OK;
     const OzElements *elements = grains->elements;
     *forces = (OzElementForces){.scene = scene, .elements = elements};
-    forces->beam = oz_element_laws_beam(scene);
-    forces->strength = oz_element_laws_strength(scene);
+    forces->bear.beam = oz_element_laws_beam(scene);
+    forces->bear.strength = oz_element_laws_strength(scene);
+    forces->bear.yield = oz_element_laws_yield(scene);
     forces->disc = oz_element_laws_disc(scene, -1);
     OZ_TRY(OZ_NEW(&forces->disc_wall, scene->wall_count));
     for (int w = 0; w < scene->wall_count; w++) {
@@ -439,7 +404,7 @@ OzStatus oz_element_forces_contacts(OzSnapshot *snapshot)
                             .time = snapshot->time};
     OZ_TRY(oz_element_forces_create(&forces, snapshot->scene, snapshot->grains));
     forces.list = &snapshot->contacts;
-    forces.wear = snapshot->wear.whole ? &snapshot->wear : NULL;
+    forces.bear.wear = snapshot->wear.whole ? &snapshot->wear : NULL;
     OZ_TRY(oz_element_forces_evaluate(&forces, &state));
     oz_contact_list_sort(&snapshot->contacts);
     snapshot->beams = forces.beams;

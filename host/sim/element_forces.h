@@ -4,7 +4,7 @@
 #pragma once
 
 #include "model/snapshot.h"
-#include "sim/element_laws.h"
+#include "sim/element_bear_types.h"
 #include "sim/element_pairs.h"
 
 /* All elements, walls' included; borrowed arrays as in OzElements. */
@@ -29,12 +29,7 @@ typedef struct OzElementForces {
     const OzScene *scene;       /* borrowed */
     const OzElements *elements; /* borrowed, or those of pieces */
     OzGrains *pieces;           /* owned, or NULL: what is left of grains (sim/element_part.h) */
-    OzBeamConstants beam;
-    OzBeamStrength strength;
-    OzWear *wear;         /* borrowed: which beams hold; NULL: all do                        */
-    bool wears;           /* evaluations change it: beams break, scars heal                  */
-    double wear_share;    /* s: how long before an evaluation a beam that breaks was there last */
-    bool broke;           /* a beam has, since it was set to false                           */
+    OzElementBear bear;
     OzDiscLaw disc;       /* between grains                                   */
     OzDiscLaw *disc_wall; /* wall_count                                       */
     OzElementPairs pairs;

@@ -23,6 +23,15 @@ OzBeamStrength oz_element_laws_strength(const OzScene *scene)
                       : (OzBeamStrength){0};
 }
 
+OzBeamStrength oz_element_laws_yield(const OzScene *scene)
+{
+    const OzBeamYieldValues *y = &scene->beams.yield;
+    return y->present ? (OzBeamStrength){.pulled = 1 / y->tension,
+                                         .pressed = 1 / y->compression,
+                                         .bent = 1 / y->moment}
+                      : (OzBeamStrength){0};
+}
+
 OzDiscLaw oz_element_laws_disc(const OzScene *scene, int wall)
 {
     OzContactValues values = wall < 0 ? scene->contact : scene->walls[wall].contact;

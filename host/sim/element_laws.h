@@ -11,6 +11,9 @@ OzBeamConstants oz_element_laws_beam(const OzScene *scene);
 /* One over what a scene's beams bear; all zero where they bear anything. */
 OzBeamStrength oz_element_laws_strength(const OzScene *scene);
 
+/* The same of what they bear before they yield. */
+OzBeamStrength oz_element_laws_yield(const OzScene *scene);
+
 /* Between two grains (wall -1) or a grain and a wall of the scene, laws hooke and hertz. Of hooke's
  * ways to damp only the constant dashpot is known here, and no tangential spring: its dashpot
  * alone. */

@@ -121,6 +121,7 @@ OzStatus oz_element_mend_start_ledger(OzSim *sim, int member)
     OZ_TRY(oz_wear_create(&wear, sim->batch.members[member].grains->elements));
     OZ_TRY(oz_element_wear_read(&sim->arrays, member, &one, &wear));
     memset(wear.lost, 0, (size_t)wear.beam_count * sizeof *wear.lost);
+    memset(wear.yielded, 0, (size_t)wear.beam_count * sizeof *wear.yielded);
     OZ_TRY(oz_element_wear_write(&sim->arrays, member, &one, &wear));
 done:
     oz_wear_free(&wear);

@@ -143,12 +143,12 @@ OzStatus oz_element_part_grains(OzElementForces *forces, const OzGrains *grains,
     int *edges = NULL;
     const int *before = forces->elements->body;
     size_t bytes = (size_t)grains->elements->free_count * sizeof *before;
-    forces->broke = false;
-    OZ_TRY(oz_pieces_make(&pieces, grains, forces->wear->whole, state->position));
+    forces->bear.broke = false;
+    OZ_TRY(oz_pieces_make(&pieces, grains, forces->bear.wear->whole, state->position));
     if (memcmp(before, pieces->elements->body, bytes) != 0) {
         OZ_TRY(list_edges(&edges, forces->scene, forces->elements));
         const OzElementParting parting = {before, edges, pieces->elements};
-        OZ_TRY(oz_element_part_contacts(forces->wear, forces->scene, state, &parting));
+        OZ_TRY(oz_element_part_contacts(forces->bear.wear, forces->scene, state, &parting));
         oz_element_pairs_free(&forces->pairs); /* they are of other bodies */
         oz_pieces_free(forces->pieces);
         forces->pieces = pieces;

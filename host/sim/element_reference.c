@@ -57,8 +57,8 @@ static OzElementState show(Reference *r, const double *place, const double *rate
  * (s) earlier; or, less than 0, they only look. */
 static void wear(Reference *r, double before)
 {
-    r->forces.wears = r->forces.wear && before >= 0;
-    r->forces.wear_share = before;
+    r->forces.bear.wears = r->forces.bear.wear && before >= 0;
+    r->forces.bear.before = before;
 }
 
 /* Accelerations in a state. */
@@ -135,7 +135,7 @@ static OzStatus step_rk4(Reference *r, double *place, double *rate, double time,
 /* Beams break and scars heal by the state at a step's begin alone. */
 static OzStatus rk4(Reference *r, double dt)
 {
-    if (r->forces.wear) {
+    if (r->forces.bear.wear) {
         wear(r, 0);
         OZ_PASS(
             evaluate(r, oz_element_forces_hold, r->place, r->rate, time_of(r), r->acceleration));
@@ -316,7 +316,7 @@ OzStatus oz_element_reference_advance(OzElementReference *reference, int64_t ste
         OzElementState now = show(reference, reference->place, reference->rate, time_of(reference));
         oz_element_forces_watch(&reference->forces, &now, dt);
         OZ_PASS(oz_element_forces_check(&reference->forces, reference->step, time_of(reference)));
-        if (reference->forces.broke) {
+        if (reference->forces.bear.broke) {
             OZ_PASS(oz_element_part_grains(&reference->forces, reference->grains, &now));
         }
     }
@@ -347,6 +347,7 @@ OzStatus oz_element_reference_snapshot(const OzElementReference *reference, OzSn
     snapshot->has_ledger = r->scene->observe.ledger;
     snapshot->element_ledger = r->ledger;
     snapshot->element_ledger.beam_broken = oz_wear_lost(&r->wear);
+    snapshot->element_ledger.beam_yielded = oz_wear_yielded(&r->wear);
     return oz_element_forces_contacts(snapshot);
 }
 
@@ -390,9 +391,9 @@ OzStatus oz_element_reference_create(OzElementReference **reference, const OzSce
     r->elements = elements;
     r->count = 3 * elements->free_count;
     OZ_TRY(oz_element_forces_create(&r->forces, scene, grains));
-    if (scene->beams.strength.present) {
+    if (oz_beam_types_wear(&scene->beams)) {
         OZ_TRY(oz_wear_create(&r->wear, elements));
-        r->forces.wear = &r->wear;
+        r->forces.bear.wear = &r->wear;
     }
     OZ_TRY(create_arrays(r));
     load_state(r, elements->position, elements->angle, elements->velocity,

@@ -78,6 +78,7 @@ OzStatus oz_element_sizes_parameters(void *parameters, const OzScene *scene, con
     p->deep_stop = scene->guards.overlap_stop;
     p->beam = oz_element_laws_beam(scene);
     p->strength = oz_element_laws_strength(scene);
+    p->yield = oz_element_laws_yield(scene);
     for (int w = -1; w < scene->wall_count; w++) {
         p->law[w + 1] = oz_element_laws_disc(scene, w);
     }

@@ -34,7 +34,8 @@ OzElementSwitches oz_element_switches_derive(const OzScene *scene, const OzGrain
     s.moving = any_motion(scene);
     s.discs = any_disc(grains->elements);
     s.beams = grains->elements->beam_count > 0 || grains->count == 0; /* none: as those of others */
-    s.strength = s.beams && scene->beams.strength.present;
+    s.strength = s.beams && oz_beam_types_wear(&scene->beams);
+    s.yield = s.beams && scene->beams.yield.present;
     s.substeps = gear || !s.beams ? 1 : (int)scene->beams.substeps;
     s.resort = grains->elements->count > device->small_most && s.substeps == 1;
     s.triangle_field = scene->triangles.overlap == OZ_OVERLAP_FIELD;

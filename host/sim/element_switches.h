@@ -19,6 +19,7 @@
     X(DISCS, discs, "discs")                                                                       \
     X(BEAMS, beams, "beams")                                                                       \
     X(STRENGTH, strength, "beams that break")                                                      \
+    X(YIELD, yield, "beams that yield")                                                            \
     X(SUBSTEPS, substeps, NULL)                                                                    \
     X(TRIANGLE_FIELD, triangle_field, NULL)                                                        \
     X(FORCE_POINT, force_point, NULL)                                                              \

@@ -9,11 +9,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where a word of a beam is. */
-static size_t at(const OzArrays *arrays, int64_t beam, int word)
+/* Where a word of a beam is, among `words` of them. */
+static size_t at_of(const OzArrays *arrays, int64_t beam, int words, int word)
 {
     int64_t lanes = oz_element_fields_switches(arrays)->lanes;
-    return (size_t)((beam / lanes * OZ_BEAM_WEAR + word) * lanes + beam % lanes);
+    return (size_t)((beam / lanes * words + word) * lanes + beam % lanes);
+}
+
+static size_t at(const OzArrays *arrays, int64_t beam, int word)
+{
+    return at_of(arrays, beam, OZ_BEAM_WEAR, word);
 }
 
 static size_t beam_words(const OzArrays *arrays)
@@ -53,6 +58,7 @@ static OzStatus write_beams(OzArrays *arrays, int member, const OzWear *wear, do
     for (int64_t k = 0; k < wear->beam_count; k++) {
         words[at(arrays, k, OZ_BW_WHOLE)] = wear->whole[k];
         words[at(arrays, k, OZ_BW_LOST)] = wear->lost[k] / energy;
+        words[at(arrays, k, OZ_BW_YIELDED)] = wear->yielded[k] / energy;
     }
     OZ_TRY(oz_arrays_write_scalars(arrays, OZ_ELEMENT_FIELD_beam_wear, member, words,
                                    beam_words(arrays)));
@@ -106,15 +112,21 @@ OzStatus oz_element_wear_read(const OzArrays *arrays, int member, const OzUnits 
                               OzWear *wear)
 {
     OzStatus status = OZ_OK;
-    double *words = NULL, *scars = NULL;
+    double *words = NULL, *scars = NULL, *rest = NULL;
     if (!oz_element_fields_switches(arrays)->strength || !wear->whole) {
         return OZ_OK;
     }
     OZ_TRY(oz_arrays_read_scalars(arrays, OZ_ELEMENT_FIELD_beam_wear, member, &words));
     OZ_TRY(oz_arrays_read_scalars(arrays, OZ_ELEMENT_FIELD_scar, member, &scars));
+    OZ_TRY(oz_arrays_read_scalars(arrays, OZ_ELEMENT_FIELD_beam_rest, member, &rest));
     for (int64_t k = 0; k < wear->beam_count; k++) {
         wear->whole[k] = words[at(arrays, k, OZ_BW_WHOLE)];
         wear->lost[k] = words[at(arrays, k, OZ_BW_LOST)] * oz_units_energy(units);
+        wear->yielded[k] = words[at(arrays, k, OZ_BW_YIELDED)] * oz_units_energy(units);
+        for (int w = 0; w < OZ_BEAM_REST; w++) {
+            double unit = w == 0 ? units->length : 1;
+            wear->rest[OZ_BEAM_REST * k + w] = rest[at_of(arrays, k, OZ_BEAM_REST, w)] * unit;
+        }
     }
     for (int64_t k = 0; k < wear->scar_count; k++) {
         wear->scar[k] = scars[k] * depth_unit(units);
@@ -122,6 +134,7 @@ OzStatus oz_element_wear_read(const OzArrays *arrays, int member, const OzUnits 
 done:
     free(words);
     free(scars);
+    free(rest);
     return status;
 }
 

@@ -13,7 +13,7 @@ OzStatus oz_element_wear_start(OzArrays *arrays, int member, const OzElements *e
 OzStatus oz_element_wear_read(const OzArrays *arrays, int member, const OzUnits *units,
                               OzWear *wear);
 
-/* Writes it all. */
+/* Writes it all but shapes at rest, which kernels alone change. */
 OzStatus oz_element_wear_write(OzArrays *arrays, int member, const OzUnits *units,
                                const OzWear *wear);
 

@@ -98,6 +98,7 @@ static OzStatus make_throw(Throw *t, const OzScene *scene, const OzGrains *grain
     t->scene.wall_count = 1;
     t->scene.observe.ledger = false;
     t->scene.beams.strength.present = false; /* it looks how far they would go */
+    t->scene.beams.yield.present = false;
     counts.beams = beams_of(from, grain, &first_beam);
     counts.outlines = outlines_of(from, first, first + count, &first_outline);
     OZ_PASS(oz_grains_create(&t->grains, 1));
@@ -257,6 +258,7 @@ OzStatus oz_trial_break(double *slowest, const OzScene *scene, const OzGrains *g
     }
     OZ_TRY(make_throw(&t, scene, grains, grain));
     t.scene.beams.strength = scene->beams.strength;
+    t.scene.beams.yield = scene->beams.yield;
     for (int k = 0; k < DOUBLINGS && !breaks; k++, high *= breaks ? 1 : 2) {
         OZ_TRY(throw_to_break(&breaks, &t, grains, grain, high));
         low = breaks ? low : high;

@@ -99,7 +99,7 @@ static OzStatus write_parameters(OzSim *sim, int member)
 {
     OzElementParameters p = *oz_element_parameters(sim, member);
     if (sim->batch.walls_still) {
-        p.strength = (OzBeamStrength){0};
+        p.strength = p.yield = (OzBeamStrength){0};
     }
     return oz_element_pack_parameters(&sim->arrays, member, &p);
 }
@@ -248,6 +248,7 @@ static OzStatus find_contacts(OzSim *sim, int member, OzSnapshot *snapshot)
         OZ_LEDGER_WORK(TAKE)
 #undef TAKE
         snapshot->element_ledger.beam_broken = oz_wear_lost(&snapshot->wear);
+        snapshot->element_ledger.beam_yielded = oz_wear_yielded(&snapshot->wear);
         snapshot->has_ledger = true;
     }
     return OZ_OK;

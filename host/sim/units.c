@@ -190,6 +190,13 @@ static void count_disc(OzDiscLaw *law, const OzUnits *u)
     law->tangential_damping *= u->time;
 }
 
+static void count_strength(OzBeamStrength *strength, const OzUnits *u)
+{
+    strength->pulled *= oz_units_force(u);
+    strength->pressed *= oz_units_force(u);
+    strength->bent *= oz_units_energy(u);
+}
+
 OzElementParameters oz_units_elements(const OzElementParameters *si)
 {
     OzElementParameters p = *si;
@@ -203,9 +210,8 @@ OzElementParameters oz_units_elements(const OzElementParameters *si)
     }
     p.stiffness /= oz_units_force(u) / (u->length * u->length);
     count_beam(&p.beam, u);
-    p.strength.pulled *= oz_units_force(u);
-    p.strength.pressed *= oz_units_force(u);
-    p.strength.bent *= oz_units_energy(u);
+    count_strength(&p.strength, u);
+    count_strength(&p.yield, u);
     for (int w = 0; w <= OZ_ELEMENT_WALLS_MAX; w++) {
         count_disc(&p.law[w], u);
     }
