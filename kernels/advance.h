@@ -31,6 +31,7 @@
     {                                                                                              \
         OZ_WORK_OPEN(0)                                                                            \
         OZ_WORK_AT(&w, w.control->step)                                                            \
+        OZ_WORK_PLACES(&w, w.control->step + w.control->moved);                                    \
         (void)number;                                                                              \
         __VA_ARGS__;                                                                               \
     }
@@ -259,6 +260,7 @@ OZ_INLINE int renew(OzWork *w)
 OZ_ADVANCE_KERNEL oz_save_springs(OZ_WORK_ARGUMENTS)
 {
     OZ_WORK_OPEN((int)get_group_id(0))
+    OZ_WORK_PLACES(&w, w.control->step + w.control->moved);
     int truth = w.control->truth;
     OZ_WORK_BARRIER();
     OZ_EACH_REGION(&w)
@@ -293,6 +295,7 @@ OZ_ADVANCE_KERNEL oz_advance(OZ_WORK_ARGUMENTS, int last)
         }
         OZ_WORK_BARRIER();
 #endif
+        OZ_WORK_PLACES(&w, step + moved);
         int stale = w.control->stale_step != OZ_NEVER || w.control->truth != OZ_SPRINGS_AT_INNER;
         OZ_WORK_BARRIER();
         if (stale && !ends) {

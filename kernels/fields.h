@@ -43,6 +43,7 @@ enum { OZ_SERVO_RUN = 64 };
     X(scalar, law_table,                                                                           \
       OZ_MATERIALS > 1 ? OZ_MATERIALS * (OZ_MATERIALS + OZ_WALL_COUNT) * OZ_LAW_ROW : 0, SCRATCH)  \
     X(integer, material, OZ_MATERIALS > 1 ? z.slots : 0, SCRATCH)                                  \
+    X(scalar, shear, OZ_SHEAR ? (z.motion_steps + 1) * OZ_SHEAR_WORDS : 0, SCRATCH)                \
     X(real, state, z.blocks *OZ_STATE, STATE)                                                      \
     X(real, shape, OZ_EQUAL ? 0 : z.blocks *OZ_SHAPE, STATE)                                       \
     X(real, wall_history, OZ_HISTORY ? z.blocks *OZ_WALL_ENDS * 3 : 0, SPRING)                     \

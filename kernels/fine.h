@@ -133,12 +133,22 @@ OZ_INLINE real oz_fine_nearer(OzFine square, real reach)
 OZ_INLINE real oz_fine_pair(OzFineGrain a, OzFineGrain b, real s, real t)
 {
     OzFine sum = {REAL(0.0), REAL(0.0)};
+#if OZ_SPACE_TILTS
+    fixed_position across = oz_space_nearest(a.position.y - b.position.y, a.space, 1);
+    OzFine x = oz_fine_apart(oz_space_nearest_tilted(a.position.x - b.position.x, across, a.space),
+                             a.rest.x - b.rest.x);
+#else
     OzFine x = oz_fine_apart(oz_space_nearest(a.position.x - b.position.x, a.space, 0),
                              a.rest.x - b.rest.x);
+#endif
     OzFine y = oz_fine_apart(oz_space_nearest(a.position.y - b.position.y, a.space, 1),
                              a.rest.y - b.rest.y);
     OzFine z = oz_fine_apart(oz_space_nearest(a.position.z - b.position.z, a.space, 2),
                              a.rest.z - b.rest.z);
+#if OZ_SPACE_TILTS
+    x = oz_fine_add_product(x, REAL(a.space.tilt), y.high);
+    x.low += a.space.tilt * y.low + a.space.tilt_rest * y.high;
+#endif
     if (!OZ_ROUND) {
         real along_a = s * a.half_shaft, along_b = -t * b.half_shaft;
         x = oz_fine_add_share(oz_fine_add_share(x, along_a, a.axis.x), along_b, b.axis.x);

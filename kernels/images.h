@@ -14,13 +14,24 @@ typedef struct OzImages {
     int at[3];           /* of the next                    */
 } OzImages;
 
+/* How much farther along the first axis a sheared cell's lattice has what is `far` (m) away. */
+OZ_INLINE scalar oz_images_slant(const OzWork *w, scalar far)
+{
+#if OZ_SHEAR
+    return fabs(oz_work_space(w).tilt) * far;
+#else
+    return 0;
+#endif
+}
+
 /* Those within `far` (m) of the cell, the body itself among them. */
 OZ_INLINE OzImages oz_images_of(const OzWork *w, const place_kind place[3], scalar far)
 {
     global const OzParameters *p = w->parameters;
     OzImages images;
     for (int k = 0; k < 3; k++) {
-        scalar at = (scalar)place[k], beside = p->period[k] / 2 - far / p->length_unit;
+        scalar wide = far + (k == 0 ? oz_images_slant(w, far) : 0);
+        scalar at = (scalar)place[k], beside = p->period[k] / 2 - wide / p->length_unit;
         int repeats = OZ_PERIODIC >> k & 1;
         images.own[k] = place[k];
         images.period[k] = (place_kind)p->period[k] + (place_kind)p->period_rest[k];

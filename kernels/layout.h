@@ -122,6 +122,11 @@ enum { OZ_M_OFFSET, OZ_M_SPEED, OZ_M_RISE, OZ_M_RISE_REST, OZ_M_RATE, OZ_M_GATE,
  * those of an OzWallSwing (wall_swing.h). */
 enum { OZ_W_FRAME = 0, OZ_W_AWAY = 9, OZ_W_LEAD = 12, OZ_W_HOME = 15, OZ_SWING = 18 };
 
+/* Words of how a sheared cell stands at one step, with OZ_SHEAR only: its tilt, in two numbers, and
+ * rate (space.h); by how many times its length over its width the tilt became less with this step.
+ */
+enum { OZ_H_TILT, OZ_H_TILT_REST, OZ_H_RATE, OZ_H_TURNS, OZ_SHEAR_WORDS };
+
 /* A wall is not there at a step, was not there at the one before, will not be at the next. */
 enum { OZ_GATE_GONE = 1, OZ_GATE_COMES = 2, OZ_GATE_GOES = 4 };
 
@@ -200,5 +205,7 @@ enum {
 };
 
 /* Words of a block's reference: place and half-shaft when a list was made, and the grain's skin in
- * that list: how far it may move before the list must be made again. */
-enum { OZ_REFERENCE_SKIN = 6, OZ_REFERENCE = 7 };
+ * that list: how far it may move before the list must be made again; with OZ_SHEAR the cell's tilt
+ * then. */
+enum { OZ_REFERENCE_SKIN = 6, OZ_REFERENCE_PLAIN = 7, OZ_REFERENCE_TILT = 7 };
+#define OZ_REFERENCE (OZ_REFERENCE_PLAIN + OZ_SHEAR)

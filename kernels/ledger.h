@@ -67,6 +67,13 @@ OZ_INLINE void oz_ledger_pairs(OzWork *w, int region)
         }
         global const real *words = w->pair_ledger + (size_t)(first / OZ_LANES) * OZ_CONTACT_LEDGER;
         OzGrain one = oz_work_grains(w, a), other = oz_work_grains(w, b);
+#if OZ_SHEAR
+        OzSpace space = oz_work_space(w);
+        OzVec3 apart = oz_space_minus(one.position, other.position, space);
+        other.velocity = oz_rods_beside(other.velocity, apart, space);
+        oz_ledger_give(w, a, bits, OZ_L_WORK_WALLS, words[OZ_CONTACT_LEDGER - 1],
+                       w->parameters->dt);
+#endif
         OzVec3 after = oz_minus(oz_grain_velocity_at(other, oz_work_load3(words + 12)),
                                 oz_grain_velocity_at(one, oz_work_load3(words + 9)));
         oz_ledger_add(w, a, bits, words, after);
@@ -185,6 +192,7 @@ OZ_INLINE void oz_ledger_walls(OzWork *w, int region, int step)
 
 OZ_INLINE void oz_ledger_region(OzWork *w, int region, int step)
 {
+    OZ_WORK_PLACES(w, step + 1);
     oz_ledger_pairs(w, region);
 #if OZ_WALL_COUNT > 0
     oz_ledger_walls(w, region, step);

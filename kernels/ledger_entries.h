@@ -6,7 +6,7 @@
 /* All models' last one; the others of a model are its losses. */
 #define OZ_LEDGER_WORK(X)                                                                          \
     X(WORK_WALLS, work_walls, work_walls,                                                          \
-      "put in so far by moving walls, and by what drives pistons")
+      "put in so far by moving walls, by what drives pistons, and by a cell's shear")
 
 /* The kernels' SPRING is what tangential springs were given: what they do not hold is friction. */
 #define OZ_LEDGER_LOSSES(X)                                                                        \

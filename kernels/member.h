@@ -47,6 +47,9 @@ typedef struct OzWork {
     OZ_FIELDS(OZ_WORK_MEMBER)
     OzSizes z;
     int item, stride; /* this work-item, and how many share the work */
+#if OZ_SHEAR
+    int places; /* the step that the cell now stands as at */
+#endif
 #if OZ_TILES
     global scalar *record_next; /* the half of the records that the step writes */
     global scalar *fine_next;
@@ -80,6 +83,13 @@ typedef struct OzWork {
     }
 #else
 #define OZ_WORK_AT(w, number)
+#endif
+
+/* Of a sheared cell: places are those of this step of the launch from here on. */
+#if OZ_SHEAR
+#define OZ_WORK_PLACES(w, step) ((w)->places = (step))
+#else
+#define OZ_WORK_PLACES(w, step)
 #endif
 
 /* OZ_WORK_BEGIN, OZ_WORK_END, OZ_WORK_NEXT: which of `count` things a work-item looks after. Those

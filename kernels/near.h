@@ -14,6 +14,12 @@
 #define OZ_NEAR_NONE(w)           ((w)->z.slots) /* second of a pair that never touches */
 #define OZ_NEAR_MIXED             (!OZ_EQUAL)    /* a pair's first may have the higher id */
 #define OZ_NEAR_PERIODIC          OZ_PERIODIC
+#if OZ_SHEAR
+#define OZ_NEAR_SLANT(w, far) oz_images_slant(w, far) /* along the grid's first axis, which is x   \
+                                                       */
+#else
+#define OZ_NEAR_SLANT(w, far) 0
+#endif
 
 typedef fixed_position_kind place_kind;
 typedef OzGrain OzNear;
@@ -94,6 +100,9 @@ typedef struct OzPose {
     OzBody body;
     OzShape shape;
     OzVec3 axis, shaft;
+#if OZ_SHEAR
+    real flow, tilt; /* m/s, at which a sheared cell draws apart what touches the grain; its tilt */
+#endif
 } OzPose;
 
 OZ_INLINE OzPose oz_near_pose_of(OzBody body, OzShape shape)
@@ -105,15 +114,25 @@ OZ_INLINE OzPose oz_near_pose_of(OzBody body, OzShape shape)
 
 OZ_INLINE OzPose oz_near_pose(const OzWork *w, int block)
 {
-    return oz_near_pose_of(oz_grains_load(w, block), oz_grains_shape(w, block));
+    OzPose pose = oz_near_pose_of(oz_grains_load(w, block), oz_grains_shape(w, block));
+#if OZ_SHEAR
+    OzSpace space = oz_work_space(w);
+    pose.flow = REAL(fabs(space.rate)) * (pose.shape.radius + pose.shape.half_length);
+    pose.tilt = REAL(space.tilt);
+#endif
+    return pose;
 }
 
 /* How fast any point of a grain moves at most. */
 OZ_INLINE real oz_near_speed(OzPose pose)
 {
     OzVec3 rate = oz_body_rate(pose.body.spin, pose.axis, pose.shape);
-    return sqrt(oz_dot(pose.body.velocity, pose.body.velocity)) +
-           pose.shape.half_length * sqrt(oz_dot(rate, rate));
+    real speed = sqrt(oz_dot(pose.body.velocity, pose.body.velocity)) +
+                 pose.shape.half_length * sqrt(oz_dot(rate, rate));
+#if OZ_SHEAR
+    speed += pose.flow;
+#endif
+    return speed;
 }
 
 OZ_INLINE void oz_near_note(global real *reference, OzPose pose)
@@ -122,7 +141,22 @@ OZ_INLINE void oz_near_note(global real *reference, OzPose pose)
     reference[1] = oz_fixed_position_bits(pose.body.position.y);
     reference[2] = oz_fixed_position_bits(pose.body.position.z);
     oz_work_store3(reference + 3, pose.shaft);
+#if OZ_SHEAR
+    reference[OZ_REFERENCE_TILT] = pose.tilt;
+#endif
 }
+
+#if OZ_SHEAR
+/* What is left of a way that a grain may move about the flow: a pair that touches was not farther
+ * than both reaches and skins apart along y, so that the flow has brought it nearer by at most that
+ * times the change of the tilt; each takes its share. */
+OZ_INLINE real oz_near_left(const OzWork *w, global const real *reference, OzPose pose, real most)
+{
+    real change = oz_magnitude(REAL(oz_work_space(w).tilt) - reference[OZ_REFERENCE_TILT]);
+    return most -
+           change * (pose.shape.radius + pose.shape.half_length + reference[OZ_REFERENCE_SKIN]);
+}
+#endif
 
 /* Whether no point of the shaft can have moved farther than `most` since the reference was taken:
  * the larger of |dx + da| and |dx - da|. */
@@ -138,7 +172,12 @@ OZ_INLINE mask oz_near_stays(const OzWork *w, global const real *reference, OzPo
         OzVec3 da = oz_minus(pose.shaft, oz_work_load3(reference + 3));
         moved2 = moved2 + oz_dot(da, da) + REAL(2.0) * oz_magnitude(oz_dot(dx, da));
     }
+#if OZ_SHEAR
+    most = oz_near_left(w, reference, pose, most);
+    return (most >= REAL(0.0)) & (moved2 <= most * most);
+#else
     return moved2 <= most * most;
+#endif
 }
 
 /* What else is made anew when a block's outer list is, and asked for when the inner one is. */

@@ -252,6 +252,9 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
     const int *items = pairs->active.item + at;
     OzGrain one = oz_pairs_grains(w, pairs, 0, at), other = oz_pairs_grains(w, pairs, 1, at);
     OzVec3 apart = oz_pairs_vector(pairs, OZ_P_APART, at);
+#if OZ_SHEAR
+    other.velocity = oz_rods_beside(other.velocity, apart, oz_work_space(w));
+#endif
     OzMemory memory = oz_pairs_load_memory(w, items);
     OzClosest closest = {OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST] + at),
                          OZ_LANES_LOAD(pairs->word[OZ_P_CLOSEST + 1] + at)};
@@ -277,6 +280,10 @@ OZ_INLINE void oz_pairs_touch(OzWork *w, const OzPairs *pairs, int at, int count
     }
 #if OZ_LEDGER
     oz_pairs_note_pair(w, items, pair);
+#endif
+#if OZ_LEDGER && OZ_SHEAR
+    oz_lanes_put(w->pair_ledger, items, OZ_CONTACT_LEDGER, OZ_CONTACT_LEDGER - 1,
+                 oz_shear_power(pair.force, apart.y, oz_work_space(w)));
 #endif
 }
 
@@ -355,6 +362,7 @@ OZ_INLINE void oz_pairs_region(OzWork *w, int region, int step)
     OzLawConstants law = w->parameters->law;
     int begin = region * w->z.inner_capacity, end = begin + w->pair_count[region];
     OzPairs pairs;
+    OZ_WORK_PLACES(w, step + OZ_MOVES_BEFORE);
     pairs.active.count = 0;
     pairs.kept = begin;
     oz_work_tile(w, region);

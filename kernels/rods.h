@@ -31,6 +31,15 @@ OZ_INLINE OzClosest oz_rods_closest(OzVec3 apart, OzVec3 half_shaft_a, OzVec3 ha
     return OZ_ROUND ? oz_closest_spheres() : oz_closest(apart, half_shaft_a, half_shaft_b);
 }
 
+#if OZ_SPACE_TILTS
+/* The velocity of b as a sees it, of those about a sheared cell's flow (shear.h). */
+OZ_INLINE OzVec3 oz_rods_beside(OzVec3 velocity, OzVec3 apart, OzSpace space)
+{
+    velocity.x -= space.rate * apart.y;
+    return velocity;
+}
+#endif
+
 /* Replaces the contact at the closest points by the mean of the pair's points, and adds what they
  * do. */
 OZ_INLINE void oz_rods_line(OzPairForce *pair, OzGrain a, OzGrain b, OzVec3 apart, OZ_LAW law,
@@ -104,6 +113,11 @@ OZ_INLINE OzPairForce oz_rods_pair(OzGrain a, OzGrain b, OzSpace space, OZ_LAW l
 {
     OzVec3 apart = oz_space_minus(a.position, b.position, space);
     OzClosest at = oz_rods_closest(apart, a.half_shaft, b.half_shaft);
+#if OZ_SPACE_TILTS
+    if (OZ_SHEAR) {
+        b.velocity = oz_rods_beside(b.velocity, apart, space);
+    }
+#endif
     return oz_rods_touch(a, b, apart, at, law, memory, dt, share);
 }
 

@@ -80,6 +80,9 @@ OZ_INLINE void oz_search_sweep(OzWork *w, OzSearch *s, int first, int last)
     for (int k = first; k < last; k += OZ_LANES) {
         real x = OZ_NEAR_REAL(OZ_LANES_LOAD(w->sorted_x + k) - s->place[0]) * unit;
         real y = OZ_NEAR_REAL(OZ_LANES_LOAD(w->sorted_y + k) - s->place[1]) * unit;
+#if OZ_SHEAR
+        x += oz_work_space(w).tilt * y;
+#endif
         real distance2 = x * x + y * y;
 #if OZ_DIMENSIONS == 3
         real z = OZ_NEAR_REAL(OZ_LANES_LOAD(w->sorted_z + k) - s->place[2]) * unit;
@@ -167,7 +170,8 @@ OZ_INLINE void oz_search_cells(OzWork *w, OzSearch *s)
                    off2 = off3 * off3 + off * off;
             if (off2 < far2) {
                 int row = oz_cells_index(w, 0, at_second + d2, at_third + d3);
-                oz_search_row(w, s, row, oz_search_at(w, s, 0), sqrt(far2 - off2));
+                oz_search_row(w, s, row, oz_search_at(w, s, 0),
+                              sqrt(far2 - off2) + OZ_NEAR_SLANT(w, s->far));
             }
         }
     }

@@ -9,6 +9,9 @@
 #include "kernels/integrate.h"
 #include "kernels/layout.h"
 #include "kernels/rods.h"
+#if OZ_SHEAR
+#include "kernels/shear.h"
+#endif
 
 #define OZ_WORK_BODIES(w)      ((w)->z.count)
 #define OZ_WORK_SLOTS(w)       ((w)->z.slots)
@@ -28,6 +31,12 @@ OZ_INLINE OzSpace oz_work_space(const OzWork *w)
         space.period_rest[k] = w->parameters->period_rest[k];
         space.inverse_period[k] = w->parameters->inverse_period[k];
     }
+#if OZ_SHEAR
+    global const scalar *words = w->shear + OZ_SHEAR_WORDS * w->places;
+    space.tilt = words[OZ_H_TILT];
+    space.tilt_rest = words[OZ_H_TILT_REST];
+    space.rate = words[OZ_H_RATE];
+#endif
     return space;
 }
 

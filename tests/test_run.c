@@ -9,16 +9,18 @@
 #define BEFORE_LAYERS                                                                              \
     "density,density_all,density_tap_mean,density_all_tap_mean,density_com,"                       \
     "density_com_tap_mean,density_slab,density_slab_tap_mean,angle,angle_tap_mean,"
-#define AFTER_LAYERS                                                                               \
-    ",contact_count,overlap_max,overlap_mean,speed_max,kinetic,rotational,contact_number,"         \
-    "deep_count"
+#define BEFORE_DEEP                                                                                \
+    ",contact_count,overlap_max,overlap_mean,speed_max,kinetic,rotational,contact_number"
+#define AFTER_LAYERS BEFORE_DEEP ",deep_count"
+#define STRESSES     ",strain,stress_xx,stress_yy,stress_zz,stress_xy,stress_xz,stress_yz"
 static const char header[] =
     "step,time,tap," BEFORE_LAYERS "angle_layer1,angle_layer2,angle_layer3,angle_layer4,"
     "count_layer1,count_layer2,count_layer3,count_layer4,nematic_s" AFTER_LAYERS;
-static const char listed[] = "step,time,tap,phase,cycle," BEFORE_LAYERS
-                             "angle_layer<i>,count_layer<i>,nematic_s,nematic_axis,psi6,"
-                             "rattler_count" AFTER_LAYERS ",wall<i>_f<x>,wall<i>_t<x>,"
-                             "servo<i>_place,servo<i>_velocity,servo<i>_force,servo<i>_pressure";
+static const char listed[] =
+    "step,time,tap,phase,cycle," BEFORE_LAYERS
+    "angle_layer<i>,count_layer<i>,nematic_s,nematic_axis,psi6,"
+    "rattler_count" BEFORE_DEEP STRESSES ",deep_count,wall<i>_f<x>,wall<i>_t<x>,"
+    "servo<i>_place,servo<i>_velocity,servo<i>_force,servo<i>_pressure";
 static const char ledger_header[] =
     ",energy_potential,energy_elastic,energy_dissipated,energy_friction,work_walls,energy_residual";
 static const char final_header[] =

@@ -2,6 +2,7 @@
  * rows, frames and last states, whatever the model, the integrator, the precision and the size. And
  * nothing that is kept for this is superfluous. ORZO_NEEDS_DEVICE. */
 #include "state_run.h"
+#include "state_scenes.h"
 
 #include "base/memory.h"
 #include "sim/branch.h"
@@ -45,22 +46,6 @@ static const char flat[] =
     "observe: {ledger: true, interval: 2e-4, samples_per_tap: 8, walls: mean}\n"
     "contacts: {}\n";
 
-/* The drum of test_element_device, with a floor that is taken away on the way. */
-static const char drum[] =
-    "model: trigrains\n"
-    "gravity: [3, -20]\n"
-    "time: {step: 1e-6, duration: 1.2e-3}\n"
-    "contact: {law: hertz, hertz_stiffness: 1e5, normal_damping_rate: 500, "
-    "tangential_damping_rate: 100, friction: 0.3}\n"
-    "grains:\n"
-    "  - {kind: single, shape: square, edge: 2e-3, position: [0, 1.3e-3], angle: 10}\n"
-    "  - {kind: single, shape: disc, radius: 1e-3, density: 4, position: [-3e-3, 1.005e-3]}\n"
-    "walls:\n"
-    "  - {kind: segment, from: [-9e-3, 0], to: [9e-3, 0], until: 8e-4}\n"
-    "  - {kind: drum, point: [0, 0], diameter: 1.2e-2, teeth: 20, tooth_depth: 5e-4, "
-    "motion: {angular_velocity: 200}}\n"
-    "observe: {ledger: true, interval: 5e-5}\n";
-
 /* Grains that break against a floor which has just come up, and go on breaking. */
 static const char breaking[] =
     "model: trigrains\n"
@@ -102,6 +87,7 @@ static const Case cases[] = {
     {rods, "velocity-verlet", "float", "hash", "false", 1, true},
     {rods, "velocity-verlet", "double", "hash", "true", 2, false},
     {rods, "symplectic-euler", "float", "hash", "true", 1, true},
+    {sheared, "symplectic-euler", "float", "hash", "true", 1, true},
     {flat, "gear4", "double", "", "", 2, false},
     {flat, "velocity-verlet", "float", "", "", 1, false},
     {drum, "", "", "", "", 1, false},
@@ -272,9 +258,9 @@ static void test_nothing_is_superfluous(void **state)
     (void)state;
     check_nothing_is_superfluous(&cases[0], NULL);
     check_nothing_is_superfluous(&cases[4], "record"); /* written by the moves before the forces */
-    check_nothing_is_superfluous(&cases[8], "0/wall"); /* of the drum, which nothing touches yet */
-    check_nothing_is_superfluous(&cases[9], "record");
-    check_nothing_is_superfluous(&cases[10], NULL);
+    check_nothing_is_superfluous(&cases[9], "0/wall"); /* of the drum, which nothing touches yet */
+    check_nothing_is_superfluous(&cases[10], "record");
+    check_nothing_is_superfluous(&cases[11], NULL);
 }
 
 /* Settling that is left at one of its looks. */
@@ -362,7 +348,7 @@ static void check_unequal_lists(const Rig *rig, const OzDevice *device)
     OzSim *sim = NULL;
     OzSnapshot now[2];
     const OzMember members[2] = {{&rig->scene, &rig->grains}, {&rig->scene, &rig->grains}};
-    const OzBranchSource sources[2] = {{&states[0], "", 0}, {&states[1], "", 0}};
+    const OzBranchSource sources[2] = {{&states[0], "", 0, 0}, {&states[1], "", 0, 0}};
     save_bed(rig, device, false, &states[0]);
     save_bed(rig, device, true, &states[1]);
     must(oz_sim_create(&sim, device, members, 2, NULL));

@@ -27,7 +27,7 @@ OzBenchCost oz_bench_cost_step(const OzCounters *probe)
     double scalar = probe->is_double ? sizeof(double) : sizeof(float);
     double ends = (probe->round ? 1 : 2) * probe->walls, springs = probe->history ? 2 * SPRING : 0;
     double pair_words = 2 * OZ_RECORD + springs + OZ_PAIR_FORCE + OZ_PAIR_TORQUE + 2 * SUMMED;
-    double grain_words = 2 * MOVING_STATE + ends * springs + OZ_RECORD + OZ_REFERENCE;
+    double grain_words = 2 * MOVING_STATE + ends * springs + OZ_RECORD + OZ_REFERENCE_PLAIN;
     double pair_bytes = scalar * pair_words + 3 * sizeof(int);
     double grain_bytes = scalar * grain_words + 3 * sizeof(int);
     double pair = PLACES + (probe->round ? 0 : CLOSEST) + CONTACT + NORMAL + FRICTION +

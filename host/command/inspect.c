@@ -130,6 +130,13 @@ static OzStatus print_details(FILE *file, const OzVerdict *v)
         return oz_inspect_elements_print(file, v->scene, v->grains);
     }
     print_grains(file, v->grains);
+    if (v->scene->boundary.present) {
+        double volume = 0;
+        for (int64_t i = 0; i < v->grains->count; i++) {
+            volume += oz_grains_volume(v->grains->diameter[i], v->grains->length[i]);
+        }
+        oz_inspect_range_print_cell(file, v->scene, volume);
+    }
     oz_inspect_motion_print(file, v->scene);
     OZ_PASS(oz_inspect_contacts_print(file, v->scene, v->grains));
     oz_report_bed_print(file, v->scene, v->rehearsal);

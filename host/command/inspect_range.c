@@ -1,6 +1,8 @@
 /* Printing a range. */
 #include "command/inspect_range.h"
 
+#include "scene/boundary.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -25,6 +27,30 @@ void oz_inspect_range_print_all(FILE *file, const char *name, const double *valu
     }
     if (high >= low) {
         oz_inspect_range_print(file, name, low, high, unit);
+    }
+}
+
+void oz_inspect_range_print_cell(FILE *file, const OzScene *scene, double volume)
+{
+    const OzBoundary *cell = &scene->boundary;
+    double all = 1;
+    const char *separator = " ";
+    fprintf(file, "cell              ");
+    for (int k = 0; k < 3; k++) {
+        double period = oz_boundary_period(cell, k);
+        all *= period;
+        if (period > 0) {
+            fprintf(file, "%s%.6g m along %c", separator, period, 'x' + k);
+            separator = ", ";
+        }
+    }
+    fputc('\n', file);
+    if (all > 0) {
+        fprintf(file, "  filled           %.4g\n", volume / all);
+    }
+    if (cell->shear_rate != 0) {
+        double time = 1 / fabs(cell->shear_rate);
+        fprintf(file, "  shear            by 1 in %.4g s, %.0f steps\n", time, time / scene->step);
     }
 }
 

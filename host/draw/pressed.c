@@ -52,7 +52,8 @@ static void add_chain(OzPressed *pressed, const OzSnapshot *snapshot, const OzCo
     for (int k = 0; k < 3; k++) {
         way[k] = to[k] - snapshot->position[3 * (size_t)e->a + (size_t)k];
     }
-    oz_boundary_wrap(&snapshot->scene->boundary, way);
+    OzBoundary cell = oz_snapshot_cell(snapshot);
+    oz_boundary_wrap(&cell, way);
     for (int k = 0; k < 3; k++) {
         chain->from[k] = from[k];
         chain->to[k] = from[k] + way[k];

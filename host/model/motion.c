@@ -1,5 +1,6 @@
 /* Phases of moving walls. */
 #include "model/motion.h"
+#include "scene/boundary.h"
 #include "scene/trace.h"
 #include "scene/wall_shape.h"
 
@@ -242,6 +243,7 @@ void oz_motion_take_over(OzScene *next, const OzScene *running, double time)
             copy_drive(motion, &running->walls[w].motion);
         }
     }
+    oz_boundary_take_over(&next->boundary, &running->boundary, time);
     derive_times(next);
 }
 
@@ -256,6 +258,8 @@ void oz_motion_copy(OzScene *scene, const OzScene *from)
         to->turned_since = motion->turned_since;
         copy_drive(to, motion);
     }
+    scene->boundary.strain = from->boundary.strain;
+    scene->boundary.since = from->boundary.since;
     derive_times(scene);
 }
 
@@ -285,6 +289,10 @@ OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit)
         OZ_PASS(oz_state_bool(visit, "is_driven", &motion->is_driven));
         OZ_PASS(oz_state_double(visit, "driven", "s, m, m/s", motion->driven, 3));
         oz_state_leave(visit);
+    }
+    if (scene->boundary.present) {
+        OZ_PASS(oz_state_double(visit, "strain", "none", &scene->boundary.strain, 1));
+        OZ_PASS(oz_state_double(visit, "strain_since", "s", &scene->boundary.since, 1));
     }
     if (visit->is_loading) {
         derive_times(scene);

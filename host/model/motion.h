@@ -40,17 +40,18 @@ double oz_motion_time(const OzScene *scene, double tap);
 /* The time from which taps go by scene->period, s: of the last change, perhaps still to come. */
 double oz_motion_since(const OzScene *scene);
 
-/* Lets the motions of `next`, as loaded, go on from those of the scene that runs at this time, the
- * same walls moving in both: a wall whose amplitude or frequency differs moves as before until its
- * next zero crossing, phases are continuous, and what next says in taps lies where these taps will
- * be (duration, snapshots). */
+/* Lets the motions of `next` (walls', and a cell's shear), as loaded, go on from those of the scene
+ * that runs at this time, the same walls moving in both: a wall whose amplitude or frequency
+ * differs moves as before until its next zero crossing, phases are continuous, and what next says
+ * in taps lies where these taps will be (duration, snapshots). */
 void oz_motion_take_over(OzScene *next, const OzScene *running, double time);
 
 /* Gives the walls of a scene the phases that the same walls have in another one, and what follows
  * from them. */
 void oz_motion_copy(OzScene *scene, const OzScene *from);
 
-/* Saves or loads (base/state.h) the phases of all walls, and what follows from them. */
+/* Saves or loads (base/state.h) the phases of all walls, a cell's strain, and what follows from
+ * them. */
 OzStatus oz_motion_state(OzScene *scene, OzStateVisit *visit);
 
 /* Saves which traces walls follow, or refuses a scene whose files hold others now. */

@@ -142,8 +142,22 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot)
 
 void oz_snapshot_place(const OzSnapshot *snapshot, int64_t grain, double place[3])
 {
+    OzBoundary cell = oz_snapshot_cell(snapshot);
     memcpy(place, &snapshot->position[3 * grain], 3 * sizeof *place);
-    oz_boundary_wrap(&snapshot->scene->boundary, place);
+    oz_boundary_wrap(&cell, place);
+}
+
+OzBoundary oz_snapshot_cell(const OzSnapshot *snapshot)
+{
+    return oz_boundary_at(&snapshot->scene->boundary, snapshot->time, snapshot->settling);
+}
+
+void oz_snapshot_tilt(OzSnapshot *snapshot)
+{
+    double tilt = oz_snapshot_cell(snapshot).tilt;
+    for (int64_t i = 0; i < 3 * snapshot->count && tilt != 0; i += 3) {
+        snapshot->position[i] += tilt * snapshot->position[i + 1];
+    }
 }
 
 void oz_snapshot_move_walls(OzSnapshot *snapshot)

@@ -51,7 +51,7 @@ typedef struct OzSnapshot {
     double *position;         /* 3 x count                                                    */
     double *quaternion;       /* 4 x count, w x y z                                           */
     double *axis;             /* 3 x count, unit                                              */
-    double *velocity;         /* 3 x count                                                    */
+    double *velocity;         /* 3 x count; in a sheared cell about its flow                   */
     double *angular_velocity; /* 3 x count, world frame                                       */
     double *wall_offset;      /* wall_count: displacement along its motion, or normal, m      */
     double *wall_velocity;    /* wall_count: m/s                                              */
@@ -86,6 +86,12 @@ OzStatus oz_snapshot_copy(OzSnapshot *copy, const OzSnapshot *snapshot);
 /* Where a grain is shown: its position, of a periodic boundary within the cell, while positions are
  * paths that go on. */
 void oz_snapshot_place(const OzSnapshot *snapshot, int64_t grain, double place[3]);
+
+/* The scene's periodic cell as it stands now (scene/boundary.h). */
+OzBoundary oz_snapshot_cell(const OzSnapshot *snapshot);
+
+/* Makes true places of those in a sheared cell's lattice. */
+void oz_snapshot_tilt(OzSnapshot *snapshot);
 
 /* The angle by which a wall has turned, rad; 0 while grains settle. */
 double oz_snapshot_turn(const OzSnapshot *snapshot, int wall);

@@ -40,15 +40,18 @@ typedef struct OzObservation {
 } OzObservation;
 
 /* How often a column stands in a row, and what must be asked for: once; once with observe.ledger,
- * or with observe.order, or with phases, or with beams.strength, or with that and the ledger, or
- * with beams.yield and the ledger; for each layer, "<i>" in its name being 1 to 4; for each servo
- * wall, "<i>" being the wall's number from 0; with observe.walls for each wall, "<i>" being its
- * number from 0, and of each for every axis of the model, "<x>". */
+ * or with observe.order, or with phases, or in a cell periodic in x, y and z, or in a sheared one,
+ * or with beams.strength, or with that and the ledger, or with beams.yield and the ledger; for each
+ * layer, "<i>" in its name being 1 to 4; for each servo wall, "<i>" being the wall's number from 0;
+ * with observe.walls for each wall, "<i>" being its number from 0, and of each for every axis of
+ * the model, "<x>". */
 typedef enum OzColumnNeed {
     OZ_COLUMN_ALWAYS,
     OZ_COLUMN_LEDGER,
     OZ_COLUMN_ORDER,
     OZ_COLUMN_PHASES,
+    OZ_COLUMN_CELL,
+    OZ_COLUMN_SHEAR,
     OZ_COLUMN_STRENGTH,
     OZ_COLUMN_STRENGTH_LEDGER,
     OZ_COLUMN_YIELD_LEDGER,

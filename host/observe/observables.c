@@ -6,6 +6,7 @@
 #include "observe/flat.h"
 #include "observe/moment.h"
 #include "observe/rod_energy.h"
+#include "observe/stress.h"
 #include "observe/wall_columns.h"
 #include "scene/servo.h"
 
@@ -237,6 +238,8 @@ static bool residual(const OzObservation *o, double *value)
 #define LEDGER     OZ_COLUMN_LEDGER
 #define ORDER      OZ_COLUMN_ORDER
 #define PHASES     OZ_COLUMN_PHASES
+#define CELL       OZ_COLUMN_CELL
+#define SHEAR      OZ_COLUMN_SHEAR
 #define STRENGTH   OZ_COLUMN_STRENGTH
 #define BROKEN     OZ_COLUMN_STRENGTH_LEDGER
 #define YIELD      OZ_COLUMN_YIELD_LEDGER
@@ -349,6 +352,13 @@ static const OzColumn list[] = {
      "in a rise by half of that", FLAT, ALWAYS, true, oz_flat_inclination, 4},
     {"avalanche_size", "degrees", "how far the last of them went down; empty before the first", FLAT,
      ALWAYS, false, oz_flat_inclination, 5},
+    {"strain", "1", "by which the cell was sheared so far; only with boundary.shear_rate", RODS, SHEAR, false, oz_stress_strain, 0},
+    {"stress_xx", "Pa", "in a cell periodic in x, y and z, > 0 in tension: force along the first letter, across a plane normal to the second", RODS, CELL, false, oz_stress_value, 0},
+    {"stress_yy", "Pa", "the same; the pressure is minus the mean of these three", RODS, CELL, false, oz_stress_value, 1},
+    {"stress_zz", "Pa", "the same", RODS, CELL, false, oz_stress_value, 2},
+    {"stress_xy", "Pa", "the same; over the pressure it is mu, times shear_rate and volume the shear's power", RODS, CELL, false, oz_stress_value, 3},
+    {"stress_xz", "Pa", "the same", RODS, CELL, false, oz_stress_value, 4},
+    {"stress_yz", "Pa", "the same", RODS, CELL, false, oz_stress_value, 5},
     {"deep_count", "1", "contacts deeper than guards.overlap.warn so far, each counted once a step",
      ALL, ALWAYS, true, deep_count, 0},
     {"wall<i>_f<x>", "N", "force of all grains on walls.<i> along an axis, x, y or z, with observe.walls: "
@@ -393,6 +403,8 @@ int oz_observables_width(const OzColumn *column, const OzScene *scene)
         [LEDGER] = 1,
         [ORDER] = 1,
         [PHASES] = 1,
+        [CELL] = 1,
+        [SHEAR] = 1,
         [STRENGTH] = 1,
         [BROKEN] = 1,
         [YIELD] = 1,
@@ -412,6 +424,8 @@ int oz_observables_cells(const OzColumn *column, const OzScene *scene)
         (!of_ledger || scene->observe.ledger) && (!of_strength || scene->beams.strength.present) &&
         (column->need != YIELD || scene->beams.yield.present) &&
         (column->need != ORDER || scene->observe.order) &&
+        (column->need != CELL || oz_stress_volume(&scene->boundary) > 0) &&
+        (column->need != SHEAR || scene->boundary.is_sheared) &&
         (column->need != PHASES || scene->phase_count > 0) && (!of_walls || scene->observe.walls);
     return is_there ? oz_observables_width(column, scene) : 0;
 }

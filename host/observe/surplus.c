@@ -20,6 +20,9 @@ static bool is_known(const OzSnapshot *snapshot)
     if (snapshot->scene->is_pushed) { /* from outside, whose work nobody counts */
         return false;
     }
+    if (snapshot->scene->boundary.shear_rate != 0 && !snapshot->has_ledger) {
+        return false;
+    }
     const double *wind = snapshot->scene->drag.wind;
     if ((wind[0] != 0 || wind[1] != 0 || wind[2] != 0) && !snapshot->has_ledger) {
         return false;

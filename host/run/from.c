@@ -10,6 +10,7 @@
 #include "run/from_check.h"
 #include "run/from_keep.h"
 #include "run/state_file.h"
+#include "scene/boundary.h"
 #include "sim/branch.h"
 
 #include <dirent.h>
@@ -377,10 +378,13 @@ OzStatus oz_from_check(OzFrom *from, const char *name, const OzScene *scene, con
 static OzStatus find_sources(OzFrom *from, const OzWorker *worker, OzBranchSource *sources)
 {
     for (int64_t m = 0; m < worker->member_count; m++) {
-        const OzOutputs *member = worker->members[m];
+        OzOutputs *member = worker->members[m];
         const OzFromMember *found = NULL;
         OZ_PASS(oz_from_find(from, member->name, member->scene.seed, &found));
-        sources[m] = (OzBranchSource){&found->file->state, "worker/", found->index};
+        const OzCheckpointHead *head = &found->file->head;
+        double strain = oz_boundary_strain(&found->scene.boundary, head->time, head->settles);
+        sources[m] = (OzBranchSource){&found->file->state, "worker/", found->index, strain};
+        member->scene.boundary.strain = strain;
         if (worker->is_ensemble) {
             OZ_PASS(oz_from_keep_note(from, found, member->folder));
             oz_log_line("%s begins with %s%s%s, step %lld%s", member->name, found->file->path,

@@ -12,11 +12,60 @@ double oz_boundary_period(const OzBoundary *boundary, int axis)
     return repeats ? boundary->size[axis] : 0;
 }
 
+double oz_boundary_strain(const OzBoundary *boundary, double time, bool settling)
+{
+    double rate = settling ? 0 : boundary->shear_rate;
+    return boundary->strain + rate * (time - boundary->since);
+}
+
+double oz_boundary_turns(const OzBoundary *boundary, double strain)
+{
+    return boundary->is_sheared ? rint(strain * boundary->size[1] / boundary->size[0]) : 0;
+}
+
+double oz_boundary_tilt(const OzBoundary *boundary, double strain)
+{
+    double turns = oz_boundary_turns(boundary, strain);
+    return boundary->is_sheared ? strain - turns * boundary->size[0] / boundary->size[1] : 0;
+}
+
+OzBoundary oz_boundary_at(const OzBoundary *boundary, double time, bool settling)
+{
+    OzBoundary now = *boundary;
+    now.strain = oz_boundary_strain(boundary, time, settling);
+    now.since = time;
+    now.tilt = oz_boundary_tilt(boundary, now.strain);
+    return now;
+}
+
+void oz_boundary_take_over(OzBoundary *next, const OzBoundary *running, double time)
+{
+    bool same = next->shear_rate == running->shear_rate;
+    next->strain = same ? running->strain : oz_boundary_strain(running, time, false);
+    next->since = same ? running->since : time;
+}
+
+OzStatus oz_boundary_check_next(const OzScene *running, const OzScene *next)
+{
+    if (running->boundary.is_sheared && !next->boundary.is_sheared) {
+        return oz_status_fail(OZ_ERR_INPUT,
+                              "%s: boundary.shear_rate is not there, and the running scene's cell "
+                              "is sheared; expected boundary.shear_rate, 0 to stop",
+                              next->path);
+    }
+    return OZ_OK;
+}
+
+/* Along y first: a cell's step there is one along x, too, where it tilts. */
 void oz_boundary_wrap(const OzBoundary *boundary, double place[3])
 {
-    for (int k = 0; k < 3; k++) {
+    static const int order[3] = {1, 0, 2};
+    for (int i = 0; i < 3; i++) {
+        int k = order[i];
         double period = oz_boundary_period(boundary, k);
-        place[k] -= period > 0 ? period * rint(place[k] / period) : 0;
+        double way = period > 0 ? period * rint(place[k] / period) : 0;
+        place[k] -= way;
+        place[0] -= k == 1 ? boundary->tilt * way : 0;
     }
 }
 
@@ -91,11 +140,53 @@ static void check_walls(const OzScene *scene, OzNode *root, OzFaults *faults)
     }
 }
 
+/* The flow's velocity grows along y without end: nothing else may tell one y from another. */
+static void check_shear(const OzScene *scene, OzNode *root, OzFaults *faults)
+{
+    const OzBoundary *boundary = &scene->boundary;
+    double strain = fabs(boundary->shear_rate) * scene->step;
+    if (!(oz_boundary_period(boundary, 0) > 0 && oz_boundary_period(boundary, 1) > 0)) {
+        oz_tree_fault(root, faults, "boundary.shear_rate",
+                      "boundary.shear_rate in a cell that is open along x or y; expected x and y: "
+                      "periodic");
+    }
+    if (scene->gravity[0] != 0 || scene->gravity[1] != 0) {
+        oz_tree_fault(root, faults, "boundary.shear_rate",
+                      "boundary.shear_rate with gravity along x or y, in which the sheared cell "
+                      "falls without end; expected gravity: [0, 0, g]");
+    }
+    if (strain > OZ_BOUNDARY_STEP_MOST) {
+        oz_tree_fault(root, faults, "boundary.shear_rate",
+                      "boundary.shear_rate strains the cell by %g in a step; expected at most %g",
+                      strain, OZ_BOUNDARY_STEP_MOST);
+    }
+    if (scene->broadphase == OZ_BROADPHASE_SORT_AXIS) {
+        oz_tree_fault(root, faults, "boundary.shear_rate",
+                      "boundary.shear_rate with broadphase: sort-axis, which knows no shear; "
+                      "expected another");
+    }
+    bool is_shown =
+        scene->movie.colour == OZ_COLOUR_ORDER || scene->snapshots.colour == OZ_COLOUR_ORDER;
+    if (scene->fields.present) {
+        oz_tree_fault(root, faults, "boundary.shear_rate",
+                      "fields of a sheared cell, whose images they would look for as if it stood "
+                      "upright; expected no fields");
+    }
+    if (scene->observe.order || is_shown) {
+        oz_tree_fault(root, faults, "boundary.shear_rate",
+                      "order in a sheared cell, which neighbours are looked for as if it stood "
+                      "upright; expected neither observe.order nor colours by it");
+    }
+}
+
 void oz_boundary_check(const OzScene *scene, OzNode *root, OzFaults *faults)
 {
     if (scene->boundary.present) {
         check_sizes(scene, root, faults);
         check_grains(scene, root, faults);
         check_walls(scene, root, faults);
+        if (scene->boundary.is_sheared) {
+            check_shear(scene, root, faults);
+        }
     }
 }

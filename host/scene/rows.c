@@ -273,6 +273,11 @@ static const OzKey KEYS[] = {
      .help = "the same along z"},
     {"boundary.size", VECTOR(1e6, "m"), AT(boundary.size), GRAINS_MADE, REQUIRED, SOLID,
      .help = "of the cell; of open directions not looked at"},
+    {"boundary.shear_rate", NUMBER(-1e9, 1e9, "1/s"), AT(boundary.shear_rate),
+     .count_offset = offsetof(OzScene, boundary.is_sheared), .write = OZ_WRITE_MARKED, SOLID,
+     .fallback_help = "no shear",
+     .help = "of a cell periodic in x and y: it is sheared from time 0 on, the flow is rate x y along "
+             "x, and all velocities are about it; 0 stops, and may be changed again"},
     {"settle", OF(SECTION), AT(settle.present), SETTLED, .fallback_help = "no settling",
      .help = "rest before time 0"},
     {"settle.drag", NUMBER(0, 1e9, "1/s"), AT(settle.drag), SETTLED, REQUIRED,

@@ -6,6 +6,7 @@
 #include "kernels/integrators.h"
 #include "kernels/walls.h"
 #include "scene/beam_types.h"
+#include "scene/boundary_types.h"
 #include "scene/material.h"
 #include "scene/servo_types.h"
 #include "scene/tables.h"
@@ -180,16 +181,6 @@ typedef struct OzPopulation {
     int line;
 } OzPopulation;
 
-typedef enum OzBoundaryKind { OZ_BOUNDARY_OPEN, OZ_BOUNDARY_PERIODIC } OzBoundaryKind;
-
-/* What is at the ends of space, rods. Where it is periodic, what leaves a cell about the origin on
- * one side comes in on the other, and all of it meets its own images there. */
-typedef struct OzBoundary {
-    bool present;
-    OzBoundaryKind along[3]; /* each axis                                        */
-    double size[3];          /* m, of the cell; not looked at where space is open */
-} OzBoundary;
-
 /* Rods and spheres: what a fluid does to each grain (kernels/drag.h). */
 typedef struct OzDrag {
     double viscosity;   /* Pa s                            */
@@ -258,15 +249,15 @@ typedef enum OzStyle {
     OZ_STYLE_PAPER /* no text, on white */
 } OzStyle;
 typedef enum OzColour {
-    OZ_COLOUR_ANGLE,       /* to the floor, viridis, 0..90 degrees; of trigrains the long axis'
-                              direction, cyclic, 0..180 degrees                                */
-    OZ_COLOUR_AZIMUTH,     /* cyclic, on twice the angle                                       */
-    OZ_COLOUR_SPEED,       /* viridis, 0 to the scene's typical speed                          */
-    OZ_COLOUR_TYPE,        /* one colour for each population                                   */
-    OZ_COLOUR_GREY,        /* speed in greys: the faster, the lighter                          */
-    OZ_COLOUR_TURNED,      /* trigrains: how far since the start, cyclic, 0..360 degrees       */
-    OZ_COLOUR_ORDER,       /* rods: local order (model/local_order.h), viridis, 0..1           */
-    OZ_COLOUR_FORCE,       /* sum of what contacts push it with, viridis, 0 to the bed's scale */
+    OZ_COLOUR_ANGLE,        /* to the floor, viridis, 0..90 degrees; of trigrains the long axis'
+                               direction, cyclic, 0..180 degrees                                */
+    OZ_COLOUR_AZIMUTH,      /* cyclic, on twice the angle                                       */
+    OZ_COLOUR_SPEED,        /* viridis, 0 to the scene's typical speed                          */
+    OZ_COLOUR_TYPE,         /* one colour for each population                                   */
+    OZ_COLOUR_GREY,         /* speed in greys: the faster, the lighter                          */
+    OZ_COLOUR_TURNED,       /* trigrains: how far since the start, cyclic, 0..360 degrees       */
+    OZ_COLOUR_ORDER,        /* rods: local order (model/local_order.h), viridis, 0..1           */
+    OZ_COLOUR_FORCE,        /* sum of what contacts push it with, viridis, 0 to the bed's scale */
     OZ_COLOUR_COORDINATION, /* grains and walls that it touches, viridis, 0..12             */
     OZ_COLOUR_MATERIAL      /* rods: one colour for each material                           */
 } OzColour;

@@ -45,6 +45,12 @@ static bool may_differ(const char *name)
     return false;
 }
 
+/* A cell that was not sheared stands upright, as one that will be begins. */
+static bool begins_upright(const char *name, int saved, int own)
+{
+    return strcmp(name, "SHEAR") == 0 && saved < own;
+}
+
 static OzStatus check_switches(const OzSim *sim, const OzBranchSource *source)
 {
     const int *own = sim->arrays.switches;
@@ -54,7 +60,7 @@ static OzStatus check_switches(const OzSim *sim, const OzBranchSource *source)
         snprintf(path, sizeof path, "switches/%s", name);
         const OzStateEntry *saved = find(source, path);
         int value = saved && saved->kind == OZ_STATE_INT32 ? *(const int *)saved->data : -1;
-        if (value != own[k + 1] && !may_differ(name)) {
+        if (value != own[k + 1] && !may_differ(name) && !begins_upright(name, value, own[k + 1])) {
             return oz_status_fail(OZ_ERR_INPUT,
                                   "%s: the state to begin from has the kernel switch %s %d, and "
                                   "this scene %d; expected a scene of the same precision, kind of "
@@ -192,6 +198,7 @@ OzStatus oz_branch_take(OzSim *sim, const OzBranchSource *sources)
     for (int m = 0; m < sim->batch.member_count; m++) {
         OZ_PASS(check_switches(sim, &sources[m]));
         OZ_PASS(check_units(sim, m, &sources[m]));
+        sim->batch.scenes[m].boundary.strain = sources[m].strain;
         for (int f = 0; f < sim->model->field_count; f++) {
             OZ_PASS(take_field(sim, f, m, &sources[m]));
         }

@@ -10,6 +10,7 @@ typedef struct OzBranchSource {
     const OzState *state;
     const char *prefix;
     int member;
+    double strain; /* of its cell then (scene/boundary.h), from which the new one's goes on */
 } OzBranchSource;
 
 /* Before the first step: every member takes the one of its own source. Who calls has seen to it

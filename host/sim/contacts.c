@@ -12,6 +12,8 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
     OZ_PASS(oz_physics_derive(&contacts->physics, snapshot->scene, snapshot->grains));
     oz_gates_set(&contacts->physics, snapshot->scene, snapshot->time, snapshot->settling);
     oz_swings_set(&contacts->physics, snapshot->scene, snapshot->time, snapshot->settling);
+    contacts->tilt = oz_snapshot_cell(snapshot).tilt;
+    contacts->rate = snapshot->settling ? 0 : snapshot->scene->boundary.shear_rate;
     contacts->share = contacts->physics.share;
     if (contacts->physics.switches.moves_before) {
         contacts->physics.share -=
@@ -29,10 +31,12 @@ OzStatus oz_contacts_begin(OzContacts *contacts, const OzSnapshot *snapshot, OzC
     return OZ_OK;
 }
 
-static OzGrain grain_of(const OzSnapshot *snapshot, int64_t id)
+/* Its place is that in a sheared cell's lattice. */
+static OzGrain grain_of(const OzContacts *contacts, int64_t id)
 {
+    const OzSnapshot *snapshot = contacts->snapshot;
     const double *at = &snapshot->position[3 * id];
-    OzGrain grain = {.position = {at[0], at[1], at[2]},
+    OzGrain grain = {.position = {at[0] - contacts->tilt * at[1], at[1], at[2]},
                      .velocity = oz_dialect_load3(&snapshot->velocity[3 * id]),
                      .rate = oz_dialect_load3(&snapshot->angular_velocity[3 * id]),
                      .radius = snapshot->grains->diameter[id] / 2,
@@ -87,15 +91,15 @@ static OzVec3 couple_of(const Found *found)
     return oz_add(found->parts.couple.spring, found->parts.couple.dashpot);
 }
 
-/* turn: 1, or -1 where the kernels' a is the entry's b; arm: from the centre of grain, the entry's
- * a, to where the force acts. */
-static void fill(OzContactEntry *entry, const Found *found, double turn, OzGrain grain, OzVec3 arm)
+/* turn: 1, or -1 where the kernels' a is the entry's b; at: the centre of the entry's a; arm: from
+ * there to where the force acts. */
+static void fill(OzContactEntry *entry, const Found *found, double turn, const double *at,
+                 OzVec3 arm)
 {
-    OzFixedPosition at = grain.position;
     OzVec3 normal = oz_scale(found->contact.normal, turn);
     OzVec3 force = oz_scale(found->parts.force, turn);
     entry->push = oz_dot(force, normal);
-    oz_dialect_store3(entry->point, oz_add(oz_vec3(at.x, at.y, at.z), arm));
+    oz_dialect_store3(entry->point, oz_add(oz_dialect_load3(at), arm));
     oz_dialect_store3(entry->normal, normal);
     oz_dialect_store3(entry->tangential, oz_along(force, -entry->push, normal));
     oz_dialect_store3(entry->spring, oz_scale(found->stored.stretch, turn));
@@ -117,14 +121,15 @@ static OzMemory stored_of(const OzMemory *memory)
 OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const OzMemory *memory)
 {
     const OzPhysics *physics = &contacts->physics;
-    OzGrain first = grain_of(contacts->snapshot, a), second = grain_of(contacts->snapshot, b);
+    OzGrain first = grain_of(contacts, a), second = grain_of(contacts, b);
+    OzSpace space = oz_dialect_sheared(physics, contacts->tilt, contacts->rate);
     OzLawConstants law = oz_dialect_pair_law(physics, a, b);
     OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
     bool turned = a > b;
     Found found = {.stored = stored_of(memory)};
     OzMemory next = found.stored;
-    OzPairForce pair = oz_rods_pair(first, second, oz_dialect_space(physics), law, &next,
-                                    physics->parameters.dt, physics->share);
+    OzPairForce pair =
+        oz_rods_pair(first, second, space, law, &next, physics->parameters.dt, physics->share);
     if (!pair.contact.touching) {
         return OZ_OK;
     }
@@ -132,7 +137,7 @@ OzStatus oz_contacts_pair(OzContacts *contacts, int64_t a, int64_t b, const OzMe
     found.contact = pair.contact;
     found.parts = pair.parts;
     entry.spring_energy = memory ? springs_energy(contacts, &found, law.friction) : 0;
-    fill(&entry, &found, turned ? -1 : 1, turned ? second : first,
+    fill(&entry, &found, turned ? -1 : 1, &contacts->snapshot->position[3 * (turned ? b : a)],
          turned ? pair.arm_b : pair.arm_a);
     return oz_contact_list_add(contacts->list, &entry);
 }
@@ -161,7 +166,7 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const 
 {
     const OzPhysics *physics = &contacts->physics;
     const OzSnapshot *snapshot = contacts->snapshot;
-    OzGrain one = grain_of(snapshot, grain);
+    OzGrain one = grain_of(contacts, grain);
     int wall, part = oz_dialect_part(physics, index, &wall);
     OZ_USE_SWITCHES(oz_host_switches_rods(&physics->switches));
     Found found = {.stored = stored_of(memory)};
@@ -182,6 +187,6 @@ OzStatus oz_contacts_wall(OzContacts *contacts, int64_t grain, int index, const 
         .a = (int32_t)grain, .b = -1 - physics->wall_order[wall], .part_a = index};
     double friction = oz_dialect_wall_law(physics, wall, grain).friction;
     entry.spring_energy = memory ? springs_energy(contacts, &found, friction) : 0;
-    fill(&entry, &found, -1, one, at.arm); /* to the kernels a wall is a */
+    fill(&entry, &found, -1, &snapshot->position[3 * grain], at.arm); /* to kernels a wall is a */
     return oz_contact_list_add(contacts->list, &entry);
 }

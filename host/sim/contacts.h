@@ -14,6 +14,7 @@ typedef struct OzContacts {
     OzPhysics physics; /* its walls are in the order in which `wall` counts below, its
                           share is that of forces at this moment                         */
     OzWallDrive drives[OZ_WALLS_MAX]; /* how each of them moves now                           */
+    double tilt, rate;          /* of a sheared cell now                                          */
     double share;               /* of a step by which the integrator advances springs             */
     const OzSnapshot *snapshot; /* borrowed: position, axis, velocity, spin, walls                */
     OzContactList *list;        /* borrowed: receives what touches                                */

@@ -24,6 +24,7 @@
 #define OZ_AT_CONTACT       oz_host_switches_now.rods.at_contact
 #define OZ_GATED            oz_host_switches_now.rods.gated
 #define OZ_PERIODIC         oz_host_switches_now.rods.periodic
+#define OZ_SHEAR            oz_host_switches_now.rods.shear
 #define OZ_WALL_EDGED       oz_host_switches_now.rods.edged
 #define OZ_MESHES           oz_host_switches_now.rods.meshes
 #define OZ_WALL_KINDS       0x3fffffff /* the host knows them all */
@@ -34,6 +35,7 @@
 #include "kernels/drag.h"
 #include "kernels/integrate.h"
 #include "kernels/rods.h"
+#include "kernels/shear.h"
 #include "kernels/wall_drive.h"
 #include "kernels/wall_joint.h"
 
@@ -75,12 +77,21 @@ OZ_INLINE OzLawConstants oz_dialect_wall_law(const OzPhysics *physics, int w, in
 OZ_INLINE OzSpace oz_dialect_space(const OzPhysics *physics)
 {
     const OzParameters *p = &physics->parameters;
-    OzSpace space = {.unit = 1};
+    OzSpace space = {.unit = 1}; /* of a sheared cell, without tilt */
     for (int k = 0; k < 3; k++) {
         space.period[k] = p->period[k];
         space.period_rest[k] = p->period_rest[k];
         space.inverse_period[k] = p->inverse_period[k];
     }
+    return space;
+}
+
+/* The same of a sheared cell, for places of a lattice with this tilt. */
+OZ_INLINE OzSpace oz_dialect_sheared(const OzPhysics *physics, double tilt, double rate)
+{
+    OzSpace space = oz_dialect_space(physics);
+    space.tilt = tilt;
+    space.rate = rate;
     return space;
 }
 

@@ -259,12 +259,13 @@ static OzStatus write_reference(Work *w)
     for (int slot = 0; slot < sizes_of(w)->slots; slot++) {
         half_shaft(w, state, slot, half);
         for (int c = 0; c < 3; c++) {
-            memcpy(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, c),
+            memcpy(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE_PLAIN, c),
                    state + size * oz_pack_lane(s, slot, OZ_STATE, OZ_S_POSITION + c), size);
-            oz_scalars_put(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, 3 + c), &half[c],
-                           1, s->is_double);
+            oz_scalars_put(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE_PLAIN, 3 + c),
+                           &half[c], 1, s->is_double);
         }
-        oz_scalars_put(reference + size * oz_pack_lane(s, slot, OZ_REFERENCE, OZ_REFERENCE_SKIN),
+        oz_scalars_put(reference +
+                           size * oz_pack_lane(s, slot, OZ_REFERENCE_PLAIN, OZ_REFERENCE_SKIN),
                        &skin, 1, s->is_double);
     }
     OZ_TRY(upload(w, OZ_FIELD_reference_outer, reference));

@@ -333,6 +333,7 @@ OzStatus oz_pack_state(const OzArrays *arrays, int member, const OzParameters *p
         get_state(state, s, parameters, slot, id[slot], snapshot);
     }
     OZ_TRY(add_images(arrays, member, parameters, snapshot));
+    oz_snapshot_tilt(snapshot);
 done:
     free(state);
     free(id);

@@ -36,13 +36,15 @@ static void keep_memories(OzPairList *near, const OzPairList *old)
     }
 }
 
-/* How far any point of the shaft can have moved, squared. */
+/* How far any point of the shaft can have moved about a flow that strained the cell by so much
+ * more, squared. */
 static double moved2(const double x[3], const double u[3], const double old_x[3],
-                     const double old_u[3], double half_length)
+                     const double old_u[3], double half_length, double strained)
 {
     double centre2 = 0, turn2 = 0, both = 0;
     for (int c = 0; c < 3; c++) {
-        double dx = x[c] - old_x[c], da = half_length * (u[c] - old_u[c]);
+        double dx = x[c] - old_x[c] - (c == 0 ? strained * old_x[1] : 0),
+               da = half_length * (u[c] - old_u[c]);
         centre2 += dx * dx;
         turn2 += da * da;
         both += dx * da;
@@ -50,13 +52,17 @@ static double moved2(const double x[3], const double u[3], const double old_x[3]
     return centre2 + turn2 + 2 * fabs(both);
 }
 
+/* As kernels/near.h. */
 static bool holds(const OzPairList *near, const OzGrains *grains, const double *position,
-                  const double *axis)
+                  const double *axis, const OzBoundary *boundary)
 {
+    double strained = boundary->strain - near->strain;
     for (int64_t i = 0; i < 3 * grains->count && near->position; i += 3) {
         double moved = moved2(&position[i], &axis[i], &near->position[i], &near->axis[i],
-                              grains->length[i / 3] / 2);
-        if (!(moved <= near->skin * near->skin / 4)) {
+                              grains->length[i / 3] / 2, strained);
+        double reach = (grains->length[i / 3] + grains->diameter[i / 3] + near->skin) / 2;
+        double left = near->skin / 2 - fabs(strained) * reach;
+        if (!(left >= 0 && moved <= left * left)) {
             return false;
         }
     }
@@ -69,11 +75,12 @@ OzStatus oz_pair_list_renew(OzPairList *near, bool *renewed, const OzGrains *gra
     OzStatus status = OZ_OK;
     OzPairList next = {0};
     size_t bytes = 3 * (size_t)grains->count * sizeof *position;
-    *renewed = !holds(near, grains, position, axis);
+    *renewed = !holds(near, grains, position, axis, boundary);
     if (!*renewed) {
         return OZ_OK;
     }
     next.skin = skin_diameters * smallest_diameter(grains);
+    next.strain = boundary->strain;
     OZ_TRY(oz_sort_axis_pairs(&next.pairs, grains, position, axis, next.skin, boundary));
     OZ_TRY(OZ_NEW(&next.memory, next.pairs.count));
     OZ_TRY(OZ_NEW(&next.position, 3 * grains->count));

@@ -12,9 +12,11 @@ typedef struct OzPairList {
     OzPairs pairs;           /* sorted by a, then b                                     */
     OzMemory *memory;        /* of each pair; zero for a pair that was not listed       */
     double *position, *axis; /* 3 x count each, when the list was made          */
+    double strain;           /* of a sheared cell, then                         */
 } OzPairList;
 
-/* Makes the list hold for grains at position with axes (3 x count each). *renewed tells whether
+/* Makes the list hold for grains at position with axes (3 x count each) in a cell as it stands now.
+ * *renewed tells whether
  * pairs are other ones than before. The caller frees with oz_pair_list_free. */
 OzStatus oz_pair_list_renew(OzPairList *near, bool *renewed, const OzGrains *grains,
                             const double *position, const double *axis, const OzBoundary *boundary);

@@ -1,37 +1,16 @@
 /* The host reference: bodies, a pair list with skin, forces and motion, all in double. */
 #include "sim/reference_guard.h"
+#include "sim/reference_ledger.h"
 #include "sim/reference_servo.h"
 
 #include "base/memory.h"
+#include "scene/boundary.h"
 #include "sim/contacts.h"
 #include "sim/gates.h"
 #include "sim/swings.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static OzVec3 axis_of(const OzReference *r, int i)
-{
-    return oz_quaternion_axis(r->body[i].turn);
-}
-
-static OzGrain grain_with(const OzReference *r, int i, OzVec3 velocity, OzVec3 spin)
-{
-    OzVec3 u = axis_of(r, i);
-    OzGrain grain = {.position = r->body[i].position,
-                     .half_shaft = oz_scale(u, r->shape[i].half_length),
-                     .velocity = velocity,
-                     .rate = oz_body_rate(spin, u, r->shape[i]),
-                     .radius = r->shape[i].radius,
-                     .mass = r->shape[i].mass,
-                     .inverse_inertia = r->shape[i].inverse_inertia};
-    return grain;
-}
-
-static OzGrain grain_now(const OzReference *r, int i)
-{
-    return grain_with(r, i, r->body[i].velocity, r->body[i].spin);
-}
 
 static void place_bodies(OzReference *r)
 {
@@ -44,7 +23,7 @@ static void place_bodies(OzReference *r)
                          .inverse_mass = 1 / g->mass[i],
                          .inverse_inertia = 1 / g->inertia[i],
                          .inverse_inertia_axis = 1 / g->inertia_axis[i]};
-        OzBody body = {.position = {x[0], x[1], x[2]},
+        OzBody body = {.position = {x[0] - r->cell.strain * x[1], x[1], x[2]},
                        .velocity = oz_dialect_load3(&g->velocity[3 * i]),
                        .spin = oz_dialect_load3(&g->angular_velocity[3 * i]),
                        .turn = {q[1], q[2], q[3], q[0]}};
@@ -63,8 +42,9 @@ static void write_places(const OzReference *r, double *position, double *axis)
 {
     for (int i = 0; i < r->count; i++) {
         OzFixedPosition at = r->body[i].position;
-        oz_dialect_store3(&position[3 * (int64_t)i], oz_vec3(at.x, at.y, at.z));
-        oz_dialect_store3(&axis[3 * (int64_t)i], axis_of(r, i));
+        oz_dialect_store3(&position[3 * (int64_t)i],
+                          oz_vec3(at.x + r->cell.strain * at.y, at.y, at.z));
+        oz_dialect_store3(&axis[3 * (int64_t)i], oz_reference_axis(r, i));
     }
 }
 
@@ -72,8 +52,7 @@ static OzStatus renew_list(OzReference *r)
 {
     bool renewed;
     write_places(r, r->position, r->axis);
-    OZ_PASS(oz_pair_list_renew(&r->near, &renewed, r->grains, r->position, r->axis,
-                               &r->scene->boundary));
+    OZ_PASS(oz_pair_list_renew(&r->near, &renewed, r->grains, r->position, r->axis, &r->cell));
     if (renewed) {
         free(r->pair_force);
         OZ_PASS(OZ_NEW(&r->pair_force, r->near.pairs.count));
@@ -81,14 +60,38 @@ static OzStatus renew_list(OzReference *r)
     return OZ_OK;
 }
 
+/* The cell as it stands when bodies have moved by a step, of which the forces come after or before
+ * that. */
+static void shear_cell(OzReference *r, double dt)
+{
+    double time = oz_step_clock_time(&r->clock, r->step + (dt > 0));
+    r->cell = oz_boundary_at(&r->scene->boundary, time, false);
+}
+
+/* What a sheared cell does to a body that has moved. */
+static void follow(OzReference *r, int i, OzBody from)
+{
+    if (OZ_SHEAR) {
+        OzBody *body = &r->body[i];
+        double less = oz_shear_follow(body, from.position, from.rest, oz_reference_space(r), 1);
+        r->work.walls += oz_shear_gain(r->shape[i].mass, less, body->velocity.x);
+    }
+}
+
 static void move_before(OzReference *r, double dt)
 {
     double force_time = oz_step_clock_time(&r->clock, r->step) + (OZ_MOVES_BEFORE ? dt : 0);
+    if (OZ_MOVES_BEFORE) {
+        shear_cell(r, dt);
+    }
     for (int i = 0; i < r->count; i++) {
-        OzBody *body = &r->body[i];
+        OzBody *body = &r->body[i], from = *body;
         oz_integrate_before(body, r->shape[i], dt, 1);
-        r->seen[i] = grain_with(r, i, oz_integrate_seen_velocity(*body, dt),
-                                oz_integrate_seen_spin(*body, r->shape[i], dt));
+        if (OZ_MOVES_BEFORE) {
+            follow(r, i, from);
+        }
+        r->seen[i] = oz_reference_grain(r, i, oz_integrate_seen_velocity(*body, dt),
+                                        oz_integrate_seen_spin(*body, r->shape[i], dt));
     }
     for (int w = 0; w < r->physics.wall_count; w++) {
         r->wall_drive[w] = oz_swings_drive_at(&r->physics, r->scene, w, force_time);
@@ -100,12 +103,17 @@ static void move_before(OzReference *r, double dt)
 
 static void touch_pairs(OzReference *r, double dt)
 {
-    OzSpace space = oz_dialect_space(&r->physics);
+    OzSpace space = oz_reference_space(r);
     for (int64_t p = 0; p < r->near.pairs.count; p++) {
         OzPair pair = r->near.pairs.pair[p];
-        r->pair_force[p] = oz_rods_pair(r->seen[pair.a], r->seen[pair.b], space,
-                                        oz_dialect_pair_law(&r->physics, pair.a, pair.b),
-                                        &r->near.memory[p], dt, r->physics.share);
+        OzGrain a = r->seen[pair.a], b = r->seen[pair.b];
+        r->pair_force[p] =
+            oz_rods_pair(a, b, space, oz_dialect_pair_law(&r->physics, pair.a, pair.b),
+                         &r->near.memory[p], dt, r->physics.share);
+        if (OZ_SHEAR) {
+            double apart = oz_space_minus(a.position, b.position, space).y;
+            r->work.walls += dt * oz_shear_power(r->pair_force[p].force, apart, space);
+        }
     }
 }
 
@@ -212,101 +220,24 @@ static void touch_walls(OzReference *r, double dt)
 static void move_after(OzReference *r, double dt)
 {
     OzVec3 gravity = oz_dialect_load3(r->physics.parameters.gravity);
+    if (!OZ_MOVES_BEFORE) {
+        shear_cell(r, dt);
+    }
     for (int i = 0; i < r->count; i++) {
         OzLoad load = r->load[i];
+        OzBody from = r->body[i];
         load.force = oz_along(load.force, r->shape[i].mass, gravity);
         OzLoad drag = oz_drag_load(r->physics.parameters.fluid, r->shape[i], r->seen[i].velocity,
                                    r->seen[i].rate);
         load.force = oz_add(load.force, drag.force);
         load.torque = oz_add(load.torque, drag.torque);
         oz_integrate_after(&r->body[i], r->shape[i], load, dt, 1);
-        OzGrain now = grain_now(r, i);
+        OzGrain now = oz_reference_now(r, i);
         OzVec3 way = oz_scale(oz_add(r->seen[i].velocity, now.velocity), 0.5 * dt);
         OzVec3 turn = oz_scale(oz_add(r->seen[i].rate, now.rate), 0.5 * dt);
         r->work.dissipated -= oz_dot(drag.force, way) + oz_dot(drag.torque, turn);
-    }
-}
-
-static void note_rolling(OzReference *r, OzContact contact, OzContactForce parts, OzVec3 after,
-                         double dt)
-{
-    if (OZ_ROLLING) {
-        OzVec3 mean = oz_scale(oz_add(contact.turning, after), 0.5);
-        r->work.spring -= dt * oz_dot(parts.couple.spring, mean);
-        r->work.dissipated -= dt * oz_dot(parts.couple.dashpot, mean);
-    }
-}
-
-static void note_pairs(OzReference *r, double dt)
-{
-    for (int64_t p = 0; p < r->near.pairs.count; p++) {
-        const OzPairForce *f = &r->pair_force[p];
-        if (f->contact.touching) {
-            OzGrain a = grain_now(r, r->near.pairs.pair[p].a),
-                    b = grain_now(r, r->near.pairs.pair[p].b);
-            OzVec3 after =
-                oz_minus(oz_grain_velocity_at(b, f->arm_b), oz_grain_velocity_at(a, f->arm_a));
-            oz_ledger_note(&r->work, f->contact, f->parts, after, dt);
-            if (OZ_LINE) {
-                oz_ledger_note_couple(&r->work, f->couple, f->turning, oz_minus(b.rate, a.rate),
-                                      dt);
-            }
-            note_rolling(r, f->contact, f->parts, oz_minus(b.rate, a.rate), dt);
-        }
-    }
-}
-
-/* As kernels/ledger.h. */
-static void note_gate(OzReference *r, int wall, const OzWallForce *f, OzVec3 after, double dt)
-{
-    int64_t step = r->step + (OZ_MOVES_BEFORE && dt > 0);
-    double times[3];
-    for (int k = 0; k < 3; k++) {
-        times[k] = oz_step_clock_time(&r->clock, dt > 0 ? step + k - 1 : step);
-    }
-    int gate = oz_gates_bits(&r->scene->walls[r->physics.wall_order[wall]], times, false);
-    OzVec3 force = oz_minus(f->parts.force, oz_add(f->parts.spring, f->parts.dashpot));
-    OzVec3 mean = oz_scale(oz_add(f->contact.velocity, after), 0.5);
-    double given = oz_dot(force, mean) * dt * (OZ_MOVES_BEFORE ? 0.5 : 1);
-    r->work.walls += gate & OZ_GATE_COMES ? f->parts.energy : 0;
-    r->work.walls -= gate & OZ_GATE_GOES ? f->parts.energy - given : 0;
-}
-
-static void note_wall(OzReference *r, int i, int index, double dt)
-{
-    const OzWallForce *f = &r->wall_force[(int64_t)i * r->physics.touches + index];
-    int wall, part = oz_dialect_part(&r->physics, index, &wall);
-    (void)part;
-    if (f->contact.touching) {
-        OzGrain now = grain_now(r, i);
-        OzWallDrive drive = oz_swings_drive_at(&r->physics, r->scene, wall,
-                                               oz_step_clock_time(&r->clock, r->step) + dt);
-        bool is_servo = oz_reference_servo_speed(r, wall, &drive.speed);
-        OzVec3 before =
-            oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, r->wall_drive[wall]);
-        OzVec3 after = oz_dialect_wall_velocity(&r->physics, wall, now.position, f->arm, drive);
-        OzVec3 left = oz_minus(oz_grain_velocity_at(now, f->arm), after);
-        oz_ledger_note(&r->work, f->contact, f->parts, left, dt);
-        note_gate(r, wall, f, left, dt);
-        if (!is_servo) { /* a piston's work on grains stays within what the ledger is of */
-            oz_ledger_push(&r->work, f->parts.force, oz_scale(oz_add(before, after), 0.5), dt);
-        }
-        OzVec3 turning = oz_scale(drive.axis, drive.rate);
-        note_rolling(r, f->contact, f->parts, oz_minus(now.rate, turning), dt);
-        if (OZ_ROLLING) {
-            OzVec3 couple = oz_add(f->parts.couple.spring, f->parts.couple.dashpot);
-            oz_ledger_push(&r->work, couple, turning, dt);
-        }
-    }
-}
-
-/* As kernels/ledger.h. */
-static void note_ledger(OzReference *r, double dt)
-{
-    note_pairs(r, dt);
-    for (int i = 0; i < r->count; i++) {
-        for (int index = 0; index < r->physics.touches; index++) {
-            note_wall(r, i, index, dt);
+        if (!OZ_MOVES_BEFORE) {
+            follow(r, i, from);
         }
     }
 }
@@ -321,7 +252,7 @@ static OzStatus make_step(OzReference *r, double dt)
     move_after(r, dt);
     oz_reference_servo_after(r, dt);
     if (r->physics.switches.ledger) {
-        note_ledger(r, dt);
+        oz_reference_ledger_note(r, dt);
     }
     return oz_reference_guard_check(r, dt);
 }
@@ -347,7 +278,7 @@ static void copy_state(const OzReference *r, OzSnapshot *s)
         const OzBody *b = &r->body[i];
         double *q = &s->quaternion[4 * (int64_t)i];
         oz_dialect_store3(&s->velocity[3 * (int64_t)i], b->velocity);
-        oz_dialect_store3(&s->angular_velocity[3 * (int64_t)i], grain_now(r, i).rate);
+        oz_dialect_store3(&s->angular_velocity[3 * (int64_t)i], oz_reference_now(r, i).rate);
         q[0] = b->turn.w;
         oz_dialect_store3(q + 1, oz_vec3(b->turn.x, b->turn.y, b->turn.z));
     }
@@ -414,6 +345,7 @@ static OzStatus fill(OzReference *r, const OzScene *scene, const OzGrains *grain
     r->clock = oz_step_clock_begin(scene->step);
     r->count = (int)grains->count;
     OZ_PASS(create_arrays(r));
+    shear_cell(r, 0);
     place_bodies(r);
     return renew_list(r);
 }

@@ -16,7 +16,9 @@ struct OzReference {
     OzPhysics physics;
     int64_t step;
     OzStepClock clock;
-    bool primed; /* the forces of step 0 are known (velocity-verlet) */
+    OzBoundary cell; /* as it stands at the bodies' places, which are those in the lattice of
+                        all its strain */
+    bool primed;     /* the forces of step 0 are known (velocity-verlet) */
     int count;
     OzShape *shape;
     OzBody *body;
@@ -34,3 +36,32 @@ struct OzReference {
     OzWork work;
     int64_t deep_count; /* contacts beyond guards.overlap.warn, each counted once a step */
 };
+
+static inline OzVec3 oz_reference_axis(const OzReference *r, int i)
+{
+    return oz_quaternion_axis(r->body[i].turn);
+}
+
+static inline OzGrain oz_reference_grain(const OzReference *r, int i, OzVec3 velocity, OzVec3 spin)
+{
+    OzVec3 u = oz_reference_axis(r, i);
+    OzGrain grain = {.position = r->body[i].position,
+                     .half_shaft = oz_scale(u, r->shape[i].half_length),
+                     .velocity = velocity,
+                     .rate = oz_body_rate(spin, u, r->shape[i]),
+                     .radius = r->shape[i].radius,
+                     .mass = r->shape[i].mass,
+                     .inverse_inertia = r->shape[i].inverse_inertia};
+    return grain;
+}
+
+static inline OzGrain oz_reference_now(const OzReference *r, int i)
+{
+    return oz_reference_grain(r, i, r->body[i].velocity, r->body[i].spin);
+}
+
+/* Differences of the bodies' places. */
+static inline OzSpace oz_reference_space(const OzReference *r)
+{
+    return oz_dialect_sheared(&r->physics, r->cell.strain, r->cell.shear_rate);
+}

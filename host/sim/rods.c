@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "model/motion.h"
+#include "scene/boundary.h"
 #include "scene/wall_mesh.h"
 #include "sim/advice.h"
 #include "sim/constants.h"
@@ -168,6 +169,34 @@ static void put_motion(double words[OZ_MOTION], const OzMotion *motion, double t
     words[OZ_M_RATE] = oz_motion_rate(motion, time) * p->units.time;
 }
 
+/* How a sheared cell stands, for the same steps. */
+static OzStatus move_cell(OzSim *sim, int member, int steps)
+{
+    OzStatus status = OZ_OK;
+    const OzBoundary *cell = &sim->batch.members[member].scene->boundary;
+    const OzParameters *p = oz_rods_parameters(sim, member);
+    double *words = NULL, turns = 0;
+    size_t count = OZ_SHEAR_WORDS * (size_t)(steps + 1);
+    if (!oz_rods_switches(sim)->shear) {
+        return OZ_OK;
+    }
+    OZ_TRY(OZ_NEW(&words, count));
+    for (int k = 0; k < steps + 1; k++) {
+        double time = oz_batch_time(&sim->batch, member, sim->batch.step + (p->dt > 0 ? k : 0));
+        double strain = oz_boundary_strain(cell, time, sim->batch.walls_still), before = turns;
+        double tilt = oz_boundary_tilt(cell, strain), *at = words + OZ_SHEAR_WORDS * k;
+        turns = oz_boundary_turns(cell, strain);
+        at[OZ_H_TILT] = oz_rods_switches(sim)->is_double ? tilt : (double)(float)tilt;
+        at[OZ_H_TILT_REST] = tilt - at[OZ_H_TILT];
+        at[OZ_H_RATE] = sim->batch.walls_still ? 0 : cell->shear_rate * p->units.time;
+        at[OZ_H_TURNS] = k > 0 ? turns - before : 0;
+    }
+    OZ_TRY(oz_arrays_write_scalars(&sim->arrays, OZ_FIELD_shear, member, words, count));
+done:
+    free(words);
+    return status;
+}
+
 OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
 {
     OzStatus status = OZ_OK;
@@ -181,6 +210,7 @@ OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps)
     if (oz_rods_switches(sim)->servos > 0) {
         OZ_TRY(oz_servos_hold(sim, member));
     }
+    OZ_TRY(move_cell(sim, member, steps));
     OZ_TRY(OZ_NEW(&motion, count));
     OZ_TRY(OZ_NEW(&swing, swung ? count / OZ_MOTION * OZ_SWING : 1));
     for (int k = 0; k < steps + 1; k++) {

@@ -23,6 +23,7 @@
 #define OZ_FINE           (s->fine)
 #define OZ_TILES          (s->resort)
 #define OZ_PERIODIC       (s->periodic)
+#define OZ_SHEAR          (s->shear)
 #define OZ_GROUP          (s->group)
 
 size_t oz_rods_fields_items(int field, const void *switches, const void *sizes)

@@ -14,7 +14,8 @@ typedef struct OzRods {
 
 OZ_SIM_VIEWS(oz_rods, OzRods, OzSwitches, OzSizes, OzControl, OzParameters)
 
-/* Writes offset and velocity of every wall of a member for so many steps (at most
+/* Writes offset and velocity of every wall of a member, and how a sheared cell stands, for so many
+ * steps (at most
  * sizes.motion_steps) from the present one on, and for their end; all the present one's while the
  * step has no length. */
 OzStatus oz_rods_move_walls(OzSim *sim, int member, int steps);

@@ -120,6 +120,20 @@ void oz_sizes_cells(OzSizesHead *z, double *inverse_cell, double reach, const do
     z->cells = cells[0] * cells[1] * cells[2];
 }
 
+/* A sheared cell's lattice is longer and shorter along x, which rows of cells follow. */
+static void put_first(OzSizesHead *z, int axis)
+{
+    for (int k = 2; k > 0; k--) {
+        if (z->axis[k] == axis) {
+            int cells = z->cells_along[k];
+            z->axis[k] = z->axis[k - 1];
+            z->cells_along[k] = z->cells_along[k - 1];
+            z->axis[k - 1] = axis;
+            z->cells_along[k - 1] = cells;
+        }
+    }
+}
+
 OzStatus oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
                          const OzGrains *grains, const void *switches)
 {
@@ -143,6 +157,9 @@ OzStatus oz_sizes_choose(void *sizes, void *parameters, const OzScene *scene,
     extents(size, grains);
     oz_sizes_cells((OzSizesHead *)(void *)z, &p->inverse_cell, p->reach_max + p->outer_most, size,
                    3, grains->count);
+    if (s->shear) {
+        put_first((OzSizesHead *)(void *)z, 0);
+    }
     return oz_mesh_pack_sizes(z, scene, p);
 }
 

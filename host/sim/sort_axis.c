@@ -105,13 +105,14 @@ static OzStatus add_ball(Balls *balls, const Ball *ball, const double shift[3])
 static OzStatus add_images(Balls *balls, const Ball *ball, double far, const OzBoundary *boundary)
 {
     const double at[3] = {ball->centre.x, ball->centre.y, ball->centre.z};
-    for (int n = 0; n < 27; n++) {
-        const int cells[3] = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+    for (int n = 0; n < 45; n++) { /* of a sheared cell, two to either side may be near */
+        const int cells[3] = {n % 5 - 2, n / 5 % 3 - 1, n / 15 - 1};
         double shift[3];
         bool meets = true;
         for (int k = 0; k < 3; k++) {
             double period = oz_boundary_period(boundary, k);
             shift[k] = cells[k] * period;
+            shift[k] += k == 0 ? cells[1] * boundary->tilt * oz_boundary_period(boundary, 1) : 0;
             meets &= cells[k] == 0 || (period > 0 && fabs(at[k] + shift[k]) < period / 2 + far);
         }
         if (meets) {

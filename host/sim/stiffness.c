@@ -79,7 +79,8 @@ static OzStatus add_pair(Bed *bed, int64_t a, int64_t b)
     const OzGrains *g = bed->now->grains;
     const double *x = &bed->now->position[3 * a], *y = &bed->now->position[3 * b];
     double between[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-    oz_boundary_wrap(&bed->now->scene->boundary, between);
+    OzBoundary cell = oz_snapshot_cell(bed->now);
+    oz_boundary_wrap(&cell, between);
     OzVec3 apart = load(between);
     double reach = 0.5 * (g->diameter[a] + g->diameter[b]);
     OzVec3 half_a = oz_scale(load(&bed->now->axis[3 * a]), 0.5 * g->length[a]);
@@ -131,9 +132,10 @@ static OzStatus find_springs(Bed *bed)
     OzPairs pairs = {0};
     OzContactList at_walls = {0};
     OzContacts contacts;
+    OzBoundary cell = oz_snapshot_cell(bed->now);
     OZ_TRY(oz_contacts_begin(&contacts, bed->now, &at_walls));
-    OZ_TRY(oz_sort_axis_pairs(&pairs, bed->now->grains, bed->now->position, bed->now->axis, 0,
-                              &bed->now->scene->boundary));
+    OZ_TRY(
+        oz_sort_axis_pairs(&pairs, bed->now->grains, bed->now->position, bed->now->axis, 0, &cell));
     for (int64_t k = 0; k < pairs.count; k++) {
         OZ_TRY(add_pair(bed, pairs.pair[k].a, pairs.pair[k].b));
     }

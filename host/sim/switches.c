@@ -137,6 +137,7 @@ OzSwitches oz_switches_derive(const OzScene *scene, const OzGrains *grains, cons
     for (int k = 0; k < 3; k++) {
         s.periodic |= (oz_boundary_period(&scene->boundary, k) > 0) << k;
     }
+    s.shear = scene->boundary.present && scene->boundary.is_sheared;
     s.ledger = scene->observe.ledger;
     s.impulses = scene->observe.walls == OZ_OBSERVE_WALLS_MEAN && s.walls > 0;
     s.pushed = scene->is_pushed;

@@ -47,6 +47,7 @@
     X(SERVOS, servos, "walls that hold a pressure")                                                \
     X(PUSHED, pushed, NULL)                                                                        \
     X(PERIODIC, periodic, "periodic boundaries")                                                   \
+    X(SHEAR, shear, "shear of the cell")                                                           \
     X(ALL_PAIRS, all_pairs, NULL)
 
 typedef struct OzSwitches {

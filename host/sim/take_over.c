@@ -2,6 +2,7 @@
 #include "sim/take_over.h"
 
 #include "base/memory.h"
+#include "scene/boundary.h"
 #include "sim/models.h"
 #include "sim/read_snapshot.h"
 #include "sim/sim_private.h"
@@ -43,6 +44,7 @@ OzStatus oz_take_over_compare(OzTakeOver *how, const OzDevice *device, const OzG
     OZ_TRY(oz_model_layout(&c.next, model, &other, device, NULL));
     OZ_TRY(oz_model_layout(&c.running, model, &old, device, NULL));
     OZ_TRY(check_state(&c, model, next));
+    OZ_TRY(oz_boundary_check_next(running, next));
     bool same = memcmp(c.next.switches, c.running.switches, model->switches_bytes) == 0 &&
                 memcmp(c.next.sizes, c.running.sizes, model->sizes_bytes) == 0;
     *how = same ? OZ_TAKE_OVER_APPLY : OZ_TAKE_OVER_REBUILD;
