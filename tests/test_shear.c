@@ -183,7 +183,7 @@ static void energy_adds_up(void **state)
     double start = oz_observables_energy(&rig.now);
     for (int step = 0; step <= 600; step++) {
         rig_advance(&rig, step);
-        double power = rate * volume * oz_stress_part(&rig.now, 3);
+        double power = -rate * volume * oz_stress_part(&rig.now, 3);
         work += step > 0 ? 1e-5 * (power + before) / 2 : 0;
         before = power;
     }
@@ -212,7 +212,7 @@ static void a_contact_is_the_stress(void **state)
     assert_true(push > 0 && rig.now.contacts.count == 1);
     double expected[OZ_STRESS_PARTS] = {way[0] * way[0], way[1] * way[1], 0, way[0] * way[1]};
     for (int part = 0; part < OZ_STRESS_PARTS; part++) {
-        double stress = -push * expected[part] / distance / volume;
+        double stress = push * expected[part] / distance / volume;
         assert_true(fabs(oz_stress_part(&rig.now, part) - stress) < 1e-9 * push * 1e-3 / volume);
     }
     rig_close(&rig);

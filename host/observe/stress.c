@@ -35,7 +35,7 @@ double oz_stress_part(const OzSnapshot *snapshot, int part)
         const OzContactEntry *e = &snapshot->contacts.entry[k];
         sum += e->b >= 0 ? of_contact(snapshot, e, &cell, force, normal) : 0;
     }
-    return -sum / oz_stress_volume(&cell);
+    return sum / oz_stress_volume(&cell);
 }
 
 bool oz_stress_value(const OzObservation *o, double *value)
