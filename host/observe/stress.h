@@ -10,8 +10,8 @@ enum { OZ_STRESS_PARTS = 6 };
 double oz_stress_volume(const OzBoundary *boundary);
 
 /* Pa, positive where it presses, of a snapshot with contacts of such a cell: (sum of m c c + sum of
- * f l) / volume, c velocities about the flow, l from the centre of a contact's first grain to that of
- * its second, which feels f (Christoffersen, Mehrabadi & Nemat-Nasser 1981). The first letter is
+ * f l) / volume, c velocities about the flow, l from the centre of a contact's first grain to that
+ * of its second, which feels f (Christoffersen, Mehrabadi & Nemat-Nasser 1981). The first letter is
  * the force's direction, the second that of the plane's normal. */
 double oz_stress_part(const OzSnapshot *snapshot, int part);
 
