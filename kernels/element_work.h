@@ -1,8 +1,9 @@
 /* Elements in the kernels' memory. OpenCL C only. Switches: OZ_ORDER (words of a coordinate: 5 is
  * gear4, 3 velocity-verlet), OZ_MOVING (some wall moves), OZ_DISCS and OZ_BEAMS (the scene has
- * any), OZ_STRENGTH (beams break or yield), OZ_YIELD (they yield), OZ_SUBSTEPS, OZ_LEDGER, OZ_IMPULSES, OZ_TRIANGLE_FIELD (contacts
- * of triangles have a potential), OZ_FORCE_POINT, OZ_DAMPING_SHEAR. The law of discs is no switch:
- * it is a number in the parameters, of its own for each wall. */
+ * any), OZ_STRENGTH (beams break or yield), OZ_YIELD (they yield), OZ_SUBSTEPS, OZ_LEDGER,
+ * OZ_IMPULSES, OZ_TRIANGLE_FIELD (contacts of triangles have a potential), OZ_FORCE_POINT,
+ * OZ_DAMPING_SHEAR. The law of discs is no switch: it is a number in the parameters, of its own for
+ * each wall. */
 #pragma once
 
 #include "kernels/element_fields.h"

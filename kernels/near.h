@@ -14,9 +14,9 @@
 #define OZ_NEAR_NONE(w)           ((w)->z.slots) /* second of a pair that never touches */
 #define OZ_NEAR_MIXED             (!OZ_EQUAL)    /* a pair's first may have the higher id */
 #define OZ_NEAR_PERIODIC          OZ_PERIODIC
+/* Along the grid's first axis, which is x. */
 #if OZ_SHEAR
-#define OZ_NEAR_SLANT(w, far) oz_images_slant(w, far) /* along the grid's first axis, which is x   \
-                                                       */
+#define OZ_NEAR_SLANT(w, far) oz_images_slant(w, far)
 #else
 #define OZ_NEAR_SLANT(w, far) 0
 #endif

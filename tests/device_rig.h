@@ -14,7 +14,7 @@
  * the work, as on a GPU. */
 typedef enum Shape { NATIVE, SCALAR, GROUP } Shape;
 
-static OzDevice rig_device;
+static OzDevice rig_device, large_device; /* the second takes every scene for a large one */
 
 static inline int open_rig_device(void **state)
 {
@@ -23,6 +23,8 @@ static inline int open_rig_device(void **state)
         print_error("%s\n", oz_status_text());
         return -1;
     }
+    large_device = rig_device;
+    large_device.small_most = 0;
     return 0;
 }
 

@@ -103,6 +103,34 @@ static inline void rig_start(ElementRig *rig)
     must(oz_element_reference_snapshot(rig->reference, &rig->now));
 }
 
+/* One grain of two triangles alike, mirrored about the y axis, and a beam along x. */
+static inline OzElements *rig_pair(ElementRig *rig)
+{
+    const double corners[2][6] = {{-2e-3, 0, -0.4e-3, -1e-3, -0.4e-3, 1e-3},
+                                  {2e-3, 0, 0.4e-3, -1e-3, 0.4e-3, 1e-3}};
+    OzElements *elements = rig_grains(rig, 1, 2, 1);
+    for (int i = 0; i < 2; i++) {
+        must(oz_elements_set_triangle(elements, i, corners[i], 4));
+    }
+    elements->beam_a[0] = 0;
+    elements->beam_b[0] = 1;
+    oz_elements_rest_beam(elements, 0);
+    return elements;
+}
+
+/* One square whose triangles move wildly, and turn at up to `spin` (rad/s). */
+static inline void rig_wild_square(ElementRig *rig, double spin)
+{
+    const double still[2] = {0, 0};
+    OzElements *elements = rig_grains(rig, 1, 4, 4);
+    rig_square(rig, 0, 2e-3, still, 0.3, still, 4);
+    for (int i = 0; i < 4; i++) {
+        elements->velocity[2 * i] = 0.3 * cos(3 * i);
+        elements->velocity[2 * i + 1] = 0.5 * sin(2 * i + 1);
+        elements->angular_velocity[i] = spin * cos(5 * i + 1);
+    }
+}
+
 static inline void rig_advance(ElementRig *rig, int64_t step)
 {
     must(oz_element_reference_advance(rig->reference, step));

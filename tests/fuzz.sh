@@ -19,7 +19,10 @@ make_corpus() {
     for what in tests/fuzz/*/; do
         cp -r "$what" "$work/"
     done
-    cp scenes/*.yaml tests/bad/*.yaml "$work/scene/"
+    cp scenes/*.yaml "$work/scene/"
+    for bad in tests/bad/*.yaml; do
+        cp "$bad" "$work/scene/bad_${bad##*/}"
+    done
     for paper in pournin2005 poschel1995; do
         cp "scenes/$paper/study.yaml" "$work/study/$paper.yaml"
     done

@@ -106,4 +106,20 @@ static inline double mechanical_energy(const OzSnapshot *s)
     return energy;
 }
 
+/* A scene of rods with these lines is refused by these words. */
+static inline void rig_refuses(const char *lines, const char *words)
+{
+    char text[1024];
+    OzScene scene;
+    snprintf(text, sizeof text,
+             "model: rods\ntime: {step: 1e-5, duration: 1}\n"
+             "contact: {contact_time: 1e-3, restitution: 0.5}\n%s",
+             lines);
+    assert_int_equal(oz_scene_parse(&scene, "rig.yaml", text, NULL, 0), OZ_ERR_INPUT);
+    if (!strstr(oz_status_text(), words)) {
+        fail_msg("%s\nsays nothing of: %s", oz_status_text(), words);
+    }
+    oz_scene_free(&scene);
+}
+
 #endif

@@ -8,19 +8,11 @@ static const double rest[2] = {0, 0};
 /* Two triangles alike, mirrored about the y axis, and a beam along x. No gravity. */
 static void open_pair(ElementRig *rig, const char *shear, double step)
 {
-    const double corners[2][6] = {{-2e-3, 0, -0.4e-3, -1e-3, -0.4e-3, 1e-3},
-                                  {2e-3, 0, 0.4e-3, -1e-3, 0.4e-3, 1e-3}};
     rig_read(rig,
              "gravity: [0, 0]\nintegrator: gear4\nobserve: {ledger: true}\n"
              "time: {step: %.17g, duration: 1}\nbeams: {damping_shear: %s}",
              step, shear);
-    OzElements *elements = rig_grains(rig, 1, 2, 1);
-    for (int i = 0; i < 2; i++) {
-        must(oz_elements_set_triangle(elements, i, corners[i], 4));
-    }
-    elements->beam_a[0] = 0;
-    elements->beam_b[0] = 1;
-    oz_elements_rest_beam(elements, 0);
+    rig_pair(rig);
 }
 
 /* Elongation, and the bending angles of both ends, now. */
@@ -139,13 +131,7 @@ static void check_momentum(const char *shear, double angular_change)
              "gravity: [0, 0]\nintegrator: rk4\nobserve: {ledger: true}\n"
              "time: {step: 1e-6, duration: 1}\nbeams: {damping_shear: %s}",
              shear);
-    rig_grains(&rig, 1, 4, 4);
-    rig_square(&rig, 0, 2e-3, rest, 0.3, rest, 4);
-    for (int i = 0; i < 4; i++) {
-        rig.grains.elements->velocity[2 * i] = 0.3 * cos(3 * i);
-        rig.grains.elements->velocity[2 * i + 1] = 0.5 * sin(2 * i + 1);
-        rig.grains.elements->angular_velocity[i] = 600 * cos(5 * i + 1);
-    }
+    rig_wild_square(&rig, 600);
     rig_start(&rig);
     rig_momentum(&rig.now, before);
     double energy = rig_energy(&rig.now), most = 0;

@@ -12,20 +12,12 @@ static const char *const ways[WAYS] = {"gear4", "velocity-verlet", "rk4",
 /* Two triangles alike, mirrored about the y axis, and an undamped beam along x. No gravity. */
 static void open_pair(ElementRig *rig, int way, const char *strength, double step)
 {
-    const double corners[2][6] = {{-2e-3, 0, -0.4e-3, -1e-3, -0.4e-3, 1e-3},
-                                  {2e-3, 0, 0.4e-3, -1e-3, 0.4e-3, 1e-3}};
     bool parts = way == 3;
     rig_read(rig,
              "gravity: [0, 0]\nintegrator: %s\nobserve: {ledger: true}\n"
              "time: {step: %.17g, duration: 1}\nbeams: {damping: 0, substeps: %d, strength: {%s}}",
              parts ? "velocity-verlet" : ways[way], step, parts ? 3 : 1, strength);
-    OzElements *elements = rig_grains(rig, 1, 2, 1);
-    for (int i = 0; i < 2; i++) {
-        must(oz_elements_set_triangle(elements, i, corners[i], 4));
-    }
-    elements->beam_a[0] = 0;
-    elements->beam_b[0] = 1;
-    oz_elements_rest_beam(elements, 0);
+    rig_pair(rig);
 }
 
 /* The step in which the beam broke. */

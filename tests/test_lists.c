@@ -29,9 +29,6 @@ typedef struct Bed {
     OzSnapshot end;
 } Bed;
 
-/* The device, and the same for which every scene is a large one. */
-static OzDevice large_device;
-
 static void open_bed_by(Bed *b, const char *integrator, const char *broadphase, double skin,
                         const OzDevice *device)
 {
@@ -218,8 +215,6 @@ static int open_all(void **state)
     if (open_rig_device(state) != 0) {
         return -1;
     }
-    large_device = rig_device;
-    large_device.small_most = 0;
     open_bed(&by_all_pairs, "all_pairs", 0, &rig_device);
     run_bed(&by_all_pairs);
     return 0;

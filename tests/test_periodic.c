@@ -5,8 +5,6 @@
 #include "observe/basin.h"
 #include "scene/boundary.h"
 
-static OzDevice large_device;
-
 static const char hit[] =
     "model: rods\nprecision: double\ngravity: [0, 0, 0]\ntime: {step: 1e-6, duration: 1}\n"
     "contact: {contact_time: 1e-4, restitution: 0.6, friction: 0.3}\n%s"
@@ -187,34 +185,19 @@ static void random_velocities_are_normal(void **state)
     rig_close(&rig);
 }
 
-static void refuses(const char *lines, const char *words)
-{
-    char text[1024];
-    OzScene scene;
-    snprintf(text, sizeof text,
-             "model: rods\ntime: {step: 1e-5, duration: 1}\n"
-             "contact: {contact_time: 1e-3, restitution: 0.5}\n%s",
-             lines);
-    assert_int_equal(oz_scene_parse(&scene, "rig.yaml", text, NULL, 0), OZ_ERR_INPUT);
-    if (!strstr(oz_status_text(), words)) {
-        fail_msg("%s\nsays nothing of: %s", oz_status_text(), words);
-    }
-    oz_scene_free(&scene);
-}
-
 static void what_has_no_sense_is_refused(void **state)
 {
     (void)state;
-    refuses("boundary: {size: [1, 1, 1]}\ngrains: []\n", "no periodic direction");
-    refuses("boundary: {x: periodic, size: [0, 1, 1]}\ngrains: []\n", "is 0 m along x");
-    refuses("boundary: {y: periodic, size: [1, 1, 1]}\n"
-            "grains: [{kind: random, count: 3, diameter: 0.1, aspect: 4}]\n",
-            "two images");
-    refuses("boundary: {z: periodic, size: [1, 1, 1]}\ngrains: []\nwalls: [{kind: plane}]\n",
-            "walls.0 is not the same in every cell");
-    refuses("boundary: {x: periodic, size: [1, 1, 1]}\ngrains: []\n"
-            "walls: [{kind: box, size: [1, 1, 1]}]\n",
-            "walls.0 is not the same in every cell");
+    rig_refuses("boundary: {size: [1, 1, 1]}\ngrains: []\n", "no periodic direction");
+    rig_refuses("boundary: {x: periodic, size: [0, 1, 1]}\ngrains: []\n", "is 0 m along x");
+    rig_refuses("boundary: {y: periodic, size: [1, 1, 1]}\n"
+                "grains: [{kind: random, count: 3, diameter: 0.1, aspect: 4}]\n",
+                "two images");
+    rig_refuses("boundary: {z: periodic, size: [1, 1, 1]}\ngrains: []\nwalls: [{kind: plane}]\n",
+                "walls.0 is not the same in every cell");
+    rig_refuses("boundary: {x: periodic, size: [1, 1, 1]}\ngrains: []\n"
+                "walls: [{kind: box, size: [1, 1, 1]}]\n",
+                "walls.0 is not the same in every cell");
 }
 
 /* The sizes of grains of a file are known when they have been read. */
@@ -245,14 +228,6 @@ static void a_cell_has_an_area(void **state)
     rig_close(&rig);
 }
 
-static int open_devices(void **state)
-{
-    int status = open_rig_device(state);
-    large_device = rig_device;
-    large_device.small_most = 0;
-    return status;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -265,5 +240,5 @@ int main(void)
         cmocka_unit_test(what_has_no_sense_is_refused),
         cmocka_unit_test(a_cell_has_an_area),
     };
-    return cmocka_run_group_tests(tests, open_devices, close_rig_device);
+    return cmocka_run_group_tests(tests, open_rig_device, close_rig_device);
 }

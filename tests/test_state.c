@@ -97,7 +97,6 @@ static const Case cases[] = {
 enum { CASES = sizeof cases / sizeof *cases };
 
 static char folder[] = "/tmp/orzo-state-XXXXXX", text[4096];
-static OzDevice large_device;
 
 static void open_case(Run *run, const Case *c, const char *name, bool goes_on)
 {
@@ -406,12 +405,7 @@ static void test_other_runs_are_refused(void **state)
 
 static int open_all(void **state)
 {
-    if (!mkdtemp(folder) || open_rig_device(state) != 0) {
-        return -1;
-    }
-    large_device = rig_device;
-    large_device.small_most = 0;
-    return 0;
+    return mkdtemp(folder) ? open_rig_device(state) : -1;
 }
 
 static int close_all(void **state)

@@ -2,26 +2,15 @@
  * perfectly plastic spring, and energy through it. */
 #include "element_rig.h"
 
-static const double still[2] = {0, 0};
-
 /* Two triangles alike, mirrored about the y axis, and an undamped beam along x. No gravity. */
 static OzElements *open_pair(ElementRig *rig, const char *integrator, const char *limits,
                              double step)
 {
-    const double corners[2][6] = {{-2e-3, 0, -0.4e-3, -1e-3, -0.4e-3, 1e-3},
-                                  {2e-3, 0, 0.4e-3, -1e-3, 0.4e-3, 1e-3}};
     rig_read(rig,
              "gravity: [0, 0]\nintegrator: %s\nobserve: {ledger: true}\n"
              "time: {step: %.17g, duration: 1}\nbeams: {damping: 0, yield: {%s}}",
              integrator, step, limits);
-    OzElements *elements = rig_grains(rig, 1, 2, 1);
-    for (int i = 0; i < 2; i++) {
-        must(oz_elements_set_triangle(elements, i, corners[i], 4));
-    }
-    elements->beam_a[0] = 0;
-    elements->beam_b[0] = 1;
-    oz_elements_rest_beam(elements, 0);
-    return elements;
+    return rig_pair(rig);
 }
 
 /* A mass on a spring, hit to a speed, whose force yields at `limit`: what it then has left is
@@ -111,13 +100,7 @@ static void test_square(void **state)
              "gravity: [0, 0]\nintegrator: velocity-verlet\nobserve: {ledger: true}\n"
              "time: {step: 2e-7, duration: 1}\nbeams: {damping: 1e-3, damping_shear: balanced, "
              "yield: {tension: 4e-3, compression: 4e-3, moment: 2e-7}}");
-    rig_grains(&rig, 1, 4, 4);
-    rig_square(&rig, 0, 2e-3, still, 0.3, still, 4);
-    for (int i = 0; i < 4; i++) {
-        rig.grains.elements->velocity[2 * i] = 0.3 * cos(3 * i);
-        rig.grains.elements->velocity[2 * i + 1] = 0.5 * sin(2 * i + 1);
-        rig.grains.elements->angular_velocity[i] = 300 * cos(5 * i + 1);
-    }
+    rig_wild_square(&rig, 300);
     rig_start(&rig);
     rig_momentum(&rig.now, before);
     double energy = rig_energy(&rig.now);
